@@ -61,7 +61,8 @@ static ff_status put_points(const dynamics_atlas *atlas, const dynamics_excitati
     return FF_OK;
 }
 
-/* Folds or doublings. A fold ends one branch and begins the next, and is given with the first. */
+/* Gives the folds or the doublings. A fold ends one branch and begins the next; it is listed with
+ * the first. */
 static ff_status put_events(const dynamics_atlas *atlas, double frequency, int kind, uint32_t at,
                             uint32_t branch, const ff_host *host)
 {
@@ -124,9 +125,9 @@ static void report_curves(const dynamics_atlas *atlas, const ff_host *host)
                   text);
 }
 
-/* The share of starts that lead to motions which no start has met yet is that of the starts whose
-   motion was met once (Good 1953, Biometrika 40, 237-264, eq. 9); starts that have not settled may
-   lead anywhere. */
+/* Estimates the share of starts that would lead to motions not met yet by the share of starts whose
+ * motion was met once (Good 1953, Biometrika 40, 237-264, eq. 9). Starts that have not settled may
+ * lead anywhere. */
 static void report_unseen(const dynamics_atlas *atlas, const ff_host *host)
 {
     char text[320];

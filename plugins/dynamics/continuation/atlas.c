@@ -6,8 +6,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Curves beyond which an atlas gets no further ones, and the intervals of the range of speeds
-   between which a motion is started from rest. */
+/* Limits: most curves of an atlas, and the number of intervals of the speed range at whose ends a
+ * motion is started from rest. */
 enum { MOST_CURVES = 400, RESTS = 12 };
 
 typedef struct builder {
@@ -18,7 +18,7 @@ typedef struct builder {
     size_t met[MOST_CURVES]; /* starts of the search that led to each curve */
 } builder;
 
-/* Whether the orbit lies on the stretch of a curve between two points. */
+/* Returns whether the orbit lies on the stretch of a curve between two points. */
 static int lies_between(const dynamics_flow *flow, const dynamics_point *a, const dynamics_point *z,
                         const dynamics_orbit *orbit)
 {
@@ -34,7 +34,7 @@ static int lies_between(const dynamics_flow *flow, const dynamics_point *a, cons
            dynamics_orbit_distance(flow, orbit, near.x, &distance) && distance < same;
 }
 
-/* The number of the curve that the orbit lies on, or that of the next one. */
+/* Returns the number of the curve that the orbit lies on; curve_count if it lies on none. */
 static size_t curve_of(const dynamics_flow *flow, const dynamics_atlas *atlas,
                        const dynamics_orbit *orbit)
 {
@@ -67,7 +67,7 @@ static ff_status add_if_new(builder *b, const dynamics_orbit *orbit)
     return known ? FF_OK : add_curve(b, orbit);
 }
 
-/* The same, counting the start that led to the orbit. */
+/* Adds the curve of an orbit unless it is known, and counts the start that led to the orbit. */
 static ff_status add_met(builder *b, const dynamics_orbit *orbit)
 {
     size_t curve = curve_of(b->flow, b->atlas, orbit);
@@ -77,8 +77,8 @@ static ff_status add_met(builder *b, const dynamics_orbit *orbit)
     return status;
 }
 
-/* Adds the curve of the motion that starts from rest. If that does not repeat itself in one mesh
-   cycle, Newton's method may find from there the unstable motion that does. */
+/* Adds the curve of the motion that starts from rest. If that motion does not repeat after one mesh
+ * cycle, Newton's method may find an unstable one from there that does. */
 static ff_status add_from_rest(builder *b, double lambda)
 {
     const dynamics_excitation *excitation = b->flow->excitation;
@@ -97,7 +97,7 @@ static ff_status add_from_rest(builder *b, double lambda)
     return dynamics_orbit_solve(b->flow, 1e-12, &o) ? add_if_new(b, &o) : FF_OK;
 }
 
-/* Whether a curve of twice the period already ends in this doubling. */
+/* Returns whether a curve of twice the period already ends in this doubling. */
 static int is_joined(const builder *b, const dynamics_point *p, int period)
 {
     static const double near = 3e-2, near_speed = 3e-3; /* of the state unit; of lambda */
@@ -118,7 +118,7 @@ static int is_joined(const builder *b, const dynamics_point *p, int period)
     return 0;
 }
 
-/* Adds the curves that branch off from curve `c` where its period doubles. */
+/* Adds the curves that branch off from curve `c` at its period doublings. */
 static ff_status add_doublings(builder *b, size_t c)
 {
     ff_status status = FF_OK;
@@ -134,8 +134,9 @@ static ff_status add_doublings(builder *b, size_t c)
     return status;
 }
 
-/* The fractions of i g and i g^2, where 1/g = 1.3247... is the root of x^3 = x + 1, fill a square
-   evenly (Roberts 2018, The unreasonable effectiveness of quasirandom sequences). */
+/* Returns point i of a sequence that fills a square evenly: the fractional parts of i g and i g^2,
+ * where 1/g = 1.3247... is the root of x^3 = x + 1 (Roberts 2018, The unreasonable effectiveness of
+ * quasirandom sequences). */
 static double evenly_spread(size_t i, double ratio)
 {
     double x = 0.5 + ratio * (double)i;
@@ -167,8 +168,8 @@ static ff_status search_at(builder *b, double lambda, size_t *serial)
     return status;
 }
 
-/* Starts from rest at both ends of the range, which gives the first names, then at speeds between.
- */
+/* Starts from rest at both ends of the range, which yields the first names, then at speeds in
+ * between. */
 static ff_status start_from_rest(builder *b)
 {
     double low = b->request->low, high = b->request->high;

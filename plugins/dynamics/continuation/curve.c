@@ -10,14 +10,14 @@
 
 enum { MOST_POINTS = 20000, FIRST_MARK = 64, MAX_SECANTS = 40 };
 
-/* Of the return, in the state's unit: of a motion, and of a point on the way. */
+/* Tolerances of the residual, in the state's unit: of a motion, and of a point on the way. */
 static const double tolerance = 1e-10, of_point = 1e-8;
-static const double noise = 1e-6;                           /* of the test functions */
-static const double first_step = 0.1, shortest_step = 1e-7; /* relative to the longest */
+static const double noise = 1e-6;                           /* noise of the test functions */
+static const double first_step = 0.1, shortest_step = 1e-7; /* relative to the longest step */
 static const double predicted = 2e-3; /* error of the prediction that the step aims at */
-static const double most_turn = 0.35; /* rad, of the tangent in a step */
+static const double most_turn = 0.35; /* largest turn of the tangent in a step, rad */
 static const double cap =
-    100; /* of the amplitude, relative to half backlash and static deflection */
+    100; /* bound on the amplitude, relative to half backlash plus static deflection */
 
 static dynamics_point point_of(const dynamics_continuation_range *t, const dynamics_orbit *o)
 {
@@ -49,12 +49,13 @@ static int append(dynamics_curve *c, const dynamics_point *p)
     return 1;
 }
 
-/* A step of the continuation, from `from` by `ds` to `to`. */
+/* A step of the continuation from `from` by `ds` to `to`. */
 typedef struct stride {
-    dynamics_point back, from, to; /* the one before `from`; there is none if `before` is 0 */
-    double ds, before;             /* the step, and the one that led to `from` */
-    dynamics_orbit orbit;          /* at `to` */
-    double half[2];                /* of the orbit at `from` */
+    dynamics_point back, from,
+        to;               /* `back` is the point before `from`; there is none if `before` is 0 */
+    double ds, before;    /* this step, and the one that led to `from` */
+    dynamics_orbit orbit; /* at `to` */
+    double half[2];       /* half[] of the orbit at `from` */
 } stride;
 
 /* Solves for the point at arclength s of a stride whose end is known. */
@@ -76,14 +77,14 @@ static double arclength(const dynamics_continuation_range *t, const stride *w)
            (w->to.lambda - w->from.lambda) * w->from.tangent[2];
 }
 
-/* The root of a test function in the stride, over the arclength; 0: it was not found. */
+/* Finds the root of a test function along the stride, over the arclength. 0: it was not found. */
 static int find_root_of_test(const dynamics_continuation_range *t, const stride *w,
                              double (*test)(const dynamics_orbit *), double at_start, double at_end,
                              dynamics_orbit *o)
 {
     numerics_bracket b = {0, at_start, arclength(t, w), at_end, 0};
     double whole = b.high;
-    stride near = *w; /* its end follows the root */
+    stride near = *w; /* a copy whose end follows the root */
     int found = 0;
     for (int i = 0; i < MAX_SECANTS && b.high - b.low > 1e-10 * whole; i++) {
         double s = numerics_bracket_secant(&b);
@@ -102,7 +103,7 @@ static int find_root_of_test(const dynamics_continuation_range *t, const stride 
     return found;
 }
 
-/* The eigenvector of the multiplier -1. */
+/* Gives the eigenvector of the multiplier -1. */
 static void doubling_direction(const dynamics_orbit *o, double v[2])
 {
     double a[2] = {o->m[0] + 1, o->m[1]}, b[2] = {o->m[2], o->m[3] + 1};
@@ -112,17 +113,17 @@ static void doubling_direction(const dynamics_orbit *o, double v[2])
     v[1] = size > 0 ? row[0] / size : 0;
 }
 
-/* Whether a motion of even period has become one of half the period: its curve turns there, to run
-   back as the same motion a cycle later, but this is no fold. */
+/* Returns whether a motion of even period has become one of half the period. Its curve turns back
+ * there and runs along the same motions, shifted by a cycle; that is no fold. */
 static int is_halved(const dynamics_excitation *excitation, const dynamics_orbit *o)
 {
     return o->period % 2 == 0 && hypot(o->half[0] - o->x[0], o->half[1] - o->x[1]) <
                                      1e-3 * dynamics_state_unit(excitation, o->x);
 }
 
-/* Adds the folds and doublings of the stride, in their order along the curve. Where a motion in
-   full contact doubles its period the pair is linear, so that a whole line of motions lies at one
-   speed and the test function is noise. */
+/* Appends the folds and doublings of the stride in their order along the curve. The test function
+ * can be noise: a motion in full contact belongs to a linear pair, so that its doubling is a whole
+ * line of motions at one speed. */
 static int add_events(const dynamics_continuation_range *t, const stride *w, dynamics_curve *c)
 {
     dynamics_point found[2];
@@ -131,7 +132,7 @@ static int add_events(const dynamics_continuation_range *t, const stride *w, dyn
     for (int kind = DYNAMICS_POINT_FOLD; kind <= DYNAMICS_POINT_DOUBLING; kind++) {
         int fold = kind == DYNAMICS_POINT_FOLD;
         double a = fold ? w->from.fold : w->from.doubling, z = fold ? w->to.fold : w->to.doubling;
-        /* at a fold the curve turns; where it does not, two curves cross */
+        /* the curve turns at a fold; if it does not turn, two curves cross */
         int turns = w->from.tangent[2] * w->to.tangent[2] < 0;
         dynamics_orbit o = w->orbit;
         if (a * z >= 0 || fmin(fabs(a), fabs(z)) < noise || (fold && !turns) ||
@@ -157,8 +158,8 @@ static int add_events(const dynamics_continuation_range *t, const stride *w, dyn
     return 1;
 }
 
-/* Whether the cubic through lambda and its slopes at both ends of a step nearly turns in between,
-   although the slopes have one sign: two folds may lie there. */
+/* Returns whether two folds may hide in a step: the slopes of lambda at both ends have one sign,
+ * but the cubic through them nearly turns in between. */
 static int hides_folds(double slope, double end_slope, double mean)
 {
     double middle = 1.5 * mean - 0.25 * (slope + end_slope);
@@ -166,7 +167,7 @@ static int hides_folds(double slope, double end_slope, double mean)
     return slope * end_slope > 0 && (slope < 0 ? -middle : middle) < 0.5 * least;
 }
 
-/* The same for the doubling test, by the parabola through its last three values. */
+/* Returns the same for doublings, by the parabola through the last three values of the test. */
 static int hides_doublings(const stride *w)
 {
     double back = w->before, a = w->back.doubling, b = w->from.doubling;
@@ -179,8 +180,8 @@ static int hides_doublings(const stride *w)
     return lowest > 0 && lowest < w->ds && value / b < 0.3 * fmin(1, c / b);
 }
 
-/* Tries a step of w->ds: predicts, corrects, and checks how far the tangent turned. `error` is that
-   of the prediction, `turn` the angle; 0: the step is too long. */
+/* Tries a step of w->ds: predicts, corrects, and checks how far the tangent turned. `error` is the
+ * error of the prediction and `turn` the angle. 0: the step is too long. */
 static int try_stride(const dynamics_continuation_range *t, stride *w, double *error, double *turn)
 {
     dynamics_frame f = dynamics_frame_at(t->flow->excitation, &w->from);
@@ -203,7 +204,7 @@ static int try_stride(const dynamics_continuation_range *t, stride *w, double *e
     dynamics_scaled_tangent(&f, &w->to, tangent);
     double size = sqrt(dynamics_dot(tangent, tangent));
     double cosine = dynamics_dot(tangent, border) / (size * sqrt(dynamics_dot(border, border)));
-    int kink = ds < 1e-3 * t->step; /* grazing bends the curve sharply */
+    int kink = ds < 1e-3 * t->step; /* grazing contact bends the curve sharply */
     *turn = acos(fmin(fmax(cosine, -1), 1));
     if (*error > 0.5 * ds || (*turn > most_turn && !kink))
         return 0;
@@ -211,7 +212,7 @@ static int try_stride(const dynamics_continuation_range *t, stride *w, double *e
            !(hides_folds(border[2], tangent[2] / size, z[2] / ds) || hides_doublings(w));
 }
 
-/* Ends the stride at the bound of the range that it passes; 0: no motion was found there. */
+/* Ends the stride at the bound of the range that it passes. 0: no motion was found there. */
 static int cut_at_bound(const dynamics_continuation_range *t, double bound, stride *w)
 {
     if (!dynamics_curve_solve(t->flow, &w->from, &w->to, bound, &w->orbit))
@@ -223,7 +224,7 @@ static int cut_at_bound(const dynamics_continuation_range *t, double bound, stri
     return 1;
 }
 
-/* A motion to which the curve may come back: its states at phase 0. */
+/* A motion that the curve may return to: its states at phase 0. */
 typedef struct mark {
     double lambda;
     double x[DYNAMICS_PERIOD_MAX][2];
@@ -242,7 +243,7 @@ static int set_mark(const dynamics_flow *flow, const dynamics_orbit *o, mark *m)
     return 1;
 }
 
-/* Whether the stride passes the mark. */
+/* Returns whether the stride passes the mark. */
 static int passes_mark(const dynamics_continuation_range *t, const stride *w, const mark *m)
 {
     double u = dynamics_state_unit(t->flow->excitation, w->from.x), whole = arclength(t, w);
@@ -258,7 +259,7 @@ static int passes_mark(const dynamics_continuation_range *t, const stride *w, co
     return 0;
 }
 
-/* Finds the doubling near `o`, which has the shorter period, by the secant method in lambda. */
+/* Finds the doubling near `o`, the motion of the shorter period, by the secant method in lambda. */
 static int find_doubling(const dynamics_continuation_range *t, dynamics_orbit *o)
 {
     static const double first = 1e-4, far = 0.05;
@@ -278,8 +279,8 @@ static int find_doubling(const dynamics_continuation_range *t, dynamics_orbit *o
     return 0;
 }
 
-/* Whether a motion of even period passes one of half the period in the stride, or falls on its
-   curve. Then that motion becomes the end of the stride. */
+/* Returns whether a motion of even period meets one of half the period in the stride, or falls on
+ * its curve. That motion then becomes the end of the stride. */
 static int meets_half_period(const dynamics_continuation_range *t, stride *w)
 {
     const dynamics_orbit *o = &w->orbit;
@@ -310,15 +311,15 @@ static int beyond_cap(const dynamics_excitation *excitation, const dynamics_poin
     return !(fabs(p->x[0]) < limit && fabs(p->x[1]) < limit);
 }
 
-/* The prediction errs by the fourth power of the step, and where the curve bends evenly the tangent
-   turns as the step is long. */
+/* Returns the next step. The error of the prediction grows with the fourth power of the step, and
+ * on an evenly bent curve the turn of the tangent is proportional to the step. */
 static double next_step(const dynamics_continuation_range *t, double ds, double error, double turn)
 {
     double growth = fmin(error > 0 ? sqrt(sqrt(predicted / error)) : 2, 0.8 * most_turn / turn);
     return fmin(ds * fmin(fmax(growth, 0.5), 1.6), t->step);
 }
 
-/* Whether the curve ends with this stride, which may be cut short then. */
+/* Returns whether the curve ends with this stride, and why. The stride may be cut short. */
 static int ends_here(const dynamics_continuation_range *t, stride *w, const mark *start,
                      const mark *recent, const dynamics_curve *c, dynamics_curve_end *why)
 {
@@ -342,7 +343,7 @@ static int ends_here(const dynamics_continuation_range *t, stride *w, const mark
     return 1;
 }
 
-/* Follows the curve one way from the start point and appends the points behind it. */
+/* Follows the curve one way from the start point and appends the points. */
 static ff_status follow_one_way(const dynamics_continuation_range *t, const dynamics_orbit *orbit,
                                 const dynamics_point *start, dynamics_curve *c,
                                 dynamics_curve_end *why)
@@ -379,7 +380,7 @@ static ff_status follow_one_way(const dynamics_continuation_range *t, const dyna
             return FF_NOMEM;
         if (last)
             return FF_OK;
-        int power_of_two = (c->count & (c->count - 1)) == 0; /* Brent's way to find a loop */
+        int power_of_two = (c->count & (c->count - 1)) == 0; /* Brent's way to detect a loop */
         if (c->count >= FIRST_MARK && power_of_two && !set_mark(t->flow, &w.orbit, &recent))
             return FF_OK;
         w.before = fabs(w.to.fold) < noise ? 0 : w.ds; /* a cubic drifts along a line of motions */
@@ -447,14 +448,15 @@ int dynamics_curve_double(const dynamics_continuation_range *t, const dynamics_p
            orbit->lambda > t->low && orbit->lambda < t->high;
 }
 
-/* Hermite's cubic at a share x of the way from a to z, of the slopes `from` and `to` there. */
+/* Evaluates Hermite's cubic at the share x of the way from a to z; `from` and `to` are the slopes
+ * there. */
 static double cubic_at(double a, double z, double from, double to, double x)
 {
     return a + x * (from + x * (3 * (z - a) - 2 * from - to + x * (2 * (a - z) + from + to)));
 }
 
-/* The cubic follows the curve round a fold at either end, where a straight line would lead to the
-   motion on the other side of it. */
+/* Uses a cubic, which follows the curve round a fold at either end. A straight line would lead to
+ * the motion on the other side of the fold. */
 void dynamics_curve_between(const dynamics_flow *flow, const dynamics_point *a,
                             const dynamics_point *z, double lambda, double state[2])
 {

@@ -5,11 +5,12 @@
 
 #include <math.h>
 
-/* The relative change of the rms that a motion makes over so small a width by a jump alone. */
+/* Least relative change of the rms that counts as a jump. Over so small a width of speed nothing
+ * else changes it as much. */
 static const double jumps = 0.2;
 
-/* Keeps the fold when it is the nearest so far, with the rms of the motions at both ends of the
-   curve, which meet in it. */
+/* Keeps the fold if it is the nearest so far, with the rms of the motions at both ends of the
+ * curve, which meet in the fold. */
 static void keep_nearest_fold(const dynamics_curve *curve, size_t at, dynamics_jump *jump)
 {
     const dynamics_point *fold = &curve->points[at];
@@ -67,7 +68,8 @@ ff_status dynamics_find_jump(const dynamics_jump_search *n, const dynamics_attra
     return status;
 }
 
-/* The rms of the stable motion that ends in a fold, one point away from it; negative: none does. */
+/* Returns the rms of the stable motion that ends in a fold, taken one point away from it. Negative:
+ * none ends there. */
 static double rms_of_stable_end(const dynamics_curve *c, size_t fold)
 {
     for (int side = -1; side <= 1; side += 2) {
@@ -78,8 +80,8 @@ static double rms_of_stable_end(const dynamics_curve *c, size_t fold)
     return -1;
 }
 
-/* Resonances bend towards low speeds, so that the motions which end near this one come from above.
- */
+/* Searches above the speed: resonances bend towards low speeds, so that motions which end near this
+ * one come from above. */
 ff_status dynamics_find_fold_of_another(const dynamics_jump_search *n, const dynamics_attractor *a,
                                         dynamics_jump *jump)
 {

@@ -12,11 +12,11 @@
 
 enum { STARTS = 16, LEAST_CYCLES = 32 };
 
-/* The duration of a mesh cycle, in radians of the natural frequency, in which every vibration dies
-   out before the next one begins: further starts would find nothing new. */
+/* Longest mesh cycle, in radians of the natural frequency, for which further starts are tried. In a
+ * longer one every vibration dies out before the next cycle begins, so that they would find nothing
+ * new. */
 static const double slow_cycle = 2000;
-/* The time, in radians of the natural frequency, that a start is given where the damping would take
-   longer. */
+/* Most time that a start gets to settle, in radians of the natural frequency. */
 static const double longest_settling = 3000;
 
 static int is_known(const dynamics_flow *flow, const dynamics_orbit *orbit,
@@ -80,7 +80,7 @@ int dynamics_known_motions_add_atlas(const dynamics_flow *flow, const dynamics_a
     return 1;
 }
 
-/* Looks at both branches, and at where evenly spread starts lead. */
+/* Collects the motions of both branches and those that evenly spread starts lead to. */
 static ff_status search(const dynamics_flow *flow, double lambda, const ff_host *host,
                         dynamics_known_motions *f)
 {

@@ -10,24 +10,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Mesh cycles of a motion that does not repeat itself, each of which is a guess. */
+/* Most guesses made from a motion that is not periodic, one per mesh cycle. */
 enum { GUESSES = 32 };
 
-/* A search for one series. */
+/* The search for one series. */
 typedef struct search {
     const dynamics_branch_request *request;
-    dynamics_excitation excitation; /* of the request, with the damping of the moment */
+    dynamics_excitation excitation; /* the request's, with the damping used at present */
     dynamics_harmonics *b;
-    size_t n;      /* numbers in the series */
+    size_t n;      /* number of coefficients of the series */
     double *x;     /* the series */
-    double *guess; /* of it */
+    double *guess; /* the guess of it */
     double *off;   /* its distance from the guess */
     double *time;  /* samples of a motion over a mesh cycle */
 } search;
 
 static int search_init(search *s, const dynamics_branch_request *request)
 {
-    /* with little damping a motion shows every sample that gains or loses contact */
+    /* with little damping every sample that gains or loses contact shows in the motion */
     size_t samples = request->excitation->zeta < 1e-3 ? 16384 : 2048;
     while (samples < 16 * request->harmonics)
         samples *= 2;
@@ -50,7 +50,7 @@ static void search_free(search *s)
     free(s->time);
 }
 
-/* The state of a series at phase 0, before the node that may lie there. */
+/* Gives the state of a series at phase 0, before a node there. */
 static void state_of_series(const search *s, const dynamics_branch_start *from, double state[2])
 {
     const dynamics_excitation *excitation = s->request->excitation;
@@ -62,8 +62,8 @@ static void state_of_series(const search *s, const dynamics_branch_start *from, 
         from->w * (slope - dynamics_piece_slope(last->e, last->degree, last->length) / (2 * M_PI));
 }
 
-/* Solves for the motion without loss of contact, the only one at small excitation; 0: there is
-   none. */
+/* Solves for the motion without contact loss, the only one at small excitation. 0: there is none.
+ */
 static int solve_in_contact(search *s)
 {
     const dynamics_excitation *excitation = s->request->excitation;
@@ -84,7 +84,7 @@ static int solve_in_contact(search *s)
     return 1;
 }
 
-/* Without load and error nothing moves, and the driving flanks rest where they touch; 0: something
+/* Gives the motion at rest on the driving flanks, if there is neither load nor error. 0: something
  * moves. */
 static int solve_at_rest(search *s)
 {
@@ -98,8 +98,8 @@ static int solve_at_rest(search *s)
     return 1;
 }
 
-/* The lower branch is the motion without separation where there is a stable one; FF_NOCONV: there
-   is none. */
+/* Solves for the stable motion without contact loss, which is the lower branch where it exists.
+ * FF_NOCONV: there is none. */
 static ff_status solve_in_full_contact(search *s)
 {
     double delta, rate, T = 2 * M_PI / s->request->w;
@@ -109,7 +109,7 @@ static ff_status solve_in_full_contact(search *s)
     return status != FF_OK ? status : solve_in_contact(s) ? FF_OK : FF_NOCONV;
 }
 
-/* Adds the samples of a record, over its mesh cycles, to the mean of them. */
+/* Adds the samples of a record, times `part`, to s->time, mesh cycle over mesh cycle. */
 static void read_samples(const search *s, const dynamics_record *record, double part)
 {
     double n = (double)record->per_cycle;
@@ -122,8 +122,8 @@ static void read_samples(const search *s, const dynamics_record *record, double 
     }
 }
 
-/* Integrates over some mesh cycles from a state, which becomes that at their end, and makes the
-   mean of them the guess. FF_NOCONV: too many steps. */
+/* Integrates over some mesh cycles from `state`, sets `state` to the end, and takes the mean of the
+ * cycles as the guess. FF_NOCONV: too many steps. */
 static ff_status guess_in_time(search *s, int cycles, double state[2])
 {
     const dynamics_excitation *excitation = &s->excitation;
@@ -154,7 +154,7 @@ static ff_status guess_in_time(search *s, int cycles, double state[2])
     return good ? FF_OK : FF_NOCONV;
 }
 
-/* Whether Newton's method finds a motion near the guess. */
+/* Returns whether Newton's method finds a motion near the guess. */
 static int solve_near_guess(search *s)
 {
     size_t harmonics = s->request->harmonics;
@@ -168,13 +168,13 @@ static int solve_near_guess(search *s)
     return dynamics_fourier_rms(s->off, harmonics) < 0.5 * size;
 }
 
-/* Mesh over natural frequency below which no way is followed: it has no end of narrow resonances.
- */
+/* Mesh frequency over natural frequency below which no branch is followed, since resonances are
+ * narrow and endless there. */
 static const double slowest = 0.1;
 
-/* Follows the curve of the motions of one mesh cycle from where the sweep starts to the speed,
-   round its folds. Without damping to speak of nothing settles, but the curve is there. FF_NOCONV:
-   it does not get there, or the speed is a slow one. */
+/* Follows the curve of motions of period 1 from the start of the sweep to the speed, round its
+ * folds. It serves motions with hardly any damping, which do not settle. FF_NOCONV: the curve does
+ * not reach the speed, or the speed is below `slowest`. */
 static ff_status trace_to_speed(const search *s, const dynamics_flow *flow, dynamics_attractor *a)
 {
     const dynamics_branch_request *request = s->request;
@@ -203,11 +203,11 @@ static ff_status trace_to_speed(const search *s, const dynamics_flow *flow, dyna
     return status;
 }
 
-/* The damping ratio below which motions do not settle in good time. */
+/* Damping ratio below which motions take too long to settle. */
 static const double hardly_damped = 2e-3;
 
-/* Follows the series from the damping of the moment to that of the request by Newton's method, or
-   as near to it as it gets: who solves anew with other samples gets there. */
+/* Continues the series from the present damping to that of the request by Newton's method, as near
+ * as it gets. A new solution with other samples can get the rest of the way. */
 static void lower_damping(search *s)
 {
     static const double shortest = 1e-3;
@@ -225,8 +225,8 @@ static void lower_damping(search *s)
     }
 }
 
-/* Settles at a slow speed itself: from rest, or on the upper branch from the motion at the slowest
-   speed that a way leads to. */
+/* Lets the motion settle at a slow speed: from rest, or on the upper branch from the motion at
+ * `slowest`. */
 static ff_status settle_at_speed(const search *s, const dynamics_flow *flow,
                                  const dynamics_search *how, dynamics_attractor *a)
 {
@@ -245,7 +245,7 @@ static ff_status settle_at_speed(const search *s, const dynamics_flow *flow,
     return dynamics_attract(flow, how, a) ? FF_OK : FF_NOCONV;
 }
 
-/* Leads to the motion at the speed. */
+/* Finds the motion at the speed by settling or by a change of speed. */
 static ff_status lead_to_speed(const search *s, const dynamics_flow *flow, dynamics_attractor *a)
 {
     const dynamics_branch_request *request = s->request;
@@ -263,8 +263,8 @@ static ff_status lead_to_speed(const search *s, const dynamics_flow *flow, dynam
     return dynamics_attract_from(flow, &from, &how, request->host, a);
 }
 
-/* Makes a series of a motion. Of one of several mesh cycles the guess is their mean: it lies near
-   the motion of one cycle from which it branched off. */
+/* Turns a motion into a series. For a motion of several mesh cycles the guess is the mean of the
+ * cycles, which lies near the motion of period 1 from which it branched off. */
 static ff_status solve_from_motion(search *s, dynamics_attractor *a)
 {
     int cycles = a->period > 0 ? a->period : 1, guesses = a->period == 1 ? 1 : GUESSES;
@@ -286,8 +286,9 @@ static ff_status solve_on_curve(search *s, const dynamics_flow *flow)
     return status == FF_OK ? solve_from_motion(s, &a) : status;
 }
 
-/* What hardly is damped is traced to the speed, or else damped more at first. What the speed leads
-   to need not be a motion of one mesh cycle, nor near one: then the curve has it. */
+/* Solves for the series on the requested branch. A motion with hardly any damping is traced to the
+ * speed; if that fails it is found with more damping first. If settling leads to a motion that is
+ * not near one of period 1, the curve is followed instead. */
 static ff_status solve_on_branch(search *s, const dynamics_flow *flow,
                                  dynamics_branch_result *result)
 {
@@ -321,7 +322,7 @@ ff_status dynamics_branch_series(const dynamics_branch_request *request,
         goto out;
     status = FF_OK;
     if (!solve_at_rest(&s)) {
-        int linear = request->excitation->half_gap == 0; /* has one motion */
+        int linear = request->excitation->half_gap == 0; /* a linear system has one motion */
         if (linear && !solve_in_contact(&s)) {
             status = FF_NOCONV;
             result->why = "a linear system without damping has none at resonance";

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * The series of the motion of one mesh cycle on a branch. The flow of the return map leads to the
- * branch and follows it to the speed (attractor.h); its motion is the guess from which Newton's
- * method finds the series, stable or not.
- */
+/* The series of the motion of period 1 on a branch. The flow of the return map finds the branch and
+ * follows it to the speed (attractor.h). Its motion is the guess from which Newton's method finds
+ * the series, stable or not. */
 #ifndef DYNAMICS_BRANCH_H
 #define DYNAMICS_BRANCH_H
 
@@ -12,7 +10,7 @@
 
 #include <flankfilm/plugin.h>
 
-/* A motion to start from: its series at mesh over natural frequency w. */
+/* A motion to start from: its series at w, mesh frequency over natural frequency. */
 typedef struct dynamics_branch_start {
     const double *x; /* NULL: none */
     size_t harmonics;
@@ -23,15 +21,15 @@ typedef struct dynamics_branch_request {
     const dynamics_excitation *excitation;
     const ff_host *host;
     dynamics_branch branch;
-    double w;         /* mesh over natural frequency */
-    size_t harmonics; /* of the series */
+    double w;         /* mesh frequency over natural frequency */
+    size_t harmonics; /* number of harmonics of the series */
     dynamics_branch_start from;
 } dynamics_branch_request;
 
 typedef struct dynamics_branch_result {
-    double *x; /* series at w with the request's harmonics; the caller frees it */
-    int ends;  /* of branches on the way */
-    int lost;  /* 1: no other motion was found, and x is that in which the flanks never part */
+    double *x;       /* series at w with the request's number of harmonics; the caller frees it */
+    int ends;        /* number of branch ends on the way */
+    int lost;        /* 1: the branch was lost, and x is the motion without contact loss */
     const char *why; /* the reason for FF_NOCONV */
 } dynamics_branch_result;
 

@@ -7,15 +7,15 @@
 #include <math.h>
 #include <string.h>
 
-/* The order of the Taylor series of a disturbance and its longest step, rad: 0.25^15/15! is below
-   round-off. */
+/* Order of the Taylor series of a disturbance, and its longest step in rad: 0.25^15/15! is below
+ * round-off. */
 enum { TAYLOR = 14 };
 static const double longest_step = 0.25;
 
-/* The share of a mesh cycle to which the instant of a change of contact is known. */
+/* Share of a mesh cycle to which the instant of a change of contact is located. */
 static const double instant = 1e-14;
 
-/* A way through the mesh cycle along a series. */
+/* State of a walk through the mesh cycle along a series. */
 typedef struct walk {
     dynamics_motion *motion;
     const dynamics_piece *piece;
@@ -82,7 +82,7 @@ static void pass_stretch(const walk *w, double from, double to, contact c)
     motion->clocks.damped += h;
 }
 
-/* Passes a stretch in parts with one state of contact each, which are found by halving. */
+/* Passes a stretch in parts of one state of contact each, located by bisection. */
 static void pass_contact_changes(const walk *w, double from, double to, contact first, contact last)
 {
     if (same_contact(first, last) || to - from < instant) {
@@ -135,7 +135,7 @@ static void add_sample(const walk *w, double phase)
     };
 }
 
-/* Records one mesh cycle at equal steps; a jump of the excitation gets two samples. */
+/* Records one mesh cycle at equal steps. A jump of the excitation gets two samples. */
 static void record_cycle(walk *w)
 {
     const dynamics_excitation *excitation = w->motion->excitation;
@@ -158,7 +158,7 @@ static void record_cycle(walk *w)
     record->cycles++;
 }
 
-/* The number of parts of the cycle at whose ends the contact is looked at. */
+/* Returns the number of equal parts of the cycle at whose ends the contact is checked. */
 static size_t parts_for(const dynamics_motion *motion, size_t harmonics)
 {
     double stiffest = sqrt(fmax(motion->excitation->k_max, 1));

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The series that a case of a chain hands to its neighbour, as warm-start.h does with a state. */
+/* The series that one case of a chain passes to its neighbour, as warm-start.h does with a state.
+ */
 #ifndef DYNAMICS_HARMONICS_WARM_START_H
 #define DYNAMICS_HARMONICS_WARM_START_H
 
@@ -11,17 +12,17 @@ enum { DYNAMICS_MOST_HARMONICS = 512 };
 typedef struct dynamics_harmonics_warm_start {
     char mark[16];
     double mesh_frequency;                     /* Hz */
-    uint64_t harmonics;                        /* 0: there is none */
+    uint64_t harmonics;                        /* 0: there is no series */
     double x[2 * DYNAMICS_MOST_HARMONICS + 1]; /* m */
 } dynamics_harmonics_warm_start;
 
-/* Keeps a series in units of `length`, m. */
+/* Stores a series whose unit is `length`, in m. */
 void dynamics_harmonics_warm_start_set(dynamics_harmonics_warm_start *warm_start,
                                        double mesh_frequency, const double *x, size_t harmonics,
                                        double length);
 
-/* What the model's `carry` does: takes over the series of the neighbouring case, or none when the
-   bytes are not of that kind; hands on its own. */
+/* Implements the model's `carry`: takes over the series of the neighbouring case, or none if the
+ * bytes are of another kind, and passes on its own. */
 ff_status dynamics_harmonics_warm_start_carry(dynamics_harmonics_warm_start *taken,
                                               const ff_state_bytes *from,
                                               const dynamics_harmonics_warm_start *left,

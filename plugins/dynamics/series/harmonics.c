@@ -13,9 +13,9 @@
 #include <fftw3.h>
 #include <lapacke.h>
 
-/* The motion passes an edge of the gap, or a knee of the spring, between the neighbouring samples i
-   and j. The trapezium rule misses `area` at the kink of the force; the two samples share it.
-   after_i and after_j are its derivatives by s at i and at j. */
+/* A passage of the motion through an edge of the gap, or a knee of the spring, between neighbouring
+ * samples i and j. The trapezium rule misses `area` at the kink of the force, and the two samples
+ * share it. after_i and after_j are the derivatives of `area` by s at i and at j. */
 typedef struct edge {
     size_t i, j;
     double area, after_i, after_j;
@@ -24,35 +24,35 @@ typedef struct edge {
 struct dynamics_harmonics {
     const dynamics_excitation *excitation;
     size_t harmonics, samples;
-    size_t lines; /* of the spring (spring.h), at least 1 */
+    size_t lines; /* number of lines of the spring (spring.h), at least 1 */
     double *slope,
-        *offset;      /* of each, at the samples, from their exact harmonics below samples/2 */
-    double *e;        /* the same */
-    double *e_series; /* the series of e */
-    double *time;     /* room for samples */
-    edge *edges;      /* that the motion passes */
+        *offset;      /* of each line, at the samples, from the exact harmonics below samples/2 */
+    double *e;        /* e at the samples, likewise */
+    double *e_series; /* series of e */
+    double *time;     /* work space for samples */
+    edge *edges;      /* edges that the motion passes */
     fftw_complex *spectrum;
     fftw_plan to_time, to_spectrum;
-    double *cosine, *sine;          /* of the stiffness along the motion, up to 2 H */
-    double *residual, *trial, *try; /* of Newton's method */
+    double *cosine, *sine;          /* harmonics of the stiffness along the motion, up to 2 H */
+    double *residual, *trial, *try; /* work space of Newton's method */
     double *jacobian;
     lapack_int *pivot;
 };
 
 enum { MAX_NEWTON = 40, MAX_HALVINGS = 6 };
 
-/* The largest Newton step, relative to the motion, at which the method has converged; and at which
-   it may stop because round-off keeps the residual from falling. */
+/* Newton's method has converged if the step, relative to the motion, is below `converged`. It may
+ * stop below `nearly_converged` if round-off keeps the residual from falling. */
 static const double converged = 1e-12, nearly_converged = 1e-9;
 
-/* A residual that is 0 to round-off: without load the flanks may rest anywhere in the gap, where no
-   Newton step is defined. */
+/* A residual below this is 0 to round-off. Without load the flanks may rest anywhere in the gap,
+ * where no Newton step is defined. */
 static const double round_off = 1e-15;
 
-/* Adds the part of one node to the exact harmonics n > 0 of polynomials, from the jumps of the
-   value and of its derivatives by theta there, by parts again and again: c_n = sum exp(-i n theta)
-   sum_j jump_j/(2 pi (i n)^(j + 1)). The phase turns by a recurrence that is set anew every 64
-   harmonics, before round-off adds up. */
+/* Adds one node's part of the exact harmonics n > 0 of a piecewise polynomial. `jump` holds the
+ * jumps of the value and of its derivatives by theta at the node. Repeated integration by parts
+ * gives c_n = sum exp(-i n theta) sum_j jump_j/(2 pi (i n)^(j + 1)). The phase follows a
+ * recurrence, which is reset every 64 harmonics before round-off adds up. */
 static void add_jump(double complex *c, size_t count, double theta,
                      const double jump[DYNAMICS_DEGREE + 1], int degree)
 {
@@ -71,7 +71,7 @@ static void add_jump(double complex *c, size_t count, double theta,
     }
 }
 
-/* A curve of the pieces: e, or one of a line. */
+/* A curve made of the pieces: e, or one line of the spring. */
 enum { CURVE_E, CURVE_SLOPE, CURVE_OFFSET };
 typedef struct curve {
     int which;
@@ -87,7 +87,7 @@ static const double *coefficients_of(const dynamics_piece *p, curve c)
     return dynamics_spring_slope(p, (int)c.line);
 }
 
-/* The integral of a curve over a piece. */
+/* Returns the integral of a curve over a piece. */
 static double integral_of(const dynamics_piece *p, curve which)
 {
     const double *c = coefficients_of(p, which);
@@ -97,7 +97,7 @@ static double integral_of(const dynamics_piece *p, curve which)
     return sum;
 }
 
-/* The harmonics 0 to count - 1 of a curve. */
+/* Gives the harmonics 0 to count - 1 of a curve. */
 static void exact_harmonics(const dynamics_excitation *excitation, curve which, double complex *c,
                             size_t count)
 {
@@ -175,7 +175,8 @@ dynamics_harmonics *dynamics_harmonics_new(const dynamics_excitation *excitation
     if (b->slope && b->e && b->offset && b->time && b->edges && b->spectrum && b->e_series &&
         b->cosine && b->sine && b->residual && b->trial && b->try && b->jacobian && b->pivot &&
         numerics_has_room(numerics_fftw_room(samples))) {
-        fftw_make_planner_thread_safe(); /* it is one per process, and other plugins plan, too */
+        fftw_make_planner_thread_safe(); /* the planner is shared by the process, and other plugins
+                                            plan, too */
         b->to_time = fftw_plan_dft_c2r_1d((int)samples, b->spectrum, b->time, FFTW_ESTIMATE);
         b->to_spectrum = fftw_plan_dft_r2c_1d((int)samples, b->time, b->spectrum, FFTW_ESTIMATE);
     }
@@ -215,13 +216,13 @@ size_t dynamics_harmonics_samples(const dynamics_harmonics *b)
     return b->samples;
 }
 
-/* Numbers in a series. */
+/* Returns the number of coefficients of the series. */
 static size_t series_size(const dynamics_harmonics *b)
 {
     return 2 * b->harmonics + 1;
 }
 
-/* Puts the samples of s - e into b->time. */
+/* Writes the samples of s - e to b->time. */
 static void sample_motion(dynamics_harmonics *b, const double *x)
 {
     size_t half = b->samples / 2;
@@ -233,7 +234,7 @@ static void sample_motion(dynamics_harmonics *b, const double *x)
         b->time[i] -= b->e[i];
 }
 
-/* Puts the harmonics of the samples in b->time into b->spectrum: the mean, then (a_n - i b_n)/2. */
+/* Writes the harmonics of the samples in b->time to b->spectrum: the mean, then (a_n - i b_n)/2. */
 static void transform_samples(dynamics_harmonics *b)
 {
     fftw_execute(b->to_spectrum);
@@ -242,14 +243,14 @@ static void transform_samples(dynamics_harmonics *b)
         b->spectrum[n] *= scale;
 }
 
-/* The displacement of the mesh spring: the dead zone of Li & Kahraman 2011, eq. 2b. */
+/* Returns the deflection of the mesh spring, with the dead zone of Li & Kahraman 2011, eq. 2b. */
 static double bend(const dynamics_excitation *excitation, double delta)
 {
     double h = excitation->half_gap;
     return delta > h ? delta - h : delta < -h ? delta + h : 0;
 }
 
-/* By how much the force of a line exceeds that of the line before at sample i (spring.h). */
+/* Returns the excess of a line's force over that of the line before, at sample i (spring.h). */
 static double excess(const dynamics_harmonics *b, size_t line, size_t i, double bend)
 {
     size_t at = line * b->samples + i, below = at - b->samples;
@@ -257,7 +258,7 @@ static double excess(const dynamics_harmonics *b, size_t line, size_t i, double 
            (b->offset[at] - (line > 1 ? b->offset[below] : 0));
 }
 
-/* The slope of the force at sample i. */
+/* Returns the slope of the force at sample i. */
 static double slope_at(const dynamics_harmonics *b, size_t i, double bend)
 {
     size_t line = 0;
@@ -276,10 +277,10 @@ static double spring_force(const dynamics_harmonics *b, size_t i, double bend)
     return b->slope[i] * bend + (more > 0 ? (bend < 0 ? -more : more) : 0);
 }
 
-/* Between the samples i and j a force of that slope begins or ends, which is proportional to a
-   distance that changes from `from` to `to`. By the Euler-Maclaurin rule a kink at the share t of a
-   step makes the trapezium err by (t (1 - t)/2 - 1/12) times the change of the slope of the force.
- */
+/* Gives the edge of a force with that slope which begins or ends between the samples i and j. The
+ * force is proportional to a distance that changes from `from` to `to`. By the Euler-Maclaurin rule
+ * a kink at the share t of a step makes the trapezium rule err by (t (1 - t)/2 - 1/12) times the
+ * change of slope. */
 static edge edge_between(size_t i, size_t j, double from, double to, double slope)
 {
     double a = fabs(from), z = fabs(to), sum = a + z;
@@ -289,8 +290,8 @@ static edge edge_between(size_t i, size_t j, double from, double to, double slop
     return e;
 }
 
-/* Whether the motion, sampled in b->time, passes the edge of the gap on that side behind sample i.
- */
+/* Finds the passage of the motion, sampled in b->time, through the edge of the gap on that side
+ * between sample i and the next. 0: it does not pass. */
 static int find_edge(const dynamics_harmonics *b, size_t i, int side, edge *e)
 {
     size_t j = (i + 1) % b->samples;
@@ -302,8 +303,8 @@ static int find_edge(const dynamics_harmonics *b, size_t i, int side, edge *e)
     return 1;
 }
 
-/* The same for the knee of the spring from which a line takes over, where the excess of its force
-   is the distance. */
+/* Finds the passage through the knee from which a line takes over; the distance is the excess of
+ * the line's force. 0: it does not pass. */
 static int find_knee(const dynamics_harmonics *b, size_t line, size_t i, int side, edge *e)
 {
     size_t j = (i + 1) % b->samples;
@@ -318,7 +319,7 @@ static int find_knee(const dynamics_harmonics *b, size_t line, size_t i, int sid
     return 1;
 }
 
-/* Collects the edges and knees on both sides and returns their number. */
+/* Collects the edges and knees on both sides. Returns their number. */
 static size_t find_edges(dynamics_harmonics *b)
 {
     size_t count = 0;
@@ -331,7 +332,7 @@ static size_t find_edges(dynamics_harmonics *b)
     return count;
 }
 
-/* Puts the harmonics of the mesh spring's force into b->spectrum. */
+/* Writes the harmonics of the mesh spring's force to b->spectrum. */
 static void force_spectrum(dynamics_harmonics *b, const double *x)
 {
     sample_motion(b, x);
@@ -345,8 +346,8 @@ static void force_spectrum(dynamics_harmonics *b, const double *x)
     transform_samples(b);
 }
 
-/* Takes the harmonics of the derivative of the force by s, the slope in contact and 0 in the gap;
-   returns the number of edges. */
+/* Computes the harmonics of the derivative of the force by s, which is the slope in contact and 0
+ * in the gap. Returns the number of edges. */
 static size_t stiffness_spectrum(dynamics_harmonics *b, const double *x)
 {
     double h = b->excitation->half_gap;
@@ -363,7 +364,7 @@ static size_t stiffness_spectrum(dynamics_harmonics *b, const double *x)
     return count;
 }
 
-/* Adds a times 1, cos n theta, sin n theta ... at a sample. */
+/* Adds a times (1, cos n theta, sin n theta, ...) at a sample. */
 static void add_basis(const dynamics_harmonics *b, size_t sample, double a, double *sum)
 {
     double theta = 2 * M_PI * (double)sample / (double)b->samples;
@@ -374,7 +375,7 @@ static void add_basis(const dynamics_harmonics *b, size_t sample, double a, doub
     }
 }
 
-/* Each edge adds an outer product to the Jacobian. */
+/* Adds the edges to the Jacobian, an outer product each. */
 static void add_edges(dynamics_harmonics *b, size_t count, double *jacobian, size_t stride)
 {
     size_t size = series_size(b);
@@ -394,8 +395,8 @@ static void add_edges(dynamics_harmonics *b, size_t count, double *jacobian, siz
     }
 }
 
-/* The columns of a_n and b_n for the spring force: the product of the stiffness, with harmonics P
-   and Q, and cos n theta or sin n theta. */
+/* Fills the columns of a_n and b_n for the spring force: the product of the stiffness, with
+ * harmonics P and Q, and cos n theta or sin n theta. */
 static void fill_columns(const dynamics_harmonics *b, size_t n, double *a, double *z)
 {
     const double *P = b->cosine, *Q = b->sine;
@@ -469,7 +470,7 @@ static double norm_of(const double *x, size_t count)
     return sqrt(sum);
 }
 
-/* Replaces the residual by Newton's correction, which is to be subtracted. */
+/* Replaces the residual by Newton's correction, which is subtracted from the series. */
 static int solve_correction(dynamics_harmonics *b)
 {
     lapack_int size = (lapack_int)series_size(b);
@@ -478,7 +479,7 @@ static int solve_correction(dynamics_harmonics *b)
            isfinite(norm_of(b->residual, series_size(b)));
 }
 
-/* Goes along the correction, and half as far again and again until the residual falls. */
+/* Goes along the correction, and halves it until the residual falls. */
 static int search_line(dynamics_harmonics *b, double w, double *x, double before)
 {
     size_t size = series_size(b);

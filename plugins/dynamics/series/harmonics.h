@@ -25,8 +25,9 @@ void dynamics_harmonics_free(dynamics_harmonics *b);
 
 size_t dynamics_harmonics_samples(const dynamics_harmonics *b);
 
-/* The harmonics of the residual of the series x at w, mesh over natural frequency; its derivative
-   by ln w; and by x, in columns of length `stride`. The last two may be NULL. */
+/* Gives the harmonics of the residual of the series x at w (mesh frequency over natural frequency),
+ * their derivative by ln w, and their derivative by x in columns of length `stride`. The last two
+ * may be NULL. */
 void dynamics_harmonics_residual(dynamics_harmonics *b, double w, const double *x, double *residual,
                                  double *after_w, double *jacobian, size_t stride);
 
@@ -36,30 +37,30 @@ typedef enum dynamics_newton {
     DYNAMICS_NEWTON_SINGULAR
 } dynamics_newton;
 
-/* Solves for x from a guess, at a fixed frequency; `step` is the largest change in the last step.
- */
+/* Solves for x from a guess at a fixed frequency; `step` is the largest change in the last Newton
+ * step. */
 dynamics_newton dynamics_harmonics_solve(dynamics_harmonics *b, double w, double *x, double *step);
 
-/* The largest change of a coefficient in the first Newton step from x: how far the solution lies.
- */
+/* Gives the largest change of a coefficient in the first Newton step from x, an estimate of the
+ * distance to the solution. */
 dynamics_newton dynamics_harmonics_correction(dynamics_harmonics *b, double w, const double *x,
                                               double *largest);
 
-/* The sum of the amplitudes that the force, at the mean stiffness, gives to the neglected harmonics
-   H + 1 to 2 H: |F_n|/sqrt((n^2 w^2 - 1)^2 + (2 zeta n w)^2). */
+/* Returns the sum of the amplitudes of the neglected harmonics H + 1 to 2 H, as the force excites
+ * them at the mean stiffness: |F_n|/sqrt((n^2 w^2 - 1)^2 + (2 zeta n w)^2). */
 double dynamics_harmonics_neglected(dynamics_harmonics *b, double w, const double *x);
 
-/* The series of s from its samples over one mesh cycle, at theta = 2 pi i/samples. */
+/* Computes the series of s from its samples over one mesh cycle, at theta = 2 pi i/samples. */
 void dynamics_harmonics_analyse(dynamics_harmonics *b, const double *s, double *x);
 
-/* The value of s and its derivative by theta. */
+/* Evaluates s and its derivative by theta. */
 void dynamics_fourier_at(const double *x, size_t harmonics, double theta, double *s, double *slope);
 
-/* Copies a series to another length; what is missing is 0. */
+/* Copies a series to another length and fills up with 0. */
 void dynamics_fourier_resize(const double *from, size_t from_harmonics, double *to,
                              size_t to_harmonics);
 
-/* The root mean square of the alternating part. */
+/* Returns the root mean square of the alternating part. */
 double dynamics_fourier_rms(const double *x, size_t harmonics);
 
 #endif
