@@ -24,16 +24,14 @@ int dynamics_field_damps(const dynamics_field *field, int flank)
            !r->touches[DYNAMICS_DRIVING] && !r->touches[DYNAMICS_BACK];
 }
 
-/* The mesh spring of a flank at a place. The displacement of the centres changes the stiffness,
-   which it may not take below 0, and with it the force that the mounted pair would have, in one
-   proportion.
- */
+/* The mesh spring of a flank at a place. The displacement of the centres changes its stiffness
+ * (kept at 0 or above), and the force that the mounted pair would have changes in proportion. */
 typedef struct mesh_spring {
-    double slope, offset; /* of the force over the overlap */
+    double slope, offset; /* slope and offset of the force over the overlap */
     double by_stiffness;  /* derivative of the force by the stiffness */
 } mesh_spring;
 
-/* The stiffness of the mounted pair at a phase, and that where the centres are. */
+/* Gives the stiffness of the mounted pair at a phase, and that at the present centres. */
 typedef struct mesh_stiffness {
     double since, mounted, now;
 } mesh_stiffness;
@@ -243,7 +241,7 @@ void dynamics_field_find_bands(dynamics_field *field, double t, const double *ov
         field->regime.band[i] = overlap[i] > 0 ? dynamics_spring_band(piece, since, overlap[i]) : 0;
 }
 
-/* The gates at the knees of the spring of a flank, where the band begins and where it ends. */
+/* Sets the gates at the two knees that bound the band of a flank's spring. */
 static void knee_gates(const dynamics_field *field, double t, int flank, double overlap,
                        double gate[DYNAMICS_GATES])
 {

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The equations of a gear pair on its bearings within one smooth regime, what ends the regime, and
- * the derivatives of both by the state. */
+/* The equations of a gear pair on its bearings within one smooth regime, the events that end the
+ * regime, and the derivatives of both by the state. */
 #ifndef DYNAMICS_COUPLED_FIELD_H
 #define DYNAMICS_COUPLED_FIELD_H
 
 #include "coupled-pair.h"
 
-/* The state: the coordinates, their rates, and the energy that mesh and bearings have taken. */
+/* The state: coordinates, their rates, and the energy taken by mesh and bearings. */
 enum {
     DYNAMICS_RATES = DYNAMICS_COORDINATES,
     DYNAMICS_TAKEN = 2 * DYNAMICS_COORDINATES,
@@ -23,8 +23,8 @@ typedef struct dynamics_stretch {
 
 enum { DYNAMICS_DRIVING, DYNAMICS_BACK, DYNAMICS_FLANKS };
 
-/* A regime in which the equations are smooth. A flank that touches without being pressed lags
-   behind the teeth, since a clipped damper would have to pull it. */
+/* A regime in which the equations are smooth. A flank may touch without being pressed: it lags
+ * behind the teeth where a clipped damper would have to pull it. */
 typedef struct dynamics_regime {
     int touches[DYNAMICS_FLANKS], pressed[DYNAMICS_FLANKS];
     int band[DYNAMICS_FLANKS]; /* of the spring (spring.h) */
@@ -40,60 +40,60 @@ typedef struct dynamics_field {
 
 /* The mesh force and the generalised forces that it exerts on the coordinates. */
 typedef struct dynamics_push {
-    double force; /* on q, driving positive */
+    double force; /* on q, positive on the driving flank */
     double on[DYNAMICS_COORDINATES];
     dynamics_overlap overlap[DYNAMICS_FLANKS];
     double normal[DYNAMICS_FLANKS]; /* of a flank that touches, as if it were pressed; else 0 */
 } dynamics_push;
 
-/* t is the time since the start of the stretch. */
+/* Evaluates the mesh force; t is the time since the start of the stretch. */
 double dynamics_field_phase(const dynamics_field *field, double t);
 dynamics_push dynamics_field_push(const dynamics_field *field, double t, const double *y,
                                   const dynamics_place *place);
 
-/* The rate of change of the state, as GSL calls it; `field` is a dynamics_field. */
+/* Computes the rate of change of the state, in GSL's form; `field` is a dynamics_field. */
 int dynamics_field_slope(double t, const double y[], double dydt[], void *field);
 
-/* The derivatives of the accelerations by coordinates and rates. */
+/* Computes the derivatives of the accelerations by coordinates and rates. */
 void dynamics_field_jacobian(const dynamics_field *field, double t, const double *y,
                              double jacobian[DYNAMICS_COORDINATES][DYNAMICS_TAKEN]);
 
-/* The motion within a step, by the polynomials of degree 5 that have the coordinates, rates and
-   accelerations of both ends. */
+/* The motion within a step: polynomials of degree 5 that match coordinates, rates and accelerations
+ * at both ends. */
 typedef struct dynamics_course {
     double h, power[6][DYNAMICS_COORDINATES]; /* in the share of the step */
 } dynamics_course;
 
-/* Of a step of duration h from time t, between two states. */
+/* Sets it for a step of duration h from time t, between two states. */
 void dynamics_course_find(const dynamics_field *field, double t, double h, const double *from,
                           const double *to, dynamics_course *course);
-/* The state at a share of the step, but for the energy taken, which is 0. */
+/* Gives the state at a share of the step; the energy taken is set to 0. */
 void dynamics_course_state(const dynamics_course *course, double share, double *state);
 
-/* Whether the mesh damper acts on a flank (DYNAMICS_FLANKS: on the pair in its gap). */
+/* Returns whether the mesh damper acts on a flank (DYNAMICS_FLANKS: on the pair in its gap). */
 int dynamics_field_damps(const dynamics_field *field, int flank);
 
-/* Gates: the regime lasts while none of these conditions is below 0. */
+/* Gates: the regime lasts while none of these values is below 0. */
 enum {
     DYNAMICS_TOUCH,
     DYNAMICS_PRESS = DYNAMICS_FLANKS,
-    DYNAMICS_FALLS = 2 * DYNAMICS_FLANKS, /* below the knee where its band of the spring begins */
-    DYNAMICS_RISES = 3 * DYNAMICS_FLANKS, /* above the one where it ends */
+    DYNAMICS_FALLS = 2 * DYNAMICS_FLANKS, /* the overlap falls below the start of its band */
+    DYNAMICS_RISES = 3 * DYNAMICS_FLANKS, /* the overlap rises above the end of its band */
     DYNAMICS_COMES = 4 * DYNAMICS_FLANKS,
     DYNAMICS_GOES,
     DYNAMICS_GATES
 };
 
-/* Sets the bands of the springs that belong to the overlaps of the flanks. */
+/* Sets the bands of the springs from the overlaps of the flanks. */
 void dynamics_field_find_bands(dynamics_field *field, double t, const double *overlap);
 
 void dynamics_field_gates(const dynamics_field *field, double t, const double *y,
                           double gate[DYNAMICS_GATES]);
-/* The regime behind the gate that closed. */
+/* Gives the regime after the gate that closed. */
 void dynamics_field_pass_gate(dynamics_field *field, int gate);
-/* The derivatives of a gate at which flanks touch or a tooth pair comes or goes, by coordinates and
-   rates, and by the time where they stay. Gates of the flanks may differ by the sign from the value
-   above. */
+/* Gives the derivatives of a gate at which flanks touch or a tooth pair enters or leaves: by
+ * coordinates and rates, and by time at fixed coordinates. The sign of a flank's gate may differ
+ * from that of its value above. */
 double dynamics_field_gate_slope(const dynamics_field *field, int gate, double t, const double *y,
                                  double slope[DYNAMICS_TAKEN]);
 

@@ -7,16 +7,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The distance to a periodic motion up to which a motion that has not settled is called periodic.
- */
+/* A motion that has not settled is called periodic if its distance to a periodic motion is below
+ * this. */
 static const double nearly_periodic = 1e-3;
 
-/* The least relative change of the frequency per cycle of a glide: a cycle costs more here than
-   with rigid bearings. */
+/* Least relative change of the frequency per cycle of a glide. A cycle costs more here than with
+ * rigid bearings. */
 static const double slowest = 1e-3;
 
-/* The farthest that a motion is looked for from where a glide ends, and, so that it is the one that
-   is settled to, from a state on the way to it, in static deflections. */
+/* Largest distances, in static deflections, at which a motion is looked for: from the end of a
+ * glide, and from a state on the way to it. The second keeps the motion found the one that would be
+ * settled to. */
 static const double unsettled = 1, settling = 0.1;
 
 enum { HISTORY = 2 * DYNAMICS_LONGEST_PERIOD + 1 };
@@ -32,7 +33,7 @@ static void remember(history *h, const double *y)
     h->count++;
 }
 
-/* The change of the state over one period, as it was `ago` cycles ago. */
+/* Returns the change of the state over one period, `ago` cycles ago. */
 static double change_over(const history *h, int period, int ago)
 {
     const double *now = h->state[(h->count - 1 - (size_t)ago) % HISTORY];
@@ -44,7 +45,8 @@ static double change_over(const history *h, int period, int ago)
 }
 
 /* Finds the shortest period whose motion is near. If the change shrinks by mu per period, all
-   further changes sum up to 1/(1 - mu) of the last one; mu is at least that of the mesh damping. */
+ * further changes sum to 1/(1 - mu) of the last one. mu is at least the factor of the mesh damping.
+ */
 static void find_period(const history *h, const dynamics_excitation *excitation,
                         const dynamics_settling *how, dynamics_settled *settled)
 {
@@ -63,8 +65,8 @@ static void find_period(const history *h, const dynamics_excitation *excitation,
         if (settled->within)
             break;
     }
-    /* a disturbance that oscillates while it dies out may hide the shorter period: its change over
-       a period is at most twice its size */
+    /* a disturbance that oscillates while it decays may hide the shorter period: its change over a
+     * period is at most twice its size */
     for (int p = 1; settled->within && p < settled->period; p++)
         if (change_over(h, p, 0) < 4 * how->tolerance)
             settled->period = p;
@@ -82,8 +84,8 @@ static void start_at_rest(dynamics_coupled_run *run, const dynamics_coupled *pai
     dynamics_coupled_start(run, T, rest);
 }
 
-/* Changes the speed slowly from that of the orbit while the motion goes on, whether it repeats
-   itself or not. Where it grows without bound it starts from rest again. */
+/* Changes the speed slowly from that of the orbit while the motion continues, periodic or not. A
+ * motion that grows without bound restarts from rest. */
 static ff_status glide(dynamics_coupled_run *run, const dynamics_coupled *pair, const ff_host *host,
                        double to, dynamics_coupled_orbit *orbit)
 {
@@ -104,8 +106,8 @@ static ff_status glide(dynamics_coupled_run *run, const dynamics_coupled *pair, 
     return FF_OK;
 }
 
-/* The cycles after which a motion is nearest to itself; more of them are worth it where they bring
-   it much nearer. */
+/* Returns the number of cycles after which a motion is nearest to itself. A larger number is taken
+ * only if it brings the motion much nearer. */
 static int likely_period(const history *h)
 {
     int likely = 1;
@@ -115,7 +117,7 @@ static int likely_period(const history *h)
     return likely;
 }
 
-/* Sets the period of an orbit to the shortest after which it returns. */
+/* Sets the period of an orbit to the smallest number of cycles after which it returns. */
 static ff_status shorten(dynamics_coupled_run *run, double tolerance, dynamics_coupled_orbit *orbit)
 {
     const double *y = dynamics_coupled_state(run);
@@ -143,8 +145,8 @@ static void take_orbit(const dynamics_coupled_orbit *orbit, double tolerance,
     motion->settled.cycles = orbit->cycles;
 }
 
-/* Looks by a run of its own for the periodic motion that one is on the way to. FF_NOCONV: there is
-   none that near. */
+/* Looks in a run of its own for the periodic motion that this motion approaches. FF_NOCONV: none is
+ * near enough. */
 static ff_status leap_ahead(dynamics_coupled_run *leaper, const dynamics_settling *how, int period,
                             const double *state, dynamics_coupled_motion *motion)
 {
@@ -159,8 +161,8 @@ static ff_status leap_ahead(dynamics_coupled_run *leaper, const dynamics_settlin
     return status;
 }
 
-/* Goes on from the motion's state until it repeats itself; now and then `leaper` (NULL: none) looks
-   ahead, and FF_NOCONV: where the motion repeats itself it does not find it. */
+/* Continues from the motion's state until it repeats itself. `leaper` (NULL: none) looks ahead now
+ * and then. FF_NOCONV: the motion repeats itself, but the look ahead does not find it. */
 static ff_status settle_here(dynamics_coupled_run *run, dynamics_coupled_run *leaper,
                              const dynamics_coupled *pair, const dynamics_settling *how,
                              dynamics_coupled_motion *motion)
@@ -200,7 +202,7 @@ static ff_status settle_here(dynamics_coupled_run *run, dynamics_coupled_run *le
     return FF_OK;
 }
 
-/* The motion without separation. FF_NOCONV: there is none that is stable. */
+/* Finds the motion without contact loss. FF_NOCONV: there is no stable one. */
 static ff_status shoot_in_contact(dynamics_coupled_run *run, const dynamics_coupled *pair,
                                   const dynamics_settling *how, dynamics_coupled_orbit *orbit)
 {
@@ -209,7 +211,8 @@ static ff_status shoot_in_contact(dynamics_coupled_run *run, const dynamics_coup
     return status == FF_OK && !orbit->touches ? FF_NOCONV : status;
 }
 
-/* Looks for a periodic motion near the state of the orbit, which is kept where there is none. */
+/* Looks for a periodic motion near the state of the orbit. The state stays as it is if there is
+ * none. */
 static ff_status shoot_nearby(dynamics_coupled_run *run, const dynamics_settling *how,
                               dynamics_coupled_orbit *orbit)
 {
@@ -222,14 +225,14 @@ static ff_status shoot_nearby(dynamics_coupled_run *run, const dynamics_settling
     return status;
 }
 
-/* Follows a motion to the frequency that is sought. Where it ends, or does not repeat itself
-   (FF_NOCONV before), the speed glides until a periodic motion is near. FF_NOCONV: none is near the
-   state at that frequency. */
+/* Follows a motion to the frequency of the request. If it ends, or was not periodic (FF_NOCONV
+ * before), the speed glides until a periodic motion is near. FF_NOCONV: none is near the state at
+ * that frequency. */
 static ff_status follow_and_glide(dynamics_coupled_run *run, const dynamics_coupled *pair,
                                   const dynamics_settling *how, ff_status before,
                                   dynamics_coupled_orbit *orbit)
 {
-    static const double stretch = 0.03; /* of a glide, in the logarithm of the frequency */
+    static const double stretch = 0.03; /* length of one glide, in the logarithm of the frequency */
     double to = 2 * M_PI / how->T;
     ff_status status = before;
     while (status == FF_OK || (status == FF_NOCONV && orbit->frequency != to)) {
@@ -247,7 +250,7 @@ static ff_status follow_and_glide(dynamics_coupled_run *run, const dynamics_coup
     return status;
 }
 
-/* The motion at which a slow change of the speed begins. FF_NOCONV: it does not repeat itself. */
+/* Finds the motion at which a slow change of the speed begins. FF_NOCONV: it is not periodic. */
 static ff_status begin(dynamics_coupled_run *run, const dynamics_coupled *pair,
                        const dynamics_settling *how, dynamics_coupled_orbit *orbit)
 {
@@ -265,7 +268,7 @@ static ff_status begin(dynamics_coupled_run *run, const dynamics_coupled *pair,
     return shoot_nearby(run, how, orbit);
 }
 
-/* Leads to where a slow change of the speed ends, or near it. */
+/* Goes to the end of a slow change of the speed, or near it. */
 static ff_status approach(dynamics_coupled_run *run, const dynamics_coupled *pair,
                           const dynamics_settling *how, const dynamics_coupled_motion *motion,
                           dynamics_coupled_orbit *orbit)
@@ -279,7 +282,7 @@ static ff_status approach(dynamics_coupled_run *run, const dynamics_coupled *pai
     return follow_and_glide(run, pair, how, status, orbit);
 }
 
-/* What a slow change of the speed leads to, by the run and a coarse one. */
+/* Finds the motion that a slow change of the speed leads to, by the run and by a coarse one. */
 static ff_status reach(dynamics_coupled_run *run, dynamics_coupled_run *coarse,
                        const dynamics_coupled *pair, const dynamics_settling *how,
                        dynamics_coupled_motion *motion)
@@ -305,7 +308,8 @@ static ff_status reach(dynamics_coupled_run *run, dynamics_coupled_run *coarse,
 ff_status dynamics_coupled_settle(dynamics_coupled_run *run, const dynamics_coupled *pair,
                                   const dynamics_settling *how, dynamics_coupled_motion *motion)
 {
-    static const double on_the_way = 1e-5; /* error of a step: the end is found more closely */
+    static const double on_the_way =
+        1e-5; /* error of a step; the end itself is solved more accurately */
     dynamics_coupled_orbit orbit = {.frequency = 2 * M_PI / how->T, .period = 1};
     ff_status status = FF_NOCONV;
     motion->settled.limit =
@@ -323,7 +327,7 @@ ff_status dynamics_coupled_settle(dynamics_coupled_run *run, const dynamics_coup
     return status;
 }
 
-/* The monodromy over the cycles that are shown; what overflows is cut off. */
+/* Computes the monodromy over the shown cycles; overflow is clipped. */
 static ff_status find_monodromy(dynamics_coupled_motion *motion, const dynamics_coupled *pair,
                                 double tolerance)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The steady motion of a gear pair on its bearings: how it is reached, its stability, and the
+/* The steady motion of a gear pair on its bearings: how it is reached, its stability, and its
  * outputs. */
 #ifndef DYNAMICS_COUPLED_MOTION_H
 #define DYNAMICS_COUPLED_MOTION_H
@@ -9,7 +9,7 @@
 #include "../oscillator/settle.h"
 #include "coupled-run.h"
 
-/* The outputs behind DYNAMICS_OUT_PHASE to DYNAMICS_OUT_MULTIPLIERS. */
+/* The outputs after those from DYNAMICS_OUT_PHASE to DYNAMICS_OUT_MULTIPLIERS. */
 enum {
     DYNAMICS_CO_CENTRE_DISTANCE = DYNAMICS_OUT_MULTIPLIERS + 1,
     DYNAMICS_CO_PRESSURE_ANGLE,
@@ -26,24 +26,24 @@ extern const ff_port dynamics_coupled_outputs[DYNAMICS_COUPLED_OUTPUT_COUNT];
 
 typedef struct dynamics_coupled_motion {
     dynamics_settled settled; /* delta and rate are not set: `state` has all coordinates */
-    size_t cycles;            /* that the outputs show */
+    size_t cycles;            /* shown by the outputs */
     double T;                 /* duration of a mesh cycle */
-    double from;              /* mesh over natural frequency of a motion to start from; 0: none */
-    double state[DYNAMICS_TAKEN]; /* at phase 0; before it is found, of the one to start from */
+    double from; /* frequency of a motion to start from, over the natural frequency; 0: none */
+    double state[DYNAMICS_TAKEN]; /* at phase 0: first of the motion to start from, then of the
+                                     motion found */
     double monodromy[DYNAMICS_TAKEN * DYNAMICS_TAKEN];
     double energy_error, parted, back;
     dynamics_coupled_record record;
 } dynamics_coupled_motion;
 
-/* Finds the steady motion of a branch: by shooting, or where how->cycles are given by a slow sweep
-   of the speed and settling; `motion` has T set, and where it
-   starts from. FF_OK, FF_STOPPED, FF_NOMEM, or
-   FF_NOCONV: too many steps. */
+/* Finds the steady motion of a branch by shooting; if how->cycles are given, by a slow sweep of the
+ * speed and settling. `motion` has T and its start set. Returns FF_OK, FF_STOPPED, FF_NOMEM, or
+ * FF_NOCONV for too many steps. */
 ff_status dynamics_coupled_settle(dynamics_coupled_run *run, const dynamics_coupled *pair,
                                   const dynamics_settling *how, dynamics_coupled_motion *motion);
 
-/* Records the cycles that are shown and those of one more engagement, and the monodromy. The caller
-   frees motion->record.samples. */
+/* Records the shown cycles and those of one more engagement, and the monodromy. The caller frees
+ * motion->record.samples. */
 ff_status dynamics_coupled_motion_record(dynamics_coupled_motion *motion,
                                          const dynamics_coupled *pair,
                                          const dynamics_inputs *inputs, double tolerance,

@@ -147,7 +147,7 @@ static dynamics_motion_view view_of(const dynamics_coupled_motion *motion)
                                   .self = motion};
 }
 
-/* The force at a phase, straight between samples, and the gap by Hermite's cubic. */
+/* Gives the force at a phase, linear between samples, and the gap by Hermite's cubic. */
 static void force_and_gap_at(const void *self, double phase, int left, double *force, double *gap)
 {
     const dynamics_coupled_motion *motion = self;

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* atan, of arguments that are some 1e-4 where bearings are not soft. */
+/* Taylor series of atan, for arguments of about 1e-4, as they are unless bearings are soft. */
 static double small_atan(double t)
 {
     double squared = t * t;
@@ -14,10 +14,10 @@ static double small_atan(double t)
     return t - t * squared * (1.0 / 3 - squared * (1.0 / 5 - squared / 7));
 }
 
-/* With the centre distance C, L = sqrt(C^2 - (rb1 + rb2)^2) and tan alpha = L/(rb1 + rb2); the
-   changes are written free of cancellation. The half gap opens by (rb1 + rb2) times the change of
-   inv alpha = tan alpha - alpha. A flank of gear 1 is met later by the change of alpha, and contact
-   begins later by that of L. */
+/* Locates the contact from the position of the centres. With the centre distance C, L = sqrt(C^2 -
+ * (rb1 + rb2)^2) and tan alpha = L/(rb1 + rb2). Changes are written free of cancellation. The half
+ * gap grows by (rb1 + rb2) times the change of inv alpha = tan alpha - alpha. Contact of a flank of
+ * gear 1 moves by the change of alpha, and its begin by that of L. */
 void dynamics_coupled_locate(const dynamics_coupled *pair, const double *x, dynamics_place *place)
 {
     *place = (dynamics_place){.centre = pair->centre,
@@ -53,8 +53,8 @@ dynamics_pairs dynamics_coupled_mounted_pairs(const dynamics_coupled *pair, doub
     return (dynamics_pairs){(int)ceil(-phase), (int)floor(pair->cycle[pair->nodes - 1] - phase)};
 }
 
-/* The stiffness of a tooth pair, constant beyond the ends. `near` is the piece that was used last,
-   which is kept where it holds the place with room to spare. */
+/* Returns the stiffness of a tooth pair, constant beyond the ends. `near` is the piece used last;
+ * it is kept if the place lies well inside it. */
 static double pair_stiffness_at(const dynamics_coupled *pair, double cycle,
                                 const dynamics_piece **near)
 {
@@ -70,7 +70,7 @@ static double pair_stiffness_at(const dynamics_coupled *pair, double cycle,
     return dynamics_piece_value((*near)->k, (*near)->degree, phase - (*near)->start);
 }
 
-/* Its derivative by the cycle. */
+/* Returns the derivative of that stiffness by the cycle. */
 static double pair_slope_at(const dynamics_coupled *pair, double cycle)
 {
     double from = pair->cycle[0], way = pair->cycle[pair->nodes - 1] - from;
@@ -147,8 +147,9 @@ void dynamics_bend_apply(const dynamics_bend *bend, const double *change, double
     product[DYNAMICS_Y1] = -product[DYNAMICS_Y2];
 }
 
-/* With R = rb1 + rb2, the overlaps are q - R psi - e - b, R psi + e - q - b and q - R psi - e.
-   Their gradients follow from db/dC = sin alpha and R/C = cos alpha. */
+/* Returns an overlap with its rate and gradient. With R = rb1 + rb2 the overlaps are q - R psi - e
+ * - b, R psi + e - q - b and q - R psi - e. The gradients follow from db/dC = sin alpha and R/C =
+ * cos alpha. */
 dynamics_overlap dynamics_coupled_overlap(const dynamics_coupled *pair, const dynamics_place *place,
                                           int side, const double *x, const double *v, double e,
                                           double e_rate)
@@ -169,8 +170,9 @@ dynamics_overlap dynamics_coupled_overlap(const dynamics_coupled *pair, const dy
     return o;
 }
 
-/* The bearings carry the mesh force, and the driving flank the load at the stiffness of the mounted
-   pair. The iteration finds the line of action, which turns little. */
+/* Gives the static state: the bearings carry the mesh force, and the driving flank carries the load
+ * at the stiffness of the mounted pair. The iteration finds the line of action, which turns little.
+ */
 void dynamics_coupled_rest(const dynamics_coupled *pair, double *state)
 {
     const dynamics_excitation *excitation = pair->excitation;
@@ -190,7 +192,7 @@ void dynamics_coupled_rest(const dynamics_coupled *pair, double *state)
                         excitation->pieces[0].e[0] + pair->base * place.turn;
 }
 
-/* The mesh stiffness before (`left`) or behind a place of contact. */
+/* Returns the mesh stiffness before (`left`) or after a place of contact. */
 static double mesh_stiffness_at(const dynamics_excitation *excitation, double cycle, int left)
 {
     double phase = cycle - floor(cycle + 1e-12);
@@ -205,7 +207,8 @@ static int by_size(const void *a, const void *z)
     return (x > y) - (x < y);
 }
 
-/* Whether k jumps or has a corner where a piece starts; between smooth pieces it has none. */
+/* Returns whether k jumps or has a corner at the start of a piece. Between smooth pieces it has
+ * none. */
 static int has_corner(const dynamics_excitation *excitation, size_t i)
 {
     const dynamics_piece *p = &excitation->pieces[i];
@@ -233,7 +236,8 @@ static size_t collect_nodes(const dynamics_excitation *excitation, size_t statio
     return kept;
 }
 
-/* The share between stations; where it jumps, the value before (`left`) or behind. */
+/* Returns the share at a place between stations; where it jumps, the value before (`left`) or after
+ * the jump. */
 static double share_at(size_t stations, const double *cycle, const double *share, double at,
                        int left)
 {
@@ -243,13 +247,13 @@ static double share_at(size_t stations, const double *cycle, const double *share
     while (high > low + 1 && cycle[high - 1] > at + 1e-9)
         high--;
     double length = cycle[high] - cycle[low];
-    if (high - low > 1) /* stations at this place */
+    if (high - low > 1) /* several stations lie at this place */
         return left ? share[low + 1] : share[high - 1];
     return length > 0 ? share[low] + (share[high] - share[low]) * (at - cycle[low]) / length
                       : share[low];
 }
 
-/* Makes pieces of the stiffness of a tooth pair, over the way from its first point to its last. */
+/* Makes pieces of the stiffness of a tooth pair, from its first point to its last. */
 static int build_table(dynamics_coupled *pair)
 {
     double from = pair->cycle[0], way = pair->cycle[pair->nodes - 1] - from;
@@ -275,7 +279,7 @@ int dynamics_coupled_pair_stiffness(dynamics_coupled *pair, size_t stations, con
     pair->nodes = collect_nodes(excitation, stations, cycle, pair->cycle);
     for (size_t i = 0; i < pair->nodes; i++) {
         double at = pair->cycle[i], sum = 0;
-        int first = i + 1 == pair->nodes, last = i > 0; /* from inside at the ends of contact */
+        int first = i + 1 == pair->nodes, last = i > 0; /* inner side at both ends of contact */
         for (int left = first; share && left <= last; left++)
             sum += share_at(stations, cycle, share, at, left) *
                    mesh_stiffness_at(excitation, at, left);

@@ -24,43 +24,43 @@ typedef struct dynamics_coupled {
     const dynamics_excitation *excitation;
     double mass[2];                   /* over the equivalent mass */
     double bearing[2], damper[2];     /* stiffness and damping coefficient of the bearings */
-    double base, centre, line, angle; /* rb1 + rb2, centre distance, length of the line of action
-                                         between the base circles, pressure angle; mounted */
+    double base, centre, line, angle; /* mounted: rb1 + rb2, centre distance, length of the line of
+                                         action between the base circles, pressure angle */
     double base_1, base_pitch;        /* rb1, base pitch */
-    double *cycle, *pair_stiffness; /* the stiffness of one tooth pair at mesh cycles behind SAP */
+    double *cycle, *pair_stiffness; /* stiffness of one tooth pair at these mesh cycles after SAP */
     size_t nodes;                   /* number of these points */
-    dynamics_excitation table;      /* its k is that stiffness over the stretch of these points */
+    dynamics_excitation table;      /* its k is that stiffness over the range of these points */
 } dynamics_coupled;
 
-/* What follows from the position of the centres. */
+/* The contact as it follows from the position of the centres. */
 typedef struct dynamics_place {
     double centre, turn, angle, half_gap;
     double sin_turn, cos_turn, sin_angle, cos_angle;
-    double shift; /* of the contact along gear 1, mesh cycles */
-    double entry,
-        exit; /* of a tooth pair, mesh cycles behind SAP; their distance is the contact ratio */
+    double shift;       /* shift of the contact along gear 1, mesh cycles */
+    double entry, exit; /* entry and exit of a tooth pair, mesh cycles after SAP; their distance is
+                           the contact ratio */
 } dynamics_place;
 
 void dynamics_coupled_locate(const dynamics_coupled *pair, const double *position,
                              dynamics_place *place);
 
-/* Tooth pairs: number j has been in mesh for phase + j cycles, from the youngest j to the oldest.
- */
+/* Tooth pairs in mesh: pair j has been in mesh for phase + j cycles, and the youngest has the least
+ * j. */
 typedef struct dynamics_pairs {
     int youngest, oldest;
 } dynamics_pairs;
 
-/* The pairs in contact at a phase. */
+/* Gives the pairs in contact at a phase. */
 dynamics_pairs dynamics_coupled_pairs(const dynamics_place *place, double phase);
-/* The same for the mounted gears, whose pairs make up the mesh stiffness. */
+/* Gives the pairs in contact of the mounted gears, which make up the mesh stiffness. */
 dynamics_pairs dynamics_coupled_mounted_pairs(const dynamics_coupled *pair, double phase);
 
-/* What the displacement of the centres adds to the mesh stiffness. */
+/* Returns the change of the mesh stiffness by the displacement of the centres. */
 double dynamics_coupled_stiffness_change(const dynamics_coupled *pair, const dynamics_place *place,
                                          double phase, dynamics_pairs now, dynamics_pairs mounted);
 
-/* The overlap of the flanks of one side (1: driving, -1: back) or s - e (0), its rate and its
-   gradient by the coordinates. */
+/* Gives the overlap of the flanks of one side (1: driving, -1: back) or s - e (0), its rate, and
+ * its gradient by the coordinates. */
 typedef struct dynamics_overlap {
     double value, rate, gradient[DYNAMICS_COORDINATES];
 } dynamics_overlap;
@@ -69,29 +69,29 @@ dynamics_overlap dynamics_coupled_overlap(const dynamics_coupled *pair, const dy
                                           int side, const double *position, const double *velocity,
                                           double e, double e_rate);
 
-/* The second derivatives of an overlap, which depends on the coordinates of the centres by their
-   difference alone: by it along the line of centres (x) and across it (y). */
+/* Second derivatives of an overlap. It depends on the coordinates of the centres by their
+ * difference alone: along the line of centres (x) and across it (y). */
 typedef struct dynamics_bend {
     double xx, xy, yy;
 } dynamics_bend;
 
 dynamics_bend dynamics_coupled_bend(const dynamics_place *place, int side);
-/* The matrix of second derivatives times a change of the coordinates. */
+/* Multiplies the matrix of second derivatives by a change of the coordinates. */
 void dynamics_bend_apply(const dynamics_bend *bend, const double *change, double *product);
 
-/* The derivatives of place.shift and place.entry (NULL: not wanted) by the coordinates. */
+/* Gives the derivatives of place.shift and place.entry (NULL: not wanted) by the coordinates. */
 void dynamics_coupled_shift_slope(const dynamics_coupled *pair, const dynamics_place *place,
                                   double *shift, double *entry);
-/* The derivative of dynamics_coupled_stiffness_change by place.shift. */
+/* Returns the derivative of dynamics_coupled_stiffness_change by place.shift. */
 double dynamics_coupled_stiffness_slope(const dynamics_coupled *pair, const dynamics_place *place,
                                         double phase, dynamics_pairs now);
 
-/* The static deflection at phase 0: coordinates and rates. */
+/* Gives the static deflection at phase 0: coordinates, and rates of 0. */
 void dynamics_coupled_rest(const dynamics_coupled *pair, double *state);
 
-/* Finds the stiffness of one tooth pair from its share of the load at the stations, which lie
-   `cycle` mesh cycles behind SAP. Without a share (NULL) the contact ratio changes nothing. 0: out
-   of memory. */
+/* Computes the stiffness of one tooth pair from its share of the load at the stations, which lie
+ * `cycle` mesh cycles after SAP. Without a share (NULL) the contact ratio changes nothing. 0: out
+ * of memory. */
 int dynamics_coupled_pair_stiffness(dynamics_coupled *pair, size_t stations, const double *cycle,
                                     const double *share);
 void dynamics_coupled_free(dynamics_coupled *pair);

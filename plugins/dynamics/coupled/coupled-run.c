@@ -11,22 +11,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The longest step, in radians of the highest frequency; of a motion to errors of `coarse` and more
-   the longer one. */
+/* Longest step, in radians of the highest frequency. The second one applies if the allowed error is
+ * `coarse` or more. */
 static const double longest_step = 0.5, longest_coarse = 1.5, coarse = 1e-7;
 
-/* The value at which a gate closes: some round-offs of what it is the difference of. A tenth of it
-   is tried for, and of coarse motions more will do. */
+/* A gate counts as closed at this value, some roundings of the numbers whose difference it is. The
+ * first attempts aim at a tenth of it. Coarse motions use the second value. */
 static const double closed = 1e-13, closed_coarse = 1e-10;
 
-/* Steps since the start beyond which the motion is given up. */
+/* The motion is given up after this many steps since the start. */
 static const size_t step_limit = 10000000;
 
-/* The least error of a step, relative to the motion, that can be asked for. */
+/* Least error of a step, relative to the motion, that can be asked for. */
 static const double round_off = 1e-14;
 
-/* Events in a row that each advance by less than `slip`, rad, before the regime is held for that
- * time. */
+/* An event that comes less than `slip` (rad) after the one before counts as idle. After MAX_IDLE of
+ * them in a row the regime is held for that time. */
 enum { MAX_IDLE = 6 };
 static const double slip = 1e-6;
 
@@ -36,17 +36,17 @@ struct dynamics_coupled_run {
     gsl_odeiv2_system system;
     double y[DYNAMICS_COUPLED_SIZE];
     dynamics_variation *variation;
-    int varies; /* its derivatives are followed */
+    int varies; /* 1: the derivatives are carried along */
     size_t count;
     dynamics_stretch *stretches;
-    double t;          /* since the start of the stretch */
-    double longest, h; /* steps */
-    double closed;     /* value of a gate that is as good as 0 */
+    double t;          /* time since the start of the stretch */
+    double longest, h; /* longest step, next step */
+    double closed;     /* value at which a gate counts as closed */
     double parted, back;
     size_t steps;
 };
 
-/* A bound on the highest frequency: mesh and bearing on the lighter gear. */
+/* Returns a bound on the highest frequency: mesh and bearing on the lighter gear. */
 static double highest_frequency(const dynamics_coupled *pair)
 {
     double k = 2 * pair->excitation->k_max, highest = k;
@@ -83,7 +83,7 @@ static int make_stretches(dynamics_coupled_run *run)
     for (size_t i = 0; i < count; i++) {
         double length = node[i + 1] - node[i];
         if (length < 1e-9 && i + 1 < count && node[i + 1] == leaves)
-            node[i + 1] = node[i], length = 0; /* it is a node of the mesh */
+            node[i + 1] = node[i], length = 0; /* a node of the mesh itself */
         if (length <= 0)
             continue;
         const dynamics_piece *piece =
@@ -128,7 +128,7 @@ void dynamics_coupled_run_free(dynamics_coupled_run *run)
     free(run);
 }
 
-/* Sets the contact of flanks: they touch where they overlap. */
+/* Sets the contact of the flanks: they touch where they overlap. */
 static void set_contact(dynamics_coupled_run *run, const dynamics_place *place)
 {
     dynamics_push p = dynamics_field_push(&run->field, run->t, run->y, place);
@@ -140,7 +140,7 @@ static void set_contact(dynamics_coupled_run *run, const dynamics_place *place)
     dynamics_field_find_bands(&run->field, run->t, overlap);
 }
 
-/* Sets the bands of the springs anew where one piece of the mesh cycle follows another. */
+/* Sets the bands of the springs anew at the start of a piece of the mesh cycle. */
 static void set_bands(dynamics_coupled_run *run)
 {
     dynamics_place place;
@@ -218,7 +218,7 @@ static void attempt(dynamics_coupled_run *run, double h, double *y, double *erro
 typedef struct event {
     double at; /* time since the start of the step */
     int gate;
-    double state[DYNAMICS_COUPLED_SIZE]; /* where `at` is above 0 */
+    double state[DYNAMICS_COUPLED_SIZE]; /* the state at `at`, if that is above 0 */
 } event;
 
 static double gate_on_course(const dynamics_coupled_run *run, const dynamics_course *course, int i,
@@ -230,7 +230,7 @@ static double gate_on_course(const dynamics_coupled_run *run, const dynamics_cou
     return gate[i];
 }
 
-/* The gate of the event after an attempt that ends there. */
+/* Returns the gate of the event after a trial step that ends there. */
 static double gate_after(dynamics_coupled_run *run, double h, event *e)
 {
     double error[DYNAMICS_COUPLED_SIZE], gate[DYNAMICS_GATES];
@@ -240,10 +240,10 @@ static double gate_after(dynamics_coupled_run *run, double h, event *e)
     return gate[e->gate];
 }
 
-/* Bisection takes over from the secant when that has not met the instant. */
+/* Most attempts to meet the instant; bisection takes over after MAX_SECANTS. */
 enum { MAX_PROBES = 80, MAX_SECANTS = 40, MAX_CORRECTIONS = 4 };
 
-/* Narrows a bracket once. */
+/* Returns the next share of the step to look at. */
 static double next_probe(const numerics_bracket *b, int n)
 {
     double middle = numerics_bracket_secant(b);
@@ -252,9 +252,9 @@ static double next_probe(const numerics_bracket *b, int n)
                : b->low + 0.5 * (b->high - b->low);
 }
 
-/* Finds where the gate of the event closes, between shares of the step at which it is open and
-   closed. The course of the step leads near, and attempts correct that by its slope; if they do not
-   meet the instant, attempts narrow the bracket. */
+/* Finds where the gate of the event closes, given a bracket in shares of the step. The course of
+ * the step gives a first share, which trial steps correct by the slope of the gate. If these do not
+ * meet the instant, trial steps narrow the bracket. */
 static void find_closing(dynamics_coupled_run *run, const dynamics_course *course,
                          numerics_bracket b, event *e)
 {
@@ -285,8 +285,8 @@ static void find_closing(dynamics_coupled_run *run, const dynamics_course *cours
     gate_after(run, wide.high * course->h, e);
 }
 
-/* Finds the first gate that closes in the step of h to y. A gate that dips between two open ends is
-   looked at in the middle. */
+/* Finds the first gate that closes in the step of h to y. A gate that may dip below 0 between two
+ * open ends is checked in the middle. */
 static int find_event(dynamics_coupled_run *run, double h, const double *y, event *first)
 {
     double a[DYNAMICS_GATES], z[DYNAMICS_GATES], m[DYNAMICS_GATES], middle[DYNAMICS_COUPLED_SIZE];
@@ -294,7 +294,7 @@ static int find_event(dynamics_coupled_run *run, double h, const double *y, even
     dynamics_course course;
     dynamics_field_gates(&run->field, run->t, run->y, a);
     dynamics_field_gates(&run->field, run->t + h, y, z);
-    for (int i = 0; i < DYNAMICS_COMES; i++) /* near the edge of the gap, over a step */
+    for (int i = 0; i < DYNAMICS_COMES; i++) /* near the edge of the gap over a step */
         dips |= z[i] >= 0 &&
                 fmin(a[i], z[i]) < 0.5 * h * h * (1 + fabs(run->field.pair->excitation->load));
     for (int i = 0; i < DYNAMICS_GATES; i++)
@@ -342,7 +342,7 @@ static void pass_gate(dynamics_coupled_run *run, int gate)
         dynamics_field_pass_gate(&run->field, gate);
 }
 
-/* Integrates to the instant `end` of the stretch; 0: too many steps. */
+/* Integrates to the instant `end` of the stretch. 0: too many steps. */
 static int advance_to(dynamics_coupled_run *run, double end)
 {
     static const double no_slope[DYNAMICS_COUPLED_SIZE] = {0};
@@ -382,7 +382,8 @@ static int advance_to(dynamics_coupled_run *run, double end)
     return 1;
 }
 
-/* Enters a stretch. Where e jumps the dampers that act give an impulse of 2 zeta times the jump. */
+/* Enters a stretch. A jump of e gives an impulse of 2 zeta times the jump through each damper that
+ * acts. */
 static void enter_stretch(dynamics_coupled_run *run, const dynamics_stretch *next)
 {
     const dynamics_coupled *pair = run->field.pair;
@@ -441,7 +442,7 @@ static void add_sample(const dynamics_coupled_run *run, double phase,
     record->samples[record->count++] = sample;
 }
 
-/* Integrates a stretch, from sample to sample when there is a record. */
+/* Integrates a stretch, from sample to sample if there is a record. */
 static int pass_stretch(dynamics_coupled_run *run, size_t *next, dynamics_coupled_record *record)
 {
     const dynamics_stretch *now = run->field.now;

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Integrates a gear pair on its bearings as oscillator.h does the rigid one. Steps end at the nodes
- * of the excitation and where flanks meet or part or a tooth pair comes or goes, so that each lies
- * within one smooth regime.
- */
+/* Integrates a gear pair on its bearings, as oscillator.h does for rigid bearings. Steps end at the
+ * nodes of the excitation, where flanks meet or part, and where a tooth pair enters or leaves, so
+ * that each step lies within one smooth regime. */
 #ifndef DYNAMICS_COUPLED_RUN_H
 #define DYNAMICS_COUPLED_RUN_H
 
@@ -28,22 +26,24 @@ typedef struct dynamics_coupled_record {
 dynamics_coupled_run *dynamics_coupled_run_new(const dynamics_coupled *pair, double tolerance);
 void dynamics_coupled_run_free(dynamics_coupled_run *run);
 
-/* Starts at phase 0 of mesh cycles of duration T, from coordinates and rates. Resets the clocks. */
+/* Starts at phase 0 of mesh cycles of duration T, from coordinates and rates, and resets the
+ * clocks. */
 void dynamics_coupled_start(dynamics_coupled_run *run, double T, const double *state);
-/* The same, and follows the derivatives of the motion by its start. */
+/* Starts likewise and carries the derivatives of the motion by its start along. */
 void dynamics_coupled_start_varied(dynamics_coupled_run *run, double T, const double *state);
 const double *dynamics_coupled_state(const dynamics_coupled_run *run);
-/* The derivatives of the state by that at the start, DYNAMICS_TAKEN rows of as many. */
+/* Returns the derivatives of the state by the start state, DYNAMICS_TAKEN rows of DYNAMICS_TAKEN.
+ */
 const double *dynamics_coupled_monodromy(const dynamics_coupled_run *run);
 
 /* Integrates one mesh cycle; `record` may be NULL. 0: too many steps. */
 int dynamics_coupled_cycle(dynamics_coupled_run *run, double T, dynamics_coupled_record *record);
 
-/* The times since the start without contact and with contact of the back flanks. */
+/* Give the times since the start without contact and with contact of the back flanks. */
 void dynamics_coupled_clocks(const dynamics_coupled_run *run, double *parted, double *back);
 
-/* The sum of the kinetic energy, the potential of the load, and what mesh and bearings took since
-   the start, which is constant. */
+/* Returns the sum of the kinetic energy, the potential of the load, and the energy taken by mesh
+ * and bearings since the start. It is constant. */
 double dynamics_coupled_energy(const dynamics_coupled_run *run, double *kinetic);
 
 int dynamics_coupled_record_init(dynamics_coupled_record *record, const dynamics_coupled *pair,

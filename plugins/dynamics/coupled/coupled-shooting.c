@@ -7,22 +7,22 @@
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_linalg.h>
 
-/* Newton's method is given up when a correction is more than this of the one before. */
+/* Newton's method is given up if a correction exceeds this share of the one before. */
 static const double contraction = 0.25;
 enum { MAX_CORRECTIONS = 12 };
 
-/* Corrections below this, in static deflections, that shrink no more are errors of the integration.
- */
+/* Corrections below this, in static deflections, that no longer shrink are errors of the
+ * integration. */
 static const double round_off = 1e-5;
 
-/* The largest multiplier, known to some 1e-7, at which a disturbance dies out beyond doubt: without
-   damping all are 1. */
+/* Largest multiplier at which a disturbance is sure to decay. Multipliers are known to some 1e-7,
+ * and without damping all are 1. */
 static const double surely_stable = 1 - 1e-6;
 
-/* Steps in the logarithm of the frequency: the longest is the width 3 zeta of a resonance with the
-   damping that is usual; one shorter than `shortest` is left to the glide. None of the motions on
-   the way is taken that is farther than `near` from where the last three lead, in static
-   deflections. */
+/* Steps in the logarithm of the frequency. The longest is 3 zeta, the width of a resonance, at the
+ * usual damping. A step shorter than `shortest` is left to the glide. A motion on the way is
+ * rejected if it lies farther than `near`, in static deflections, from the extrapolation of the
+ * last three. */
 static const double longest = 0.03, shortest = 4e-3, near = 0.2;
 const double dynamics_coupled_on_the_way = 1e-2;
 
@@ -51,8 +51,8 @@ ff_status dynamics_coupled_multipliers(const double *monodromy, double *multipli
     return status;
 }
 
-/* Turns the miss of a start after a cycle into its correction d, by (1 - M) d = miss. 0: there is
-   none. */
+/* Turns the miss of a start after a cycle into its correction d by (1 - M) d = miss. 0: 1 - M is
+ * singular. */
 static int find_correction(const double *monodromy, double *miss)
 {
     double matrix[DYNAMICS_TAKEN * DYNAMICS_TAKEN];
@@ -68,7 +68,7 @@ static int find_correction(const double *monodromy, double *miss)
     return gsl_linalg_HH_svx(&a.matrix, &x.vector) == GSL_SUCCESS;
 }
 
-/* Corrects the start once; FF_NOCONV: there is no correction. */
+/* Corrects the start once. FF_NOCONV: there is no correction. */
 static ff_status correct(dynamics_coupled_run *run, dynamics_coupled_orbit *orbit)
 {
     double T = 2 * M_PI / orbit->frequency, miss[DYNAMICS_TAKEN], parted, back;
@@ -121,9 +121,9 @@ ff_status dynamics_coupled_shoot(dynamics_coupled_run *run, double far, double t
     return FF_NOCONV;
 }
 
-/* The three last motions of a branch, the newest first. */
+/* The last three motions of a branch, the newest first. */
 typedef struct trail {
-    double at[3], state[3][DYNAMICS_TAKEN]; /* logarithms of the frequency */
+    double at[3], state[3][DYNAMICS_TAKEN]; /* logarithms of the frequency, and states */
     int count;
 } trail;
 
@@ -138,7 +138,7 @@ static void add_to_trail(trail *t, const dynamics_coupled_orbit *orbit)
     t->count += t->count < 3;
 }
 
-/* Where the trail leads, by Lagrange's polynomial. */
+/* Extrapolates the trail by Lagrange's polynomial. */
 static void predict(const trail *t, double at, double *state)
 {
     memset(state, 0, sizeof t->state[0]);
@@ -151,9 +151,9 @@ static void predict(const trail *t, double at, double *state)
     }
 }
 
-/* Begins a trail at a motion. A point beside it follows from the derivative d of its start by the
-   logarithm of the frequency: (1 - M) d is the derivative of its end while the start stays. 0: the
-   derivative is not known. */
+/* Begins a trail at a motion. A second point beside it follows from the derivative d of the start
+ * by the logarithm of the frequency, where (1 - M) d is the derivative of the end at a fixed start.
+ * 0: the derivative cannot be computed. */
 static int begin_trail(dynamics_coupled_run *run, dynamics_coupled_orbit *orbit, trail *t)
 {
     static const double aside = 1e-4; /* in the logarithm of the frequency */

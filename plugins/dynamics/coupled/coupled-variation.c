@@ -7,13 +7,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The Taylor series of a step has at most this order; its rows are padded to whole vectors. */
+/* Most order of the Taylor series of a step; rows are padded to whole vectors. */
 enum { N = DYNAMICS_TAKEN, ORDER = 20, NODES = 3, WIDE = 12 };
 
 struct dynamics_variation {
     dynamics_field *field;
-    double negligible;   /* largest derivative of a term that ends the series of a step */
-    double matrix[N][N]; /* derivatives of the components, a row each */
+    double negligible;   /* largest derivative that a term may have to end the series of a step */
+    double matrix[N][N]; /* derivatives of the components, one row each */
 };
 
 dynamics_variation *dynamics_variation_new(dynamics_field *field, double negligible)
@@ -43,20 +43,21 @@ const double *dynamics_variation_matrix(const dynamics_variation *v)
     return v->matrix[0];
 }
 
-/* What the mesh sees of a state: q, and gear 2 against gear 1 along the line of centres and across
-   it; and their rates. Its force on gear 1 is that on gear 2 turned round. */
+/* The mesh force depends on six numbers of a state: q, the position of gear 2 relative to gear 1
+ * along the line of centres and across it, and their rates. The force on gear 1 is the opposite of
+ * that on gear 2. */
 enum { SEEN = 3 };
 static const int seen[SEEN] = {DYNAMICS_Q, DYNAMICS_X2, DYNAMICS_Y2},
                  against[SEEN] = {-1, DYNAMICS_X1, DYNAMICS_Y1};
 
-/* The derivatives of the mesh force on q and gear 2 by what it sees, over a step a polynomial in
-   the share of the step. */
+/* Derivatives of the mesh force on q and on gear 2 by these six numbers: polynomials in the share
+ * of the step. */
 typedef struct mesh_powers {
     double at[NODES][SEEN][2 * SEEN];
-    int count; /* 1: they are as good as constant */
+    int count; /* number of powers; 1: nearly constant */
 } mesh_powers;
 
-/* Takes them out of the derivatives of the accelerations. */
+/* Extracts the derivatives of the mesh force from those of the accelerations. */
 static void find_mesh(const dynamics_field *field, double t, const double *state,
                       double mesh[SEEN][2 * SEEN])
 {
@@ -73,8 +74,8 @@ static void find_mesh(const dynamics_field *field, double t, const double *state
     }
 }
 
-/* The polynomial of degree 2 meets the derivatives at Gauss's nodes, so that its moments err by the
-   sixth power of h. */
+/* Fits polynomials of degree 2 at Gauss's nodes, so that their moments err by the sixth power of h.
+ */
 static void find_powers(const dynamics_field *field, double t, double h, const double *from,
                         const double *to, double negligible, mesh_powers *power)
 {
@@ -99,7 +100,7 @@ static void find_powers(const dynamics_field *field, double t, double h, const d
     power->count = h * varies > negligible ? NODES : 1;
 }
 
-/* The terms of the series of all columns, and what the mesh sees of them. */
+/* The terms of the series of all columns, and the six numbers that the mesh sees of them. */
 typedef struct series {
     double term[ORDER + 1][N][WIDE], seen[ORDER + 1][2 * SEEN][WIDE];
 } series;
@@ -117,8 +118,8 @@ FF_SIMD static void see(int n, series *s)
     }
 }
 
-/* Term n + 1 of the series from those before: per column (x, v), x' = v, and v' is what mesh and
-   bearings make of the column. Returns its largest size. */
+/* Computes term n + 1 of the series from the terms before, per column (x, v): x' = v, and v' is the
+ * force of mesh and bearings. Returns its largest size. */
 FF_SIMD static double next_term(int n, double h, const dynamics_coupled *pair,
                                 const mesh_powers *power, series *s)
 {
@@ -173,11 +174,11 @@ void dynamics_variation_step(dynamics_variation *v, double t, double h, const do
                 v->matrix[i][k] += s.term[n][i][k];
 }
 
-/* A start that reaches the gate by dt later moves on by dt at the slope before the gate in place of
-   that behind it, and dt is -(slope of the gate . column)/(rate of the gate along the motion)
-   (the saltation matrix: Leine & Nijmeijer 2004, Dynamics and Bifurcations of Non-Smooth Mechanical
-   Systems, ch. 7). Where a clipped damper lets go, or takes hold again, the force of the flanks is
-   0 on both sides. */
+/* Multiplies the derivatives by the saltation matrix at a gate (Leine & Nijmeijer 2004, Dynamics
+ * and Bifurcations of Non-Smooth Mechanical Systems, ch. 7). A start that reaches the gate later by
+ * dt moves for dt at the slope before the gate instead of the slope after it, with dt = -(slope of
+ * the gate . column)/(rate of the gate along the motion). Where a clipped damper lets go or takes
+ * hold, the flank force is 0 on both sides and nothing changes. */
 void dynamics_variation_pass_gate(dynamics_variation *v, int gate, double t, const double *y)
 {
     double before[DYNAMICS_COUPLED_SIZE], behind[DYNAMICS_COUPLED_SIZE], by_state[N];
@@ -202,8 +203,8 @@ void dynamics_variation_pass_gate(dynamics_variation *v, int gate, double t, con
             v->matrix[i][k] += (behind[i] - before[i]) * sooner[k];
 }
 
-/* The impulse 2 zeta leap g_q g acts along the gradient g of the overlap, which turns with the
-   coordinates; g_q does not change. */
+/* Adds the impulse of a jump of e. The impulse 2 zeta leap g_q g acts along the gradient g of the
+ * overlap, which turns with the coordinates; g_q is constant. */
 void dynamics_variation_leap(dynamics_variation *v, int flank, double leap,
                              const dynamics_place *place)
 {

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-/* The wedge alone, w at beta = 0. */
+/* Returns w of the wedge alone, at beta = 0. */
 static const double wedge_load = 4.8949684937;
 
 double dynamics_film_node(const dynamics_film *film)
@@ -11,15 +11,15 @@ double dynamics_film_node(const dynamics_film *film)
     return film->pairs - floor(film->pairs);
 }
 
-/* R^1.5 of the pair x mesh cycles behind SAP. */
+/* Returns R^1.5 of the pair x mesh cycles after SAP. */
 static double radius_power(const dynamics_film *film, double x)
 {
     double r = film->radius[0] + x * (film->radius[1] + x * film->radius[2]);
     return r * sqrt(r);
 }
 
-/* Pairs side by side: their widths add up. With one R for all of them, such that their squeeze is
-   exact, their wedge is to the square of the difference between their radii. */
+/* Combines the pairs in mesh, whose widths add up. One common R makes their squeeze exact. Their
+ * wedge then errs by the square of the difference of their radii. */
 dynamics_film_place dynamics_film_at(const dynamics_film *film, double phase, double T)
 {
     static const double root_of_two = 1.4142135623730951;
@@ -61,7 +61,7 @@ double dynamics_film_holding_load(const dynamics_film *film, const dynamics_film
     return film->rolling ? wedge_load * place->wedge / film->hand_over : 0;
 }
 
-/* V(k z, h_c - q + z) rises with the bend z of the teeth. */
+/* Solves for the bend z of the teeth; V(k z, h_c - q + z) rises with z. */
 double dynamics_film_quasi_static(const dynamics_film *film, const dynamics_film_place *place,
                                   double stiffness, double q, double speed)
 {

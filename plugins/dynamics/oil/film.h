@@ -16,28 +16,30 @@
 #include "squeeze-law.h"
 
 typedef struct dynamics_film {
-    double viscosity;   /* eta0 b omega / mean stiffness */
-    double hand_over;   /* h_c */
-    double supply;      /* film from which on the oil does not fill the gap; may be infinite */
-    double pairs;       /* contact ratio */
-    double radius[3];   /* equivalent radius of a pair, by powers of the mesh cycles since SAP */
-    double entrainment; /* way of the oil, (u1 + u2)/2, per mesh cycle */
-    int rolling;        /* whether the wedge of the rolling flanks carries, too */
-    dynamics_squeeze_table table; /* built when it does */
+    double viscosity; /* eta0 b omega / mean stiffness */
+    double hand_over; /* h_c */
+    double supply;    /* thickness above which the oil does not fill the gap; may be infinite */
+    double pairs;     /* contact ratio */
+    double
+        radius[3]; /* equivalent radius of a pair, as a polynomial in the mesh cycles since SAP */
+    double entrainment;           /* distance that the oil travels at (u1 + u2)/2 per mesh cycle */
+    int rolling;                  /* 1: the wedge of the rolling flanks carries, too */
+    dynamics_squeeze_table table; /* built if it does */
 } dynamics_film;
 
-/* The film at a phase of the mesh cycle: all pairs that are in mesh there, side by side. */
+/* The film at a phase of the mesh cycle, of all pairs in mesh together. */
 typedef struct dynamics_film_place {
     double squeeze;      /* sum of 3 sqrt(2) pi eta0 b R^1.5 */
-    double wedge, speed; /* n eta0 u R b and u/sqrt(2 R), with the R that gives that sum */
+    double wedge, speed; /* n eta0 u R b and u/sqrt(2 R), with the R that gives `squeeze` */
 } dynamics_film_place;
 
-/* V and its derivatives by W, h and u, the last one times u. */
+/* Gives V and its derivatives by W, h and u; the last one is multiplied by u. */
 typedef struct dynamics_approach {
     double speed, by_load, by_film, by_entrainment;
 } dynamics_approach;
 
-/* The phase at which a pair leaves the mesh; the other node is phase 0, where one enters. */
+/* Returns the phase at which a pair leaves the mesh. The other node is phase 0, at which one
+ * enters. */
 double dynamics_film_node(const dynamics_film *film);
 
 dynamics_film_place dynamics_film_at(const dynamics_film *film, double phase, double T);
@@ -45,11 +47,11 @@ dynamics_film_place dynamics_film_at(const dynamics_film *film, double phase, do
 dynamics_approach dynamics_film_approach(const dynamics_film *film,
                                          const dynamics_film_place *place, double load, double h);
 
-/* The load from which on the film at hand-over does not grow: that of the wedge. */
+/* Returns the load of the wedge: above it the film at hand-over does not grow. */
 double dynamics_film_holding_load(const dynamics_film *film, const dynamics_film_place *place);
 
-/* The film y in front of the flanks that approach at q' = speed, at rest beside the motion: the
-   start of a motion whose film is not known. */
+/* Returns the quasi-static film y between flanks that approach at q' = speed. A motion whose film
+ * is not known starts with it. */
 double dynamics_film_quasi_static(const dynamics_film *film, const dynamics_film_place *place,
                                   double stiffness, double q, double speed);
 

@@ -6,11 +6,11 @@
 
 enum { S = DYNAMICS_STAGES, MOST = 2 * S, ITERATIONS = 25 };
 
-/* What the last coefficients may be, relative to the film or to the speed. The error at the end of
-   a step is of about its square. */
+/* Bounds on the last coefficients, relative to the film or to the speed. The error at the end of a
+ * step is about the square of these. */
 static const double allowed = 1e-10;
 
-/* At the end of a step that a node ends, the film is the one before the node. */
+/* At the end of a step that ends in a node, the film is the one before the node. */
 static const double before_node = 1e-12;
 
 static double lagrange(const double *node, int count, int j, double x)
@@ -22,7 +22,7 @@ static double lagrange(const double *node, int count, int j, double x)
     return value;
 }
 
-/* The nodes of Radau are the roots of P_s - P_(s-1) of Legendre on [0, 1]. */
+/* Computes Radau's nodes, the roots of P_s - P_(s-1) of Legendre on [0, 1]. */
 static double radau_function(double x)
 {
     double y = 2 * x - 1, p = 1, q = y;
@@ -52,7 +52,8 @@ static void find_nodes(double *node)
     }
 }
 
-/* The product of (x - node[k]) without j, as powers of x over its value at node[j]. */
+/* Gives the Lagrange polynomial of node j: the product of (x - node[k]) without j, divided by its
+ * value at node[j], as powers of x. */
 static void basis_powers(const double *node, int j, double *power)
 {
     memset(power, 0, DYNAMICS_NODES * sizeof *power);
@@ -102,9 +103,9 @@ void dynamics_landing_polynomial(const dynamics_radau *r, const double *value, d
             power[n] += value[j] * r->power[j][n];
 }
 
-/* Elimination with pivots of n equations, for `columns` right sides, in place; 0: singular. For so
-   few equations GSL's costs more than all else: light-load.yaml with squeeze: series takes 3.0e9
-   instructions, 8.8e9 with it. */
+/* Solves n equations by elimination with pivoting for `columns` right sides, in place. 0: singular.
+ * GSL costs more than everything else for so few equations: light-load.yaml with squeeze: series
+ * takes 3.0e9 instructions, and 8.8e9 with GSL. */
 static int eliminate(int n, double m[MOST][MOST], int columns,
                      double side[DYNAMICS_FILM_COLUMNS][MOST])
 {
@@ -140,15 +141,15 @@ static int eliminate(int n, double m[MOST][MOST], int columns,
     return 1;
 }
 
-/* What does not change while a step is solved. */
+/* What stays constant while a step is solved. */
 typedef struct stages {
     const dynamics_radau *r;
     double h, c, load[S], bend[S], k[S]; /* load less drag and e''; bend: e'' */
-    double thicken[S];                   /* rate of the loaded film, which the damper is beside */
-    int count, flank[2];                 /* of the films that carry */
+    double thicken[S];                   /* rate of the loaded film, which acts beside the damper */
+    int count, flank[2];                 /* number and flanks of the films that carry */
     dynamics_film_place place[S];
     double (*inverse)[S];
-    double yield[S][S]; /* delta of the stages over force */
+    double yield[S][S]; /* derivative of delta at the stages by the force */
 } stages;
 
 static double sign_of(int flank)
@@ -156,8 +157,8 @@ static double sign_of(int flank)
     return flank ? -1 : 1;
 }
 
-/* The stages obey a = load - c v - sum s k (s delta - b + y), with v = v0 + h A a and delta =
-   delta0 + h c v0 + h^2 A^2 a: a system for a, whose inverse is kept. */
+/* Inverts the system of the stages for the accelerations a: a = load - c v - sum s k (s delta - b +
+ * y), with v = v0 + h A a and delta = delta0 + h c v0 + h^2 A^2 a. */
 static int prepare(const dynamics_radau *r, dynamics_landing *step, stages *g)
 {
     const dynamics_excitation *x = step->excitation;
@@ -217,7 +218,7 @@ static void accelerate(const stages *g, const double *force, double *a)
     }
 }
 
-/* The motion of the stages under films y. */
+/* Computes the motion of the stages for given films y. */
 static void move_stages(const stages *g, dynamics_landing *step, double y[2][S])
 {
     double force[S], a[S], v0 = step->rate[0], half_gap = step->excitation->half_gap;
@@ -261,7 +262,7 @@ static void find_approach(const stages *g, dynamics_landing *step)
         }
 }
 
-/* The derivative of y - y0 + h A V by the films of the stages. */
+/* Computes the derivative of y - y0 + h A V by the films of the stages. */
 static void build_matrix(const stages *g, const dynamics_landing *step, double m[MOST][MOST])
 {
     for (int n = 0; n < g->count; n++)
@@ -284,8 +285,8 @@ static void build_matrix(const stages *g, const dynamics_landing *step, double m
         }
 }
 
-/* The last two coefficients in Legendre's polynomials on [0, 1], of degree 7 and 6: those of their
-   highest powers are 3432 and 924. */
+/* Computes the last two coefficients in Legendre's polynomials on [0, 1], of degrees 7 and 6. The
+ * coefficients of their highest powers are 3432 and 924. */
 static double last_coefficients(const dynamics_radau *r, const double *value)
 {
     double p[DYNAMICS_NODES];
@@ -360,13 +361,13 @@ int dynamics_landing_solve(const dynamics_radau *r, dynamics_landing *step)
     return isfinite(step->delta[S]);
 }
 
-/* Derivatives of the stages by a start value or by T, which makes the step longer by `stretch`. */
+/* Derivatives at the stages by a start value, or by T, which stretches the step by `stretch`. */
 typedef struct variation {
     double stretch;
     double rate[S], delta[S]; /* at fixed films */
 } variation;
 
-/* What T changes at a fixed acceleration: rate, delta and the force. */
+/* Gives the derivatives by T at fixed acceleration: of rate, delta and force. */
 static void stretch_stages(const stages *g, const dynamics_landing *step, variation *v, double *f)
 {
     double a[S];
@@ -381,11 +382,12 @@ static void stretch_stages(const stages *g, const dynamics_landing *step, variat
         v->rate[i] += v->stretch * rate;
         v->delta[i] += v->stretch * delta;
         f[i] = (2 * g->bend[i] - g->c * g->thicken[i]) /
-               step->T; /* at a fixed phase e'' goes as 1/T^2, rates as 1/T */
+               step->T; /* at fixed phase e'' is proportional to 1/T^2 and rates to 1/T */
     }
 }
 
-/* The motion of the stages; start: derivatives of delta, its rate and the films. */
+/* Gives the derivatives of the motion of the stages; `start` holds those of delta, its rate and the
+ * films. */
 static void vary_motion(const stages *g, const dynamics_landing *step, const double *start,
                         variation *v)
 {
@@ -406,7 +408,7 @@ static void vary_motion(const stages *g, const dynamics_landing *step, const dou
         }
 }
 
-/* The right side of the equations of the films. */
+/* Gives the right side of the equations of the films. */
 static void vary_films(const stages *g, const dynamics_landing *step, const double *start,
                        const variation *v, double *side)
 {
@@ -424,7 +426,7 @@ static void vary_films(const stages *g, const dynamics_landing *step, const doub
         }
 }
 
-/* Derivatives at the end of the step, from those of the films at the stages. */
+/* Computes the derivatives at the end of the step from those of the films at the stages. */
 static void vary_end(const stages *g, const variation *v, const double *film, double *end)
 {
     double force[S] = {0}, a[S], delta = v->delta[S - 1], rate = v->rate[S - 1];
@@ -444,8 +446,8 @@ static void vary_end(const stages *g, const variation *v, const double *film, do
         end[2 + g->flank[n]] = film[n * S + S - 1];
 }
 
-/* The equations of the step, differentiated by the start values and, at fixed phases, by T, which
-   stretches the step and slows the entrainment. */
+/* Differentiates the equations of the step by the start values and, at fixed phases, by T. T
+ * stretches the step and slows the entrainment. */
 void dynamics_landing_vary(const dynamics_radau *r, const dynamics_landing *step,
                            double column[DYNAMICS_FILM_COLUMNS][DYNAMICS_FILM_ROWS])
 {

@@ -15,51 +15,53 @@
 enum { DYNAMICS_STAGES = 7, DYNAMICS_NODES = DYNAMICS_STAGES + 1 };
 
 /* Columns of a variation: derivatives by the start values of delta, its rate and both films, and by
-   the duration of the mesh cycle at a fixed phase. Rows: delta, rate, films. */
+ * the duration of the mesh cycle at fixed phase. Rows: delta, rate, films. */
 enum { DYNAMICS_FILM_ROWS = 4, DYNAMICS_FILM_COLUMNS = 5 };
 
 typedef struct dynamics_radau {
     double node[DYNAMICS_STAGES]; /* in (0, 1], the last one at 1 */
     double a[DYNAMICS_STAGES][DYNAMICS_STAGES], square[DYNAMICS_STAGES][DYNAMICS_STAGES];
-    double power[DYNAMICS_NODES][DYNAMICS_NODES]; /* of x, from values at 0 and the nodes */
+    double power[DYNAMICS_NODES][DYNAMICS_NODES]; /* powers of x from values at 0 and the nodes */
 } dynamics_radau;
 
 void dynamics_radau_init(dynamics_radau *radau);
 
-/* A step from phase `at` to `end`; the first number of each series is the start, the others are at
-   the nodes. open: whether the film of a flank carries; one that does not is in free flight. */
+/* A step from the phase `at` to `end`. The first number of each series belongs to the start, the
+ * others to the nodes. `open` says whether the film of a flank carries; a film that does not is in
+ * free flight. */
 typedef struct dynamics_landing {
     const dynamics_excitation *excitation;
     const dynamics_piece *piece;
     double at, end, T;
     int open[2];
     double delta[DYNAMICS_NODES], rate[DYNAMICS_NODES], film[2][DYNAMICS_NODES];
-    double bend[2][DYNAMICS_NODES]; /* of the teeth, q + y */
-    double force[DYNAMICS_NODES];   /* of the teeth on the gears, along delta */
-    double doubt;                   /* of the nodes' polynomials, over what is allowed */
+    double bend[2][DYNAMICS_NODES]; /* bend of the teeth, q + y */
+    double force[DYNAMICS_NODES];   /* force of the teeth on the gears, along delta */
+    double doubt;                   /* error of the nodes' polynomials over the allowed error */
     dynamics_approach approach[2][DYNAMICS_STAGES];
-    double inverse[DYNAMICS_STAGES][DYNAMICS_STAGES]; /* acceleration over force, of the stages */
+    double inverse[DYNAMICS_STAGES][DYNAMICS_STAGES]; /* derivative of the accelerations of the
+                                                         stages by the force */
 } dynamics_landing;
 
 /* Solves the step from the start values. 0: no solution was found; a shorter step has one. */
 int dynamics_landing_solve(const dynamics_radau *radau, dynamics_landing *step);
 
-/* Moves the derivatives over the step. */
+/* Carries the derivatives over the step. */
 void dynamics_landing_vary(const dynamics_radau *radau, const dynamics_landing *step,
                            double column[DYNAMICS_FILM_COLUMNS][DYNAMICS_FILM_ROWS]);
 
-/* Energy in the step. */
+/* Energies of a step. */
 typedef struct dynamics_landing_energy {
-    double damper, films; /* what they took */
-    double work;          /* what changes of k and e brought in */
-    double thickness;     /* what the loaded film brought in of it */
-    double drag;          /* what friction and rolling took */
+    double damper, films; /* taken by them */
+    double work;          /* supplied by changes of k and e */
+    double thickness;     /* part of `work` supplied by the loaded film */
+    double drag;          /* taken by friction and rolling */
 } dynamics_landing_energy;
 
 dynamics_landing_energy dynamics_landing_energies(const dynamics_radau *radau,
                                                   const dynamics_landing *step);
 
-/* The powers of x in [0, 1] of the polynomial through the values. */
+/* Gives the polynomial through the values as powers of x in [0, 1]. */
 void dynamics_landing_polynomial(const dynamics_radau *radau, const double *value, double *power);
 
 #endif

@@ -25,7 +25,7 @@ ff_status dynamics_oil_check(const ff_host *host, const dynamics_oil *oil, int32
     return FF_OK;
 }
 
-/* A scalar or series that the oil needs, all of it above 0. */
+/* Reads a scalar or series that the oil needs; all values are above 0. */
 static ff_status check_input(const ff_host *host, const ff_array *in, int input, size_t count)
 {
     const char *name = dynamics_oil_input_ports[input].name;
@@ -42,9 +42,9 @@ static ff_status check_input(const ff_host *host, const ff_array *in, int input,
     return FF_OK;
 }
 
-/* The radii of curvature change evenly along the line of action, so that the equivalent radius r1
-   r2/(r1 + r2) of a pair is a parabola over the mesh cycles since SAP, and the speeds of the
-   flanks, r1 w1 and r2 w2, are straight lines: u is that half-way. */
+/* Sets radii and speeds. The radii of curvature change linearly along the line of action, so that
+ * the equivalent radius r1 r2/(r1 + r2) of a pair is a parabola in the mesh cycles since SAP. The
+ * flank speeds r1 w1 and r2 w2 are linear; u is their mean half-way. */
 static void read_path(const ff_array *in, const dynamics_inputs *inputs, double length,
                       dynamics_film *film)
 {

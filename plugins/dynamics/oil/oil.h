@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The oil between parted flanks, as the user asks for it and as gear and lubricant give it. */
+/* The oil between parted flanks: its parameters, and its data from gear and lubricant. */
 #ifndef DYNAMICS_OIL_H
 #define DYNAMICS_OIL_H
 
@@ -10,10 +10,10 @@ enum { DYNAMICS_SQUEEZE_NONE, DYNAMICS_SQUEEZE_SERIES };
 
 typedef struct dynamics_oil {
     int32_t squeeze, rolling;
-    double hand_over, supply; /* m; supply NaN: the gap is full of oil */
+    double hand_over, supply; /* m; supply NaN: oil fills the gap */
 } dynamics_oil;
 
-/* The parameters, for a member `oil` of the instance. */
+/* The parameter rows, for a member `oil` of the instance. */
 #define DYNAMICS_OIL_ROWS(type)                                                                    \
     FF_ONE_OF("none|series", "squeeze", type, oil.squeeze, 0, "none",                              \
               "oil squeezed out between flanks that have parted and meet again: none, or series, " \
@@ -27,11 +27,11 @@ typedef struct dynamics_oil {
                     "with squeeze: film from which on the oil does not fill the gap; default: it " \
                     "always does")
 
-/* In ready: refuses what does not go together, and says what serves nothing. */
+/* Checks in `ready`: refuses contradictory parameters and names those that have no effect. */
 ff_status dynamics_oil_check(const ff_host *host, const dynamics_oil *oil, int32_t damping);
 
-/* The film for an excitation whose units are known, which it then belongs to; *film is NULL without
-   squeeze. */
+/* Builds the film for an excitation whose units are known; it belongs to the excitation then. *film
+ * is NULL without squeeze. */
 ff_status dynamics_oil_read(const ff_host *host, const ff_array *in, const dynamics_oil *oil,
                             const dynamics_inputs *inputs, dynamics_excitation *excitation,
                             dynamics_film **film);

@@ -3,11 +3,12 @@
 
 #include <math.h>
 
-/* The ends of the table in ln w, where the power laws hold to 1e-8 of beta. */
+/* Ends of the table in ln w; beyond them the power laws hold to 1e-8 of beta. */
 static const double lowest = -12, highest = 14;
 
-/* The integrals of cos^4 and of sin^2 cos^2 from -pi/2 to delta - pi/2, that is of sin^4 and of
-   sin^2 cos^2 from 0 to delta. Near 0 the closed forms cancel, and series take their place. */
+/* Gives the integrals of cos^4 and of sin^2 cos^2 from -pi/2 to delta - pi/2, which equal those of
+ * sin^4 and of sin^2 cos^2 from 0 to delta. The closed forms cancel near 0; series replace them
+ * there. */
 static double fourth_power(double d)
 {
     double x = d * d;
@@ -26,21 +27,17 @@ static double mixed_power(double d)
     return d / 8 - sin(4 * d) / 32;
 }
 
-/* The integral of cos^2, by sin^2 = sin^4 + sin^2 cos^2. */
+/* Returns the integral of cos^2, by sin^2 = sin^4 + sin^2 cos^2. */
 static double second_power(double d)
 {
     return fourth_power(d) + mixed_power(d);
 }
 
-/*
- * Reynolds' equation, once integrated, is with X = x/sqrt(2 R h) and H = 1 + X^2
- *
- *   h^2/(12 eta u sqrt(2 R h)) dp/dX = (H - beta X - c)/H^3,
- *
- * where c = 1 + X_e^2 - beta X_e lets the slope vanish at the end X_e of the film. With X =
- * tan(gamma) all integrals are elementary; p(X_e) = 0 is linear in beta, and w = 24 times the
- * integral of the right side integrated, by parts.
- */
+/* Evaluates the curve in closed form. Reynolds' equation, integrated once, is with X = x/sqrt(2 R
+ * h) and H = 1 + X^2: h^2/(12 eta u sqrt(2 R h)) dp/dX = (H - beta X - c)/H^3. Its constant c = 1 +
+ * X_e^2 - beta X_e makes the slope vanish at the end X_e of the film. All integrals are elementary
+ * with X = tan(gamma). p(X_e) = 0 is linear in beta, and w is 24 times the integral of the
+ * pressure, taken by parts. */
 void dynamics_squeeze_point(double delta, double *beta, double *w)
 {
     double s = sin(delta), c = cos(delta), end = -c / s;
@@ -51,8 +48,8 @@ void dynamics_squeeze_point(double delta, double *beta, double *w)
     *w = 24 * (s * s / 2 + *beta * mixed_power(delta) - constant * quarter);
 }
 
-/* The delta at which ln w has the value, by Newton's method from a neighbour, with the slope of
-   asinh(beta) over ln w by central differences of the closed form. */
+/* Finds the delta of a given ln w by Newton's method from a neighbour. The slope of asinh(beta)
+ * over ln w comes from central differences of the closed form. */
 static double find_delta(double target, double delta)
 {
     for (int i = 0; i < 60; i++) {
@@ -85,12 +82,13 @@ void dynamics_squeeze_table_build(dynamics_squeeze_table *t)
         t->value[i] = asinh(beta);
         t->slope[i] = slope_at(delta);
     }
-    t->least = 0; /* asks dynamics_squeeze_beta for the curve itself */
+    t->least = 0; /* makes dynamics_squeeze_beta use the curve itself */
     t->beta_least = dynamics_squeeze_beta(t, exp(lowest), &t->slope_least);
     t->least = exp(lowest);
 }
 
-/* The cubic through the nodes in ln w, and the power laws beyond: straight lines. */
+/* Evaluates the cubic through the nodes in ln w, and the power laws, which are straight lines,
+ * beyond them. */
 static double curve(const dynamics_squeeze_table *t, double x, double *slope)
 {
     const double width = (highest - lowest) / (DYNAMICS_SQUEEZE_NODES - 1);

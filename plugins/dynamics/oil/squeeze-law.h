@@ -18,23 +18,25 @@
 
 enum { DYNAMICS_SQUEEZE_NODES = 1501 };
 
-/* A point of the curve in closed form, by delta = pi/2 + atan(X), 0 < delta < pi, where X sqrt(2 R
-   h) is the place at which the film ends. beta and w rise with delta. */
+/* Gives a point of the curve in closed form at delta = pi/2 + atan(X), 0 < delta < pi; the film
+ * ends at X sqrt(2 R h). beta and w rise with delta. */
 void dynamics_squeeze_point(double delta, double *beta, double *w);
 
-/* beta over w: asinh(beta) and its slope over ln w at evenly spaced nodes, cubic in between. The
-   error of beta is below 2e-9 (1 + |beta|); beyond the nodes the curve has its power laws. */
+/* Table of beta over w: asinh(beta) and its slope over ln w at evenly spaced nodes, cubic in
+ * between. The error of beta is below 2e-9 (1 + |beta|). The power laws of the curve hold beyond
+ * the nodes. */
 typedef struct dynamics_squeeze_table {
     double value[DYNAMICS_SQUEEZE_NODES], slope[DYNAMICS_SQUEEZE_NODES];
-    double least, beta_least, slope_least; /* w below which beta goes on straight, into w < 0 */
+    double least, beta_least,
+        slope_least; /* below this w, beta continues as a straight line to w < 0 */
 } dynamics_squeeze_table;
 
 void dynamics_squeeze_table_build(dynamics_squeeze_table *table);
 
-/* beta and its derivative by w. */
+/* Gives beta and its derivative by w. */
 double dynamics_squeeze_beta(const dynamics_squeeze_table *table, double w, double *slope);
 
-/* w of the wedge alone, beta = 0. */
+/* Returns w of the wedge alone, at beta = 0. */
 double dynamics_squeeze_wedge(void);
 
 #endif

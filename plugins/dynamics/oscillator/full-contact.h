@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The motion in which the driving flanks never part. The pair is linear then, so that one step of
-   Newton's method finds it. */
+/* The motion in which the driving flanks never part. Without its gap the pair is linear for a
+ * straight spring, so that one Newton step finds it. */
 #ifndef DYNAMICS_FULL_CONTACT_H
 #define DYNAMICS_FULL_CONTACT_H
 
@@ -8,8 +8,8 @@
 
 #include <flankfilm/plugin.h>
 
-/* Finds its state at phase 0, before the node. FF_NOCONV: there is none, or it is not stable. T is
- * the duration of a mesh cycle, `tolerance` the error per step. */
+/* Finds the state of that motion at phase 0, before the node. T is the duration of a mesh cycle,
+ * `tolerance` the error per step. FF_NOCONV: there is none, or it is not stable. */
 ff_status dynamics_full_contact(const dynamics_excitation *excitation, double T, double tolerance,
                                 double *delta, double *rate);
 

@@ -12,7 +12,8 @@ static double gap_at(const dynamics_motion_view *view, double phase, int left)
     return gap;
 }
 
-/* Two neighbouring samples; at a jump of the excitation the gap has another value outside. */
+/* Two neighbouring samples. At a jump of the excitation the gap outside the interval has another
+ * value. */
 typedef struct interval {
     const dynamics_motion_view *view;
     double from, to;
@@ -23,7 +24,7 @@ static double gap_inside(const interval *x, double phase)
     return gap_at(x->view, phase, phase > 0.5 * (x->from + x->to));
 }
 
-/* The phase at which the gap closes in the interval, by halving. */
+/* Returns the phase at which the gap closes in the interval, by bisection. */
 static double closing_phase(const interval *x)
 {
     enum { HALVINGS = 60 };
@@ -35,8 +36,8 @@ static double closing_phase(const interval *x)
     return high;
 }
 
-/* The speed with which the gap falls at a phase, by the parabola through its values there and at
-   two earlier places. */
+/* Returns the speed at which the gap falls at a phase, by the parabola through its values there and
+ * at two earlier phases. */
 static double closing_speed(const interval *x, double phase)
 {
     static const double share = 1e-3; /* of the interval */
@@ -55,8 +56,8 @@ static void add_landing(const interval *x, double at, size_t *found, double *pha
     ++*found;
 }
 
-/* The landings of the motion that is shown; `phase` and `speed` may be NULL. Where the excitation
-   jumps, the jump itself may close the gap: then the flanks meet with the speed before it. */
+/* Finds the landings of the motion that is shown; `phase` and `speed` may be NULL. A jump of the
+ * excitation may close the gap itself; the flanks then meet with the speed before the jump. */
 static size_t list_landings(const dynamics_motion_view *view, double *phase, double *speed)
 {
     size_t count = dynamics_motion_view_count(view), found = 0;

@@ -27,9 +27,9 @@ double dynamics_motion_view_phase(const dynamics_motion_view *view, size_t sampl
     return sample_at(view, sample)->phase;
 }
 
-/* Integrals by the Euler-Maclaurin rule: the trapezium with the slopes at its ends. The error of
-   the second integral is judged by Simpson's rule on Hermite's cubics, which is of the same order.
- */
+/* Integrates by the Euler-Maclaurin rule: the trapezium rule with the slopes at its ends. The error
+ * of the second integral is estimated by Simpson's rule on Hermite's cubics, which has the same
+ * order. */
 dynamics_statistics dynamics_motion_view_statistics(const dynamics_motion_view *view)
 {
     size_t count = dynamics_motion_view_count(view);
@@ -80,15 +80,14 @@ double dynamics_station_phase(const dynamics_inputs *inputs, size_t station)
     return fmax((inputs->roll_angle[station] - inputs->roll_sap) / inputs->pitch, 0);
 }
 
-/* Where two stations stand at one place the first one gets the value before the jump; so does the
- * tip. */
+/* Of two stations at one place the first gets the value before the jump. So does the tip. */
 static int is_left(const dynamics_inputs *inputs, size_t i)
 {
     return i + 1 == inputs->stations ||
            inputs->roll_angle[i + 1] - inputs->roll_angle[i] < 1e-12 * inputs->pitch;
 }
 
-/* The force of the pair at each station at the phase of that station. */
+/* Gives the force of the pair at each station, at the phase of that station. */
 static ff_status put_engagements(const dynamics_motion_view *view,
                                  const dynamics_excitation *excitation,
                                  const dynamics_inputs *inputs, const ff_host *host)
@@ -113,7 +112,7 @@ static ff_status put_engagements(const dynamics_motion_view *view,
     return FF_OK;
 }
 
-/* The top of the parabola through three points at equal distances, if it lies between them. */
+/* Returns the top of the parabola through three equally spaced points, if it lies between them. */
 static double top_of(const double force[3])
 {
     double rise = (force[2] - force[0]) / 2, bend = force[1] - (force[0] + force[2]) / 2;
@@ -121,13 +120,14 @@ static double top_of(const double force[3])
     return fabs(rise) < 2 * bend ? fmax(top, force[1] + rise * rise / (4 * bend)) : top;
 }
 
-/* The tooth force between the stations, in units of the excitation's. */
+/* The tooth force between stations, in units of the excitation's force. */
 typedef struct dynamics_between {
     double largest;
-    double beyond; /* half-way between two stations, by how much it leaves the span of both */
+    double
+        beyond; /* half-way between two stations, the amount by which it leaves the range of both */
 } dynamics_between;
 
-/* As on `parts` times the stations; `newton`: the unit of force. */
+/* Samples the tooth force on `parts` times the stations; `newton` is the unit of force. */
 static dynamics_between look_between(const dynamics_motion_view *view, double newton,
                                      const dynamics_inputs *inputs, size_t parts)
 {
@@ -155,11 +155,12 @@ static dynamics_between look_between(const dynamics_motion_view *view, double ne
     return found;
 }
 
-/* Most parts of the way between two stations that a number of stations is looked for with. */
+/* Largest factor on the number of stations that is tried. */
 enum { MOST_PARTS = 27 };
 
-/* Returns how many stations follow the motion, by what it does on two, three, five and more times
-   as many: few of them see little of a vibration that turns between two. 0: more than those. */
+/* Returns how many stations resolve the motion, judged by its tooth force on two, three, five and
+ * more times as many. Too few stations miss a vibration that turns between two of them. 0: more
+ * than the factors tried. */
 static double enough_stations(const dynamics_motion_view *view, double newton,
                               const dynamics_inputs *inputs, double limit)
 {
@@ -172,10 +173,10 @@ static double enough_stations(const dynamics_motion_view *view, double newton,
     return found.beyond > limit * found.largest ? 0 : (double)(inputs->stations * parts);
 }
 
-/* A vibration that turns by w between two stations leaves their span by 1 - cos(w/2) of its
-   amplitude where it turns back, which is what a monotone cubic cuts off; a jump between them, as
-   of the damper's force at a corner of the transmission error, is ramped over and does not. The
-   Hertz pressure is off by half as much. */
+/* Judges the loss at a turning point. A vibration that turns by the angle w between two stations
+ * leaves their range by 1 - cos(w/2) of its amplitude, and a monotone cubic cuts that off. The
+ * Hertz pressure errs by half as much. A jump between stations, as of the damper's force at a
+ * corner of the transmission error, is a ramp instead. */
 static void report_sampling(const dynamics_motion_view *view, double newton,
                             const dynamics_between *found, const dynamics_inputs *inputs,
                             const ff_host *host)
@@ -225,7 +226,7 @@ ff_status dynamics_motion_view_put(const dynamics_motion_view *view, const dynam
     }
     dynamics_sharing_report(inputs, excitation->on_chord, st->least_force * newton,
                             st->force * newton, host);
-    /* NaN: not looked for, which leaves the factor out */
+    /* NaN: no factor was looked for */
     double tooth = looked ? between.largest * newton : NAN;
     const struct {
         uint32_t output;

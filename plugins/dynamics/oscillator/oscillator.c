@@ -10,17 +10,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The longest step, in radians of the stiffest mesh: it holds at most one turning point. */
+/* Longest step, in radians of the stiffest mesh: it holds at most one turning point. */
 static const double longest_step = 0.5;
 
-/* Steps since the start beyond which the motion is given up. */
+/* The motion is given up after this many steps since the start. */
 static const size_t step_limit = 20000000;
 
-/* The least error of a step, relative to the motion, that can be asked for. */
+/* Least error of a step, relative to the motion, that can be asked for. */
 static const double round_off = 1e-14;
 
-/* Events in a row that each advance by less than `slip`, rad, before the regime is held for that
- * time. */
+/* An event that comes less than `slip` (rad) after the one before counts as idle. After this many
+ * of them in a row the regime is held for that time. */
 enum { MAX_IDLE = 4 };
 static const double slip = 1e-6;
 
@@ -37,14 +37,14 @@ struct dynamics_oscillator {
     double t;       /* time since the start of the piece */
     int refine;     /* divides the longest step and each piece */
     double longest; /* the longest step */
-    double cap;     /* the longest step in this piece */
+    double cap;     /* longest step in this piece */
     double h;       /* next step */
     dynamics_clocks clocks;
     size_t steps;
 };
 
-/* A condition that holds as long as value >= 0; then the regime changes to (side, pressed), or the
-   spring alone to another band. */
+/* A condition that holds while value >= 0. When it fails, the regime changes to (side, pressed), or
+ * the spring alone to another band. */
 typedef struct gate {
     double value, rate;
     int side, pressed, knee, band;
@@ -52,7 +52,7 @@ typedef struct gate {
 
 enum { MOST_GATES = 4 };
 
-/* The slope of the spring's force in the present band. */
+/* Returns the slope of the spring's force in the present band. */
 static double stiffness_at(const dynamics_oscillator *o, double t)
 {
     return dynamics_piece_value(dynamics_spring_slope(o->piece, o->band), o->piece->degree,
@@ -66,7 +66,7 @@ static double stiffness_rate_at(const dynamics_oscillator *o, double t)
            o->T;
 }
 
-/* What the force of the spring is less than slope times deflection. */
+/* Returns slope times deflection less the spring's force, in the present band. */
 static double offset_at(const dynamics_oscillator *o, double t)
 {
     return o->band ? dynamics_spring_sign(o->band) *
@@ -107,7 +107,7 @@ static double drag_at(const dynamics_oscillator *o, double t)
                : 0;
 }
 
-/* What drives delta: the load less the drag and e''. */
+/* Returns the force that drives delta: the load less the drag and e''. */
 static double drive_at(const dynamics_oscillator *o, double t)
 {
     double bend = dynamics_piece_bend(o->piece->e, o->piece->degree, t / o->T);
@@ -125,8 +125,8 @@ static double energy_rate_at(const dynamics_oscillator *o, double t, double bend
     return dynamics_spring_at(o->piece, t / o->T, o->T, bend, o->band).energy_rate;
 }
 
-/* The equation of excitation.h in delta = s - e; its variation; and the powers of
-   damper and excitation, the latter less what the drag takes. */
+/* Evaluates the equation of excitation.h in delta = s - e, its variation, and the powers of damper
+ * and excitation. The power of the excitation excludes that of the drag. */
 static int derivative(double t, const double y[], double dydt[], void *self)
 {
     const dynamics_oscillator *o = self;
@@ -226,8 +226,8 @@ double dynamics_oscillator_energy(const dynamics_oscillator *o)
     return 0.5 * s_rate * s_rate + stored - o->excitation->load * s;
 }
 
-/* s and s' are continuous at a node, so that delta = s - e jumps against e. Where e jumps the
-   damper gives an impulse of 2 zeta times the jump. */
+/* Passes a node. s and s' are continuous there, so that delta = s - e jumps by the negative jump of
+ * e. The damper turns a jump of e into an impulse of 2 zeta times that jump. */
 static void pass_node(dynamics_oscillator *o, const dynamics_piece *piece, double T)
 {
     double before = dynamics_oscillator_energy(o);
@@ -241,7 +241,7 @@ static void pass_node(dynamics_oscillator *o, const dynamics_piece *piece, doubl
     o->y[DYNAMICS_WORK] += dynamics_oscillator_energy(o) - before;
 }
 
-/* Finds the gates at which flanks meet or part and returns their number. */
+/* Lists the gates at which flanks meet or part. Returns their number. */
 static int find_contact_gates(const dynamics_oscillator *o, double t, const double *y,
                               gate g[MOST_GATES])
 {
@@ -273,8 +273,8 @@ static int find_contact_gates(const dynamics_oscillator *o, double t, const doub
     return 2;
 }
 
-/* The gate at the knee of the spring on one flank from which a line takes over: how far it is
-   exceeded, or falls short of (`sign` -1). */
+/* Sets the gate at the knee of the spring on one flank, from which a line takes over: the excess
+ * over the knee, or the lack (`sign` -1). */
 static gate knee_gate(const dynamics_oscillator *o, double t, const double *y, int flank, int line,
                       double sign)
 {
@@ -298,7 +298,7 @@ static gate knee_gate(const dynamics_oscillator *o, double t, const double *y, i
                   .band = flank * (sign > 0 ? line - 1 : line)};
 }
 
-/* Finds the gates of the present regime and returns their number. */
+/* Lists the gates of the present regime. Returns their number. */
 static int find_gates(const dynamics_oscillator *o, double t, const double *y, gate g[MOST_GATES])
 {
     int count = find_contact_gates(o, t, y, g);
@@ -314,7 +314,7 @@ static int find_gates(const dynamics_oscillator *o, double t, const double *y, g
 }
 
 /* Tries a step from the present state. `error` gets GSL's estimate for the motion alone: the
-   variation obeys the same equation and may grow to any size. */
+ * variation obeys the same equation and may grow to any size. */
 static void attempt(dynamics_oscillator *o, double h, double *y, double *error)
 {
     memcpy(y, o->y, sizeof o->y);
@@ -324,7 +324,7 @@ static void attempt(dynamics_oscillator *o, double h, double *y, double *error)
     o->steps++;
 }
 
-/* The value or the rate of gate i after a step of h. */
+/* Returns the value or the rate of gate i after a step of h. */
 static double gate_after_step(dynamics_oscillator *o, int i, int rate, double h)
 {
     double y[DYNAMICS_STATE_SIZE], error[DYNAMICS_STATE_SIZE];
@@ -334,11 +334,11 @@ static double gate_after_step(dynamics_oscillator *o, int i, int rate, double h)
     return rate ? g[i].rate : g[i].value;
 }
 
-/* Bisection takes over from the secant when that has not met the instant: some 52 halvings of a
-   step reach round-off. */
+/* Most probes; bisection takes over from the secant after MAX_SECANTS of them. Some 52 halvings of
+ * a step reach round-off. */
 enum { MAX_PROBES = 100, MAX_SECANTS = 50 };
 
-/* The step at which gate i, or its rate, changes sign between 0 and h. */
+/* Returns the step at which gate i, or its rate, changes sign between 0 and h. */
 static double find_change(dynamics_oscillator *o, int i, int rate, double at_0, double h,
                           double at_h)
 {
@@ -356,22 +356,22 @@ static double find_change(dynamics_oscillator *o, int i, int rate, double at_0, 
     return b.high;
 }
 
-/* Whether the cubic through two values and rates stays clear of 0 in between. */
+/* Returns whether the cubic through two values and rates stays clear of 0 in between. */
 static int stays_clear(const gate *a, const gate *z, double h)
 {
     double slope = (z->value - a->value) / h;
     double c2 = (3 * slope - 2 * a->rate - z->rate) / h;
     double c3 = (a->rate + z->rate - 2 * slope) / (h * h);
     double root = sqrt(fmax(c2 * c2 - 3 * c3 * a->rate, 0));
-    double x = -a->rate / (c2 + root); /* the minimum, since the rate there rises */
+    double x = -a->rate / (c2 + root); /* the minimum, where the rate rises through 0 */
     if (!(x > 0 && x < h))
         return 0;
     double lowest = a->value + x * (a->rate + x * (c2 + x * c3));
     return lowest > 0.1 * (fmin(a->value, z->value) - lowest);
 }
 
-/* The first instant in the step of h at which gate i closes, or -1. Without a change of sign the
-   gate may still touch 0 in between: then its lowest point is looked at. */
+/* Returns the first instant in the step of h at which gate i closes, or -1. A gate without a change
+ * of sign may still touch 0 in between; its lowest point is then checked. */
 static double find_closing(dynamics_oscillator *o, int i, const gate *a, const gate *z, double h)
 {
     double tiny = 100 * DBL_EPSILON * (1 + o->excitation->half_gap);
@@ -387,9 +387,9 @@ static double find_closing(dynamics_oscillator *o, int i, const gate *a, const g
     return value < -tiny ? find_change(o, i, 0, start, lowest, value) : -1;
 }
 
-/* The flanks meet or part at the edge of the gap. Where the force jumps there, the variation is
-   multiplied by the saltation matrix 1 + [0 0; jump/rate 0] (Leine & Nijmeijer 2004, Dynamics and
-   Bifurcations of Non-Smooth Mechanical Systems). */
+/* Multiplies the variation by the saltation matrix 1 + [0 0; jump/rate 0] where flanks meet or part
+ * at the edge of the gap and the force jumps (Leine & Nijmeijer 2004, Dynamics and Bifurcations of
+ * Non-Smooth Mechanical Systems). */
 static void cross_edge(dynamics_oscillator *o, const gate *g)
 {
     double before[DYNAMICS_STATE_SIZE], after[DYNAMICS_STATE_SIZE], rate = o->y[DYNAMICS_RATE];
@@ -404,8 +404,9 @@ static void cross_edge(dynamics_oscillator *o, const gate *g)
     o->y[DYNAMICS_M22] += salt * o->y[DYNAMICS_M12];
 }
 
-/* When a flank begins to lag behind the teeth, the damper takes the energy of the spring. A jump of
-   e across the edge of the gap brings energy in or takes it out. */
+/* Books energy at a change of regime. When a flank begins to lag behind the teeth, the damper takes
+ * the energy of the spring. A jump of e across the edge of the gap brings energy in or takes it
+ * out. */
 static void change_regime(dynamics_oscillator *o, const gate *g)
 {
     if (g->knee) {
@@ -440,7 +441,7 @@ static void accept_step(dynamics_oscillator *o, double h, const double *y)
     o->clocks.damped += damper_acts(o) ? h : 0;
 }
 
-/* Finds the first event in the step of h to y, its instant and its gate; 0: there is none. */
+/* Finds the first event in the step of h to y: its instant and its gate. 0: there is none. */
 static int find_event(dynamics_oscillator *o, double h, const double *y, double *at, gate *which)
 {
     gate a[MOST_GATES], z[MOST_GATES];
@@ -457,7 +458,7 @@ static int find_event(dynamics_oscillator *o, double h, const double *y, double 
     return found;
 }
 
-/* Integrates to the instant `end` of the piece; 0: too many steps. */
+/* Integrates to the instant `end` of the piece. 0: too many steps. */
 static int advance_to(dynamics_oscillator *o, double end)
 {
     static const double no_slope[DYNAMICS_STATE_SIZE] = {0};
@@ -509,8 +510,8 @@ static void add_sample(const dynamics_oscillator *o, double phase, dynamics_reco
     };
 }
 
-/* Integrates a piece from sample to sample. Its start gets a sample when the excitation jumps
-   there. `next` is the number of the next sample of the cycle. */
+/* Integrates a piece from sample to sample. The start of the piece gets a sample if the excitation
+ * jumps there. `next` is the number of the next sample in the cycle. */
 static int record_piece(dynamics_oscillator *o, const dynamics_piece *piece, double T, size_t *next,
                         dynamics_record *record)
 {

@@ -21,8 +21,8 @@ enum {
     DYNAMICS_M12,
     DYNAMICS_M21,
     DYNAMICS_M22,
-    DYNAMICS_LOSS, /* energy that the damper took */
-    DYNAMICS_WORK, /* energy that changes of k and e brought in */
+    DYNAMICS_LOSS, /* energy taken by the damper */
+    DYNAMICS_WORK, /* energy supplied by changes of k and e */
     DYNAMICS_STATE_SIZE
 };
 
@@ -30,46 +30,47 @@ enum { DYNAMICS_MOTION = 2, DYNAMICS_MOTION_AND_VARIATION = DYNAMICS_STATE_SIZE 
 
 typedef struct dynamics_oscillator dynamics_oscillator;
 
-/* The motion at a phase; where the excitation jumps there are two samples. */
+/* The motion at a phase. A jump of the excitation has two samples. */
 typedef struct dynamics_sample {
     double phase; /* mesh cycles since the start of the record */
     double s, s_rate, force;
-    double film; /* with oil: that in front of the driving flank, beyond the one at hand-over */
+    double film; /* with oil: the film on the driving flank, beyond the thickness at hand-over */
 } dynamics_sample;
 
-/* Samples of consecutive mesh cycles, `per_cycle` in each, and where the excitation jumps. */
+/* Samples of consecutive mesh cycles: `per_cycle` in each, and one more at each jump of the
+ * excitation. */
 typedef struct dynamics_record {
     size_t per_cycle, count, capacity;
-    size_t cycles; /* recorded so far */
+    size_t cycles; /* number of cycles recorded so far */
     dynamics_sample *samples;
 } dynamics_record;
 
-/* NULL: out of memory. `tolerance` is the error per step; `refine` divides the longest step, so
-   that the error of the steps can be measured; `components` is DYNAMICS_MOTION or
-   DYNAMICS_MOTION_AND_VARIATION. */
+/* Makes an integrator. `tolerance` is the error per step. `refine` divides the longest step, so
+ * that the error of the steps can be measured. `components` is DYNAMICS_MOTION or
+ * DYNAMICS_MOTION_AND_VARIATION. NULL: out of memory. */
 dynamics_oscillator *dynamics_oscillator_new(const dynamics_excitation *excitation,
                                              double tolerance, int refine, size_t components);
 void dynamics_oscillator_free(dynamics_oscillator *o);
 
-/* Starts at phase 0, before the node that may lie there, of mesh cycles of duration T. Resets the
-   variation and the clocks. */
+/* Starts mesh cycles of duration T at phase 0, before a node there. Resets the variation and the
+ * clocks. */
 void dynamics_oscillator_start(dynamics_oscillator *o, double T, double delta, double rate);
 const double *dynamics_oscillator_state(const dynamics_oscillator *o);
 
 /* Integrates one mesh cycle of duration T; `record` may be NULL. 0: too many steps. */
 int dynamics_oscillator_cycle(dynamics_oscillator *o, double T, dynamics_record *record);
 
-/* The times since the start in which the flanks were parted, the back flanks touched, and the
-   damper acted. */
+/* Gives the times since the start in which the flanks were parted, the back flanks touched, and the
+ * damper acted. */
 typedef struct dynamics_clocks {
     double parted, back, damped;
 } dynamics_clocks;
 dynamics_clocks dynamics_oscillator_clocks(const dynamics_oscillator *o);
 
-/* The energy of the motion, with the potential of the load. */
+/* Returns the energy of the motion, with the potential of the load. */
 double dynamics_oscillator_energy(const dynamics_oscillator *o);
 
-/* The number of steps since the start, with the rejected ones and those of the root finder. */
+/* Returns the number of steps since the start, with rejected ones and those of the root finder. */
 size_t dynamics_oscillator_steps(const dynamics_oscillator *o);
 
 int dynamics_record_init(dynamics_record *record, const dynamics_excitation *excitation,

@@ -9,17 +9,17 @@
 
 const double dynamics_longest_cycle = 1e6;
 
-/* Where the flanks part, branches are found as in an experiment: by a slow sweep of the speed.
-   Going down from above resonance, where contact is never lost, the sweep follows the bent
-   resonance; going up it stays on the branch below. The sweep starts at `top` times the natural
-   frequency or at `bottom` times the mesh frequency. */
+/* Branches that lose contact are found as in an experiment, by a slow sweep of the speed. A falling
+ * sweep starts above resonance, where contact is never lost, and follows the bent resonance. A
+ * rising sweep stays on the branch below. The sweep starts at `top` times the natural frequency, or
+ * at `bottom` times the mesh frequency. */
 static const double top = 1.4, bottom = 0.7;
-/* Mesh cycles: at the start of a sweep, the most to settle with and without damping, and
- * remembered. */
+/* Counts of mesh cycles: at the start of a sweep, the most to settle with and without damping, and
+ * kept in memory. */
 enum { START_CYCLES = 50, DAMPED_LIMIT = 20000, UNDAMPED_LIMIT = 1000, HISTORY = 32 };
 
-/* The distance to a periodic motion up to which a motion that has not settled is called periodic.
- */
+/* A motion that has not settled is called periodic if its distance to a periodic motion is below
+ * this. */
 static const double nearly_periodic = 1e-3;
 
 static void start_at_rest(const dynamics_follower *follower, const dynamics_excitation *excitation,
@@ -28,9 +28,9 @@ static void start_at_rest(const dynamics_follower *follower, const dynamics_exci
     follower->start(follower->self, T, dynamics_rest_deflection(excitation), 0);
 }
 
-/* The relative change of the mesh frequency per cycle is well below the damping, so that the motion
-   follows. Below a tenth of the natural frequency, where resonances are of high order and low, it
-   is the change per time that is held. */
+/* Keeps the relative change of the mesh frequency per cycle well below the damping, so that the
+ * motion follows. Below a tenth of the natural frequency the resonances are of high order and weak;
+ * there the change per time is kept instead. */
 double dynamics_sweep_rate(const dynamics_excitation *excitation, double frequency)
 {
     double rate = fmin(fmax(0.1 * excitation->zeta, 1e-4), 1e-3);
@@ -49,7 +49,8 @@ static int is_unbounded(const dynamics_follower *follower, const dynamics_excita
     return dynamics_is_unbounded(excitation, x[0], x[1]);
 }
 
-/* The start of the sweep takes five times the time 1/zeta in which a disturbance decays by e. */
+/* Gives the start of the sweep five times the time 1/zeta in which a disturbance decays by a factor
+ * e. */
 size_t dynamics_sweep_start_cycles(const dynamics_excitation *excitation, double T)
 {
     double decay = excitation->zeta * T;
@@ -61,8 +62,9 @@ double dynamics_sweep_from(dynamics_branch branch, double frequency)
     return branch == DYNAMICS_BRANCH_UPPER ? fmax(top, frequency) : bottom * frequency;
 }
 
-/* Sweeps from the state of the follower at one frequency to another, both relative to the natural
-   one, after `start` cycles. Where the motion grows without bound it starts from rest again. */
+/* Sweeps from one frequency to another (both relative to the natural frequency), from the
+ * follower's state and after `start` cycles. A motion that grows without bound restarts from rest.
+ */
 static ff_status sweep(const dynamics_follower *follower, const dynamics_excitation *excitation,
                        const ff_host *host, double from, double to, size_t start)
 {
@@ -80,8 +82,8 @@ static ff_status sweep(const dynamics_follower *follower, const dynamics_excitat
     return FF_OK;
 }
 
-/* Four times the cycles in which the slowest disturbance, exp(-zeta t), falls below the tolerance.
- */
+/* Returns four times the number of cycles in which the slowest disturbance, exp(-zeta t), falls
+ * below the tolerance. */
 size_t dynamics_settle_limit(const dynamics_excitation *excitation, double T, double tolerance)
 {
     double decay = excitation->zeta * T;
@@ -102,7 +104,7 @@ static void remember(history *h, const double *x)
     h->count++;
 }
 
-/* The change of the state over one period, as it was `ago` cycles ago. */
+/* Returns the change of the state over one period, `ago` cycles ago. */
 static double change_over(const history *h, int period, int ago)
 {
     size_t now = (h->count - 1 - (size_t)ago) % HISTORY;
@@ -110,9 +112,9 @@ static double change_over(const history *h, int period, int ago)
     return fmax(fabs(h->delta[now] - h->delta[then]), fabs(h->rate[now] - h->rate[then]));
 }
 
-/* The distance to a motion of that period. If a disturbance shrinks by mu in one period, the state
-   changes over it by 1 - mu of the distance. mu is exp(-zeta p T) while the flanks touch, or the
-   ratio of the last two changes where that is larger. */
+/* Estimates the distance to a motion of that period. A disturbance that shrinks by mu in one period
+ * changes by 1 - mu of the distance. mu is exp(-zeta p T), as in contact, or the ratio of the last
+ * two changes if that is larger. */
 static double distance_to(const history *h, const dynamics_excitation *excitation, double T,
                           int period)
 {
@@ -123,9 +125,9 @@ static double distance_to(const history *h, const dynamics_excitation *excitatio
     return change == 0 ? 0 : change / fmax(1 - mu, DBL_EPSILON);
 }
 
-/* The shortest period within the tolerance, or else the one that fits best. A disturbance that dies
-   out may come close to itself after some cycles: a period counts only when the change over any
-   shorter one is far larger. */
+/* Finds the shortest period within the tolerance, or else the one that fits best. A decaying
+ * disturbance may nearly repeat after some cycles, so a period counts only if the change over every
+ * shorter one is far larger. */
 static void find_period(const history *h, const dynamics_excitation *excitation,
                         const dynamics_settling *how, dynamics_settled *result)
 {
