@@ -1,71 +1,154 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Failing allocations: the plugin's own calls of malloc, calloc and realloc are redirected in its
- * table of imported addresses. Those of the libraries that it uses stay as they are.
+ * Allocations of the plugin itself: its calls of malloc, calloc, realloc and free are redirected in
+ * its table of imported addresses. Those of the libraries that it uses stay as they are. Behind
+ * each block lies a zone that shows a write past its end.
  */
 #include "private.h"
 
+#include "../memory/memory.h"
+
 #include <dlfcn.h>
 #include <link.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
-enum { REMEMBERED = 64 };
+enum { ZONE = 256, FILLING = 0xA5 }; /* bytes */
 
-/* Of the child process; only redirected functions touch them. */
+typedef struct block {
+    unsigned char *first;
+    size_t size; /* without the zone */
+} block;
+
+/* Of the child process. A model may allocate in several threads at once. */
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static size_t made, failing;
-static struct {
-    uintptr_t first;
-    size_t size;
-} blocks[REMEMBERED]; /* the last ones; one that was freed since may be among them */
+static block *blocks; /* in use, in the order of their making but for gaps that were filled */
+static size_t block_count, block_room;
+static size_t breached; /* size of a block past whose end the model wrote; 0: of none */
 
 static bool fails(void)
 {
-    return ++made == failing;
+    pthread_mutex_lock(&lock);
+    bool now = ++made == failing;
+    pthread_mutex_unlock(&lock);
+    return now;
+}
+
+static size_t with_zone(size_t size)
+{
+    return size <= SIZE_MAX - ZONE ? size + ZONE : SIZE_MAX;
 }
 
 static void *remember(void *memory, size_t size)
 {
-    blocks[made % REMEMBERED].first = (uintptr_t)memory;
-    blocks[made % REMEMBERED].size = memory ? size : 0;
+    if (!memory)
+        return NULL;
+    memset((unsigned char *)memory + size, FILLING, ZONE);
+    pthread_mutex_lock(&lock);
+    if (block_count == block_room) {
+        block_room = block_room ? 2 * block_room : 64;
+        blocks = memory_resize(blocks, block_room * sizeof *blocks);
+    }
+    blocks[block_count++] = (block){memory, size};
+    pthread_mutex_unlock(&lock);
     return memory;
 }
 
-static void *counting_malloc(size_t size)
+/* Called with the lock held. */
+static void look_behind(const block *b)
 {
-    return fails() ? NULL : remember(malloc(size), size);
+    unsigned char *zone = b->first + b->size;
+    for (size_t i = 0; i < ZONE; i++)
+        if (zone[i] != FILLING) {
+            breached = b->size ? b->size : 1;
+            memset(zone, FILLING, ZONE);
+        }
 }
 
-static void *counting_calloc(size_t count, size_t size)
+/* A block that a library of the plugin has allocated is not known here. */
+static void forget(const void *memory)
 {
-    return fails() ? NULL : remember(calloc(count, size), count * size);
+    pthread_mutex_lock(&lock);
+    for (size_t i = block_count; i-- > 0;)
+        if (blocks[i].first == memory) {
+            look_behind(&blocks[i]);
+            blocks[i] = blocks[--block_count];
+            break;
+        }
+    pthread_mutex_unlock(&lock);
 }
 
-static void *counting_realloc(void *memory, size_t size)
+static void *zoned_malloc(size_t size)
 {
-    return fails() ? NULL : remember(realloc(memory, size), size);
+    return fails() ? NULL : remember(malloc(with_zone(size)), size);
+}
+
+static void *zoned_calloc(size_t count, size_t size)
+{
+    if (fails() || (size && count > SIZE_MAX / size))
+        return NULL;
+    return remember(calloc(1, with_zone(count * size)), count * size);
+}
+
+static void zoned_free(void *memory)
+{
+    forget(memory);
+    free(memory);
+}
+
+/* The block stays as it is where there is no memory for the new one. */
+static void *zoned_realloc(void *memory, size_t size)
+{
+    if (memory && size == 0) {
+        zoned_free(memory);
+        return NULL;
+    }
+    if (fails())
+        return NULL;
+    forget(memory);
+    return remember(realloc(memory, with_zone(size)), size);
 }
 
 size_t verify_allocation_room(const void *memory)
 {
-    for (size_t back = 0; back < REMEMBERED && back < made; back++) {
-        uintptr_t at = (uintptr_t)memory, first = blocks[(made - back) % REMEMBERED].first;
-        size_t size = blocks[(made - back) % REMEMBERED].size;
-        if (at >= first && at - first < size)
-            return size - (at - first);
+    size_t room = 0;
+    pthread_mutex_lock(&lock);
+    for (size_t i = 0; i < block_count && !room; i++) {
+        size_t offset = (uintptr_t)memory - (uintptr_t)blocks[i].first;
+        room = offset < blocks[i].size ? blocks[i].size - offset : 0;
     }
-    return 0;
+    pthread_mutex_unlock(&lock);
+    return room;
+}
+
+size_t verify_allocation_breached(void)
+{
+    pthread_mutex_lock(&lock);
+    for (size_t i = 0; i < block_count; i++)
+        look_behind(&blocks[i]);
+    size_t size = breached;
+    breached = 0;
+    pthread_mutex_unlock(&lock);
+    return size;
 }
 
 static uintptr_t replacement(const char *name)
 {
-    if (!strcmp(name, "malloc"))
-        return (uintptr_t)counting_malloc;
-    if (!strcmp(name, "calloc"))
-        return (uintptr_t)counting_calloc;
-    return strcmp(name, "realloc") ? 0 : (uintptr_t)counting_realloc;
+    static const struct {
+        const char *name;
+        void (*function)(void);
+    } rows[] = {{"malloc", (void (*)(void))zoned_malloc},
+                {"calloc", (void (*)(void))zoned_calloc},
+                {"realloc", (void (*)(void))zoned_realloc},
+                {"free", (void (*)(void))zoned_free}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (!strcmp(name, rows[i].name))
+            return (uintptr_t)rows[i].function;
+    return 0;
 }
 
 /* Full RELRO leaves the table read-only. */
@@ -121,6 +204,8 @@ bool verify_allocations_redirect(const ff_model *model)
         redirect(map, calls, calls_size, symbols, names);
     if (others)
         redirect(map, others, others_size, symbols, names);
+    if (model->destroy == free) /* of a table that was filled in while the object was loaded */
+        put((uintptr_t *)(uintptr_t)&model->destroy, (uintptr_t)zoned_free);
     return true;
 }
 

@@ -33,6 +33,7 @@ void verify_context_begin(verify_context *context, ff_engine *engine)
     context->model = context->loaded->model;
     context->laws = verify_plain_laws(engine, context->loaded);
     context->random = (verify_random){42};
+    context->redirected = verify_allocations_redirect(context->model);
 }
 
 void verify_watch(verify_context *context)
@@ -46,6 +47,10 @@ void verify_watch(verify_context *context)
 
 void verify_check_process(verify_context *context)
 {
+    size_t breached = verify_allocation_breached();
+    if (breached)
+        verify_fail(context, "wrote past the end of its own memory, %zu bytes, while %s", breached,
+                    context->outcome->step);
     if (!context->watching)
         return;
     if (getpid() != context->pid)

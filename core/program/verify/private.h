@@ -88,6 +88,7 @@ typedef struct verify_context {
     struct verify_setup *given; /* NULL: there is none */
     verify_outcome *outcome;
     ff_report *messages; /* about the parameter that was read last */
+    bool redirected;     /* its calls of malloc */
     bool watching;       /* from verify_watch on the model may change nothing of the process */
     pid_t pid;
     ff_environment *environment; /* as it was; NULL: nothing is watched yet */
@@ -97,7 +98,8 @@ typedef struct verify_context {
 /* `loaded` and `outcome` are set. */
 void verify_context_begin(verify_context *context, ff_engine *engine);
 void verify_watch(verify_context *context);
-/* Fails when the process is not as it was, which the step at hand has done. */
+/* Fails when the process is not as it was, or a block of the model's memory was overrun, which the
+   step at hand has done. */
 void verify_check_process(verify_context *context);
 
 /* Names the call in which a crash, a hang or a change of the process is then found. */
@@ -207,13 +209,15 @@ bool verify_outputs_agree(verify_context *context, const verify_instance *a,
 /* fixture.c: runs a check of the model's kind. */
 void verify_run_check(verify_context *context, const ff_check *check);
 
-/* allocation.c: makes the n-th allocation of the plugin itself fail (0: none) and counts them.
-   False when the plugin's calls cannot be redirected. */
+/* allocation.c: the plugin's own calls of malloc. False when they cannot be redirected. */
 bool verify_allocations_redirect(const ff_model *model);
+/* Makes the n-th allocation from now on fail (0: none), and counts them. */
 void verify_allocations_fail(size_t nth);
 size_t verify_allocations_made(void);
 /* Bytes from there to the end of the block that the plugin allocated; 0: it is in none. */
 size_t verify_allocation_room(const void *memory);
+/* The size of a block past whose end the plugin wrote since the last call; 0: it did not. */
+size_t verify_allocation_breached(void);
 
 /* test-life.c, test-outputs.c: what any model owes. False after a failure. */
 bool verify_test_references(verify_context *context);

@@ -55,7 +55,7 @@ bool verify_test_presets(verify_context *c)
 bool verify_test_places(verify_context *c)
 {
     verify_instance instance;
-    if (!verify_allocations_redirect(c->model))
+    if (!c->redirected)
         return verify_skip(c, "its calls of malloc cannot be redirected");
     verify_step(c, "create");
     bool good = verify_instance_create(&instance, c);
@@ -149,7 +149,7 @@ bool verify_test_allocations(verify_context *c)
     if (!setup)
         return false;
     verify_instance_close(&instance);
-    if (!verify_allocations_redirect(c->model))
+    if (!c->redirected)
         return verify_skip(c, "its calls of malloc cannot be redirected");
     bool good = true;
     double end = verify_now() + 1;

@@ -29,8 +29,10 @@ static int is(const char *fault)
 static double shared_alpha, scratch[8192];
 static volatile int calls, one = 1;
 
-static void misbehave(size_t n, const double *p)
+static void misbehave(const law *l, size_t n, const double *p)
 {
+    if (is("overrun") && n == 1)
+        ((volatile char *)(uintptr_t)l)[sizeof *l + 8] = 1;
     if (is("print") && n == 257)
         puts("computing 257 points");
     if (is("exit") && n == 1)
@@ -79,7 +81,7 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
     const law *l = self;
     double factor = is("derivative") ? 1.001 : 1;
     (void)T;
-    misbehave(n, p);
+    misbehave(l, n, p);
     for (size_t i = 0; i < n; i++) {
         scratch[i] = p[i];
         double slope, more = extra(p[i], &slope);
