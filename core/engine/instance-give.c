@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What an instance is given: values of parameters, arrays, and other instances on its wires. */
+/* Gives an instance its parameter values, its arrays, and the other instances on its wires. */
 #include "instance.h"
 
 #include "plugin/param.h"
@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The row of the parameter; -1 after an error. */
+/* Returns the row of the parameter; -1 after an error. */
 static int find_param(ff_instance *i, const char *name)
 {
     const ff_model *model = i->stage.loaded->model;
@@ -23,7 +23,7 @@ static int find_param(ff_instance *i, const char *name)
     return -1;
 }
 
-/* Puts a value in the place of those that its group has. */
+/* Keeps the value of the parameter, and drops the values of the others in its group. */
 static void keep(ff_instance *i, size_t row, ff_value value)
 {
     assert(row < i->stage.loaded->model->param_count);
@@ -81,8 +81,8 @@ ff_status ff_instance_set_reals(ff_instance *instance, const char *param, const 
                                    .count = si ? count : 0});
 }
 
-/* The array of a feed belongs to it. An object that knows that an array is connected need not be
-   made anew for another one. */
+/* Connects a feed to an input; the input then owns the array of the feed. The object is kept if
+ * only the array changes, since a model is told that an array is connected and not which one. */
 static void connect(ff_instance *i, size_t input, fe_feed feed)
 {
     assert(input < i->stage.loaded->model->input_count);
@@ -149,7 +149,7 @@ static bool uses(const ff_instance *i, const ff_instance *other)
     return found;
 }
 
-/* Connects what the other instance offers, or nothing. */
+/* Connects an output or service of the other instance, or disconnects the input. */
 static bool use(fe_request *q)
 {
     ff_instance *i = q->instance, *from = q->other;

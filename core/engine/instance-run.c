@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* Instances: runs, results and services. */
+/* Runs an instance, and gives access to its results and services. */
 #include "instance.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* The row of the output; -1 after an error. */
+/* Returns the row of the output; -1 after an error. */
 static int find_output(ff_instance *i, const char *name)
 {
     const ff_model *model = i->stage.loaded->model;
@@ -63,7 +63,8 @@ static bool is_up_to_date(const ff_instance *i)
 
 static bool run_marked(fe_request *q);
 
-/* Runs `from` for what the instance takes from it, and for what it gave before. */
+/* Runs the instance `from` for the outputs that this instance takes from it, and again for those
+ * that it was asked for before. */
 static bool run_feeding(ff_instance *i, ff_instance *from)
 {
     const ff_model *model = i->stage.loaded->model;
@@ -97,7 +98,8 @@ static bool run_what_feeds(ff_instance *i)
     return true;
 }
 
-/* One array for each input row; dimensions of one name on one wire have one length. */
+/* Collects one array for each input row. Dimensions with the same name on the same wire must
+ * have the same length. */
 static bool gather(ff_instance *i, ff_array *in)
 {
     const ff_loaded *loaded = i->stage.loaded;
@@ -146,7 +148,7 @@ static bool evaluate(ff_instance *i, const ff_array *in)
     return stage->ran;
 }
 
-/* From here on the results of the run before do not count. */
+/* Drops the results of the run before. */
 static void begin(ff_instance *i)
 {
     i->failed = true;
@@ -182,7 +184,7 @@ ff_status ff_instance_run(ff_instance *instance, const char *outputs)
     return fe_handle(&(fe_request){.instance = instance, .work = run, .text = outputs});
 }
 
-/* Why there are no results at all. */
+/* Explains why there are no results. */
 static const char *why_not(const ff_instance *i)
 {
     if (i->failed)
@@ -202,7 +204,7 @@ static bool refuse_result(fe_request *q)
                                                      : "the last run was not asked for it");
 }
 
-/* Says why there is no answer: the messages alone change. */
+/* Explains why there is no answer. Only the messages of the instance change. */
 static ff_status refuse(const ff_instance *i, bool (*work)(fe_request *q), const char *name)
 {
     return fe_handle(
@@ -275,7 +277,8 @@ static void do_call(void *of)
     q->status = q->call(q->ctx);
 }
 
-/* Without memory the request is left after fe_call_end, which leaves the model. */
+/* Calls the model. An allocation that fails inside leaves the request only after fe_call_end, so
+ * that the bracket around the model's code is closed. */
 static bool call(fe_request *q)
 {
     ff_instance *i = q->instance;
@@ -296,7 +299,8 @@ ff_status ff_instance_call(ff_instance *instance, const char *action, ff_status 
         .instance = instance, .work = call, .name = action, .call = work, .ctx = ctx});
 }
 
-/* The state that the stage left, in the heap in use. What its own next run was given stays. */
+/* Takes the state that the stage left, into the heap in use. The state that the stage was given
+ * for its own next run stays. */
 static bool take_state(ff_instance *from, void **state, size_t *size, ff_report *report)
 {
     ff_stage *stage = &from->stage;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Instances: what they are made of, and how their objects are made. */
+/* What an instance consists of, and how its object is made. */
 #include "instance.h"
 
 #include "plugin/param.h"
@@ -9,13 +9,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Whether the values are there: FF_NOCONV and FF_STOPPED are failures above 0. */
+/* Whether a call with this status gave values. FF_NOCONV and FF_STOPPED are failures, although
+ * they are above 0. */
 static bool is_good(ff_status status)
 {
     return status == FF_OK || status == FF_DOMAIN;
 }
 
-/* Keeps why the call failed or warned. */
+/* Keeps the model's reason for a failure or a warning. */
 static void explain(ff_instance *i)
 {
     const fe_tables *tables = &i->object.tables;
@@ -211,7 +212,8 @@ static bool is_replaced(const ff_instance *i, const ff_param *row)
     return false;
 }
 
-/* Whether the parameter, or another of its group, is given; *required: whether one must be. */
+/* Whether the parameter, or another one of its group, is given. *required: whether one of them
+ * must be. */
 static bool is_settled(const ff_instance *i, size_t param, bool *required)
 {
     const ff_model *model = i->stage.loaded->model;
@@ -231,7 +233,7 @@ static bool is_settled(const ff_instance *i, size_t param, bool *required)
     return given;
 }
 
-/* What each parameter is: given, preset or absent. */
+/* Settles the value of each parameter: given, preset or absent. */
 static bool settle(ff_instance *i)
 {
     const ff_model *model = i->stage.loaded->model;
@@ -256,7 +258,8 @@ static bool settle(ff_instance *i)
     return true;
 }
 
-/* Makes the objects whose services it takes; they may have been made anew. */
+/* Makes the objects of the instances whose services this one takes. A remade object has a new
+ * service table. */
 static bool make_feeding(ff_instance *i)
 {
     for (size_t k = 0; k < i->stage.loaded->model->input_count; k++) {
@@ -271,7 +274,7 @@ static bool make_feeding(ff_instance *i)
     return true;
 }
 
-/* The tables of what it uses, which have been made. */
+/* Hands the model the service tables of the instances on its wires, whose objects exist. */
 static bool wire(ff_instance *i)
 {
     const ff_model *model = i->stage.loaded->model;
@@ -296,7 +299,8 @@ static bool wire(ff_instance *i)
     return good;
 }
 
-/* Up to the first parameter that the model refuses, which the message is about. */
+/* Sets the parameters in order, up to the first one that the model refuses; the message names
+ * that one. */
 static bool set_all(ff_instance *i)
 {
     fe_place_params(&i->stage);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Shared by the files of instances alone. */
+/* Shared by core/engine/instance*.c alone. */
 #ifndef FE_INSTANCE_H
 #define FE_INSTANCE_H
 

@@ -7,13 +7,13 @@ static bool has_stages(const ff_run *run)
     return !run->broken && run->pipeline;
 }
 
-/* Whether the stage has results, which are whole. */
+/* Whether the stage has complete results. */
 static bool is_done(const ff_stage *stage)
 {
     return stage->ran || stage->reused;
 }
 
-/* The result of that path; NULL: it was not computed. */
+/* Returns the result of that path; NULL: it was not computed. */
 static const ff_result *find(const ff_run *run, const char *path)
 {
     const char *name;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Runs: one case of a pipeline, from its file with settings to its evaluation. */
+/* A run is one case of a pipeline: its file, its settings, its evaluation. */
 #include "run.h"
 
 #include <string.h>
@@ -43,7 +43,7 @@ static void make(void *ctx)
     call->run = fe_alloc(sizeof *call->run);
 }
 
-/* Makes a run with its first step. */
+/* Makes a run and takes its first step, such as reading the file. */
 static ff_status begin(ff_engine *engine, fe_run_request *call, ff_run **run)
 {
     if (fe_engine_call(engine, &engine->heap, make, call) != FF_OK)
@@ -106,7 +106,7 @@ ff_status ff_run_copy(const ff_run *run, ff_run **copied)
     return begin(run->engine, &(fe_run_request){.work = copy, .from = run}, copied);
 }
 
-/* Whether its file, which was read, can still be set. */
+/* Whether settings may still be laid over the file of the run. */
 static bool is_open(const ff_run *run)
 {
     return run && ff_run_root(run) && !run->pipeline;
@@ -141,7 +141,8 @@ ff_status ff_run_put(ff_run *run, const char *key, const ff_node *node)
     return is_open(run) && key && node ? fe_run_call(&call) : FF_INVALID;
 }
 
-/* Says what was wrong before once more: a file with an error cannot be started. */
+/* Builds the pipeline. Reports the errors of earlier steps again, since a file with an error
+ * cannot be started. */
 static void build(fe_run_request *call)
 {
     ff_run *run = call->run;
@@ -156,7 +157,7 @@ ff_status ff_run_build(ff_run *run, bool everything)
     return is_open(run) ? fe_run_call(&call) : FF_INVALID;
 }
 
-/* False where the file asks for what the program does with many cases. */
+/* Refuses a file that asks for many cases, which are the program's work. Returns false then. */
 static bool refuse_many(const ff_node *root, ff_report *report)
 {
     static const char *const keys[] = {"study", "accuracy"};
@@ -227,19 +228,20 @@ static void end(void *ctx)
     fe_tree_free(run->tree);
 }
 
-/* What a caller added to a stage lies in memory that is not the run's. */
+/* What a caller added to a stage lies in memory that the run does not own. */
 void ff_run_close(ff_run *run)
 {
     if (!run)
         return;
     if (!run->broken)
         fe_protected(&run->heap, end, run);
-    ff_report_free(run->report); /* a caller's messages lie in memory that is not the run's */
+    /* The caller's messages lie in memory that the run does not own. */
+    ff_report_free(run->report);
     fe_heap_close(&run->heap);
     fe_free(run);
 }
 
-/* Members that the caller's struct is too short for are NULL. */
+/* Copies the observer. Members beyond the size of the caller's struct are NULL. */
 static void start(fe_run_request *call)
 {
     ff_observer observer = {.size = sizeof observer};

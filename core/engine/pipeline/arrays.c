@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The arrays that a stage takes and gives: their dimensions agree, and their numbers are finite. */
+/* Arrays that a stage takes and gives. Checks that their dimensions agree and that their numbers
+ * are finite. */
 #include "build.h"
 
 #include <assert.h>
@@ -64,8 +65,9 @@ static bool check_input(const ff_pipeline *pipeline, const ff_stage *stage, size
                     stage->name, wire->name, why);
 }
 
-/* What a feedback wire brings from the round before. It is left out, with an error that counts in
-   the last round alone, when it does not belong to what the other wires bring. */
+/* Takes the array that a feedback wire brings from the round before. If its lengths do not agree
+ * with those of the other wires, it is left out, with an error that counts in the last round
+ * alone. */
 static void take_fed_back(const ff_pipeline *pipeline, const ff_stage *stage, size_t input,
                           fe_lengths *all, ff_array *in, ff_report *report)
 {
@@ -162,7 +164,7 @@ void fe_drop_untouched(ff_stage *stage)
     }
 }
 
-/* What an output is off by is infinite where that is not known. */
+/* An error estimate that is not known is infinite. */
 static bool may_be_infinite(const ff_port *row)
 {
     static const char ending[] = "_error";
@@ -170,7 +172,7 @@ static bool may_be_infinite(const ff_port *row)
     return length > end && !strcmp(row->name + length - end, ending);
 }
 
-/* Whether an output cannot be used; `why` completes 'the plugin ...'. */
+/* Whether an output cannot be used; `why` then completes 'the plugin ...'. */
 static bool is_faulty(const ff_stage *stage, size_t output, fe_lengths *all, char *why, size_t size)
 {
     const ff_result *result = &stage->results[output];
@@ -196,7 +198,7 @@ static bool is_faulty(const ff_stage *stage, size_t output, fe_lengths *all, cha
     return false;
 }
 
-/* The lengths of what the stage took, which an output "along gear.station" has, too. */
+/* Notes the lengths of the inputs, which also hold for an output "along gear.station". */
 static void enter_inputs(const ff_stage *stage, const ff_array *in, fe_lengths *all)
 {
     const ff_model *model = stage->loaded->model;

@@ -12,13 +12,14 @@ typedef struct binding {
     ff_stage *stage;
     const ff_loaded *loaded;
     const char *id;
-    bool chosen; /* it is the stage's model; else another one under `with` */
+    bool chosen; /* this is the model in use; else another one under `with` */
     fe_setting *settings;
-    const ff_node *before; /* the model that another one has replaced, which had... */
-    const char *left;      /* ... these, and the new one does not take them: 'x (a.yaml:1:2), y' */
+    const ff_node
+        *before;      /* the model that was replaced, for which the keys in `left` were written */
+    const char *left; /* keys that the new model does not take: 'x (a.yaml:1:2), y' */
 } binding;
 
-/* "atlas" holds the parameter or wire "atlas.from". */
+/* Whether the path names a map of the model: "atlas" holds the parameter or wire "atlas.from". */
 static bool is_map(const ff_model *model, const char *path)
 {
     for (size_t i = 0; i < model->param_count; i++)
@@ -56,7 +57,7 @@ static const char *nearest_key(binding *k, const char *path)
     return advice;
 }
 
-/* Another model under `with` that has this parameter, or NULL. */
+/* Returns another model under `with` that has this parameter, or NULL. */
 static const char *other_owner(const binding *k, const char *path)
 {
     const ff_node *with = ff_node_get(k->stage->node, "with");
@@ -92,8 +93,9 @@ static void refuse_key(binding *k, const char *path, ff_place place)
              k->stage->name, path, *advice ? "" : " for ", *advice ? "" : k->id, advice);
 }
 
-/* The model that the node was written for, before another one replaced it: an earlier `use`, of a
-   model that knows the path. NULL: none, so that the key is the new model's or a mistake. */
+/* Returns the model that the key was written for, if `use` has replaced it since; *before is its
+ * `use`. NULL: no replaced model knows the path, so the key is meant for the new one, or is a
+ * mistake. */
 static const ff_loaded *owner_before(binding *k, const ff_node *node, const char *path,
                                      const ff_node **before)
 {
@@ -121,7 +123,8 @@ static void leave_out(binding *k, const char *path, ff_place place, const ff_nod
                                         fe_place_text(k->b->pipeline, place)));
 }
 
-/* A key that the model does not know. */
+/* Leaves out a key that the model does not know if it was written for a replaced model; refuses
+ * it otherwise. */
 static void judge_key(binding *k, const char *path, const ff_node *value, ff_place place)
 {
     const ff_node *before = NULL;
@@ -131,8 +134,8 @@ static void judge_key(binding *k, const char *path, const ff_node *value, ff_pla
         refuse_key(k, path, place);
 }
 
-/* What was written for the model before, under a name that the new one has too, is left out where
-   the new one cannot take it: another unit, another word. */
+/* Leaves out a value that was written for a replaced model if the new model has a parameter of
+ * that name but cannot take the value, for example because the unit differs. */
 static void leave_misfit(binding *k, size_t index)
 {
     const ff_param *row = ff_model_param(k->loaded->model, index);
@@ -165,8 +168,9 @@ static void warn_of_left(binding *k)
                 fe_place_text(k->b->pipeline, k->before->place), k->left);
 }
 
-/* `prefix` is "" or "atlas."; `own`: the map is the stage's own, which has `use` and `with`, too. A
-   key with a dot is refused, since a dot stands for a map within a map. */
+/* Checks the keys of a map. `prefix` is "" or "atlas."; `own` marks the stage's own map, which
+ * also has `use` and `with`. A key with a dot is refused, since a dot stands for a map within a
+ * map. */
 static void check_keys(binding *k, const ff_node *map, const char *prefix, bool own)
 {
     const ff_model *model = k->loaded->model;
@@ -205,7 +209,7 @@ static bool replaces(const binding *k, const ff_param *row, const ff_wire *wire,
             fe_find_offer(k->b->pipeline->stages[wire->stage].loaded, input) >= 0);
 }
 
-/* The connected wire that replaces the parameter; NULL: none. */
+/* Returns the connected wire that replaces the parameter; NULL: none. */
 static const ff_wire *find_replacing(const binding *k, const ff_param *row)
 {
     const ff_model *model = k->loaded->model;
@@ -232,15 +236,15 @@ static void settle_replaced(binding *k, const ff_param *row, const fe_setting *s
                  fe_place_text(k->b->pipeline, wire->automatic ? from->place : wire->place));
 }
 
-/* A wire takes the place of the parameter, or would once the model under `with` is chosen. */
+/* Whether a wire replaces the parameter, or would do so if the model under `with` were chosen. */
 static bool may_be_replaced(const binding *k, size_t index)
 {
     return k->settings[index].wire ||
            (!k->chosen && ff_model_param(k->loaded->model, index)->instead);
 }
 
-/* Two members of a group contradict each other where both stand in files; an assignment replaces
-   the other, and so does the stage's own key one in a set under `with`. */
+/* Two members of a group contradict each other if both stand in files. An assignment replaces
+ * the other member, and so does the stage's own key if the other stands in a set under `with`. */
 static bool contradict(const binding *k, const fe_setting *a, const fe_setting *b)
 {
     const uint64_t later = a->priority > b->priority ? a->priority : b->priority;
@@ -274,8 +278,8 @@ static void refuse_both(const binding *k, const fe_setting *one, const fe_settin
              fe_place_text(pipeline, last->node->place));
 }
 
-/* Of the given members of a group, the one of the latest layer stays, unless two contradict each
-   other. */
+/* Keeps the member of a group that the latest layer gives, unless two members contradict each
+ * other. */
 static void settle_group(binding *k, const ff_param *row)
 {
     const ff_model *model = k->loaded->model;
@@ -352,8 +356,8 @@ static ff_bound bind_row(binding *k, size_t index)
     return bound;
 }
 
-/* Reads all settings of one model. For another model under `with`, the keys of the stage itself
-   count as given, but are not read: they are for the model in use. */
+/* Reads all settings of one model. For another model under `with`, keys of the stage itself
+ * count as given but are not read, since they are for the model in use. */
 static void bind_model(binding *k)
 {
     const ff_model *model = k->loaded->model;
@@ -383,8 +387,8 @@ static void bind_model(binding *k)
     fe_free(k->settings);
 }
 
-/* A model under `with`. One that is not here may be elsewhere: a run does without it, and says so.
- */
+/* Loads a model that stands under `with`. If it is not installed here, the run does without it
+ * and says so. */
 static const ff_loaded *load_offered(fe_build *b, const char *id, ff_place place)
 {
     ff_report *captured = ff_report_new();
@@ -400,8 +404,8 @@ static const ff_loaded *load_offered(fe_build *b, const char *id, ff_place place
     return loaded;
 }
 
-/* Checks the form of `with`, and the sets of the models that are not in use: they are offers, which
-   the next --set may take. */
+/* Checks the form of `with`, and the parameter sets of the models that are not in use; the next
+ * --set may choose one of them. */
 static void check_sets(fe_build *b, ff_stage *stage)
 {
     const ff_node *with = ff_node_get(stage->node, "with");
@@ -411,7 +415,7 @@ static void check_sets(fe_build *b, ff_stage *stage)
     for (size_t i = 0; with && with->kind == FF_MAP && i < with->count; i++) {
         const char *id = with->keys[i];
         const ff_node *set = with->items[i];
-        bool empty = set->kind == FF_SCALAR && !*set->text; /* as {} */
+        bool empty = set->kind == FF_SCALAR && !*set->text; /* {} */
         if (!strncmp(id, "x-", 2))
             continue;
         if (set->kind != FF_MAP && !empty) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Shared by the files of core/engine/pipeline, where each file uses those above it alone, and by
-   instances. */
+/* Shared by the files of core/engine/pipeline and by instances. The sections below are in the
+ * order of use: each file calls only those above it. */
 #ifndef FE_BUILD_H
 #define FE_BUILD_H
 
@@ -13,12 +13,12 @@
 #include "../value/report.h"
 #include "../value/tables.h"
 
-/* What a model says of a parameter or an input by host->serves. */
+/* Which outputs a parameter or an input serves, as the model says by host->serves. */
 typedef struct fe_serving {
     char *item, *outputs, *by, *text; /* `by` and `text` are "" where there is none */
 } fe_serving;
 
-/* What it says by host->needs. */
+/* What outputs need, as the model says by host->needs. */
 typedef struct fe_need {
     char *items, *outputs, *text;
 } fe_need;
@@ -35,26 +35,27 @@ typedef struct fe_instance {
     fe_serial alone;    /* the lock of its object */
 
     enum { FE_NEW, FE_ENTERED, FE_SORTED } sorting;
-    const ff_stage *entering; /* the feeding stage that is being sorted */
+    const ff_stage *entering; /* the feeding stage that is being sorted at the moment */
 
     const ff_observer *watch;
     const ff_hooks *hooks;        /* or NULL */
-    struct fe_loop_stage *member; /* of a loop that runs; NULL: of none */
-    fe_heap *heap;                /* of what the functions of the host allocate */
+    struct fe_loop_stage *member; /* its entry in the loop that is running; NULL: none */
+    fe_heap *heap;                /* allocations by the functions of the host */
     fe_resource open;             /* `self`, from create to destroy */
-    bool no_memory;   /* a function of the host had none: the call is left when it returns */
-    bool no_room;     /* the same for an output, which `text` names */
-    fe_tables tables; /* what it has read; their errors are reported before `text` */
+    bool no_memory; /* an allocation in a host function failed; the call ends when the model returns
+                     */
+    bool no_room;   /* the same for an output, whose name is in `text` */
+    fe_tables tables; /* tables that it has read; their errors are reported before `text` */
     fe_serving *servings;
     size_t serving_count;
     fe_need *needs;
     size_t need_count;
-    bool *read; /* by output row: what is requested depends on it; NULL before unread.c */
+    bool *read; /* by output row: a requested output depends on it; NULL before unread.c */
     bool evaluating;
-    bool left;        /* the observer leaves this stage, and goes on with those that can run */
+    bool left;        /* the observer chose to skip this stage and to go on with the others */
     ff_status status; /* of the last call; FF_DOMAIN is kept until one fails */
     char item[96];    /* of the last host->fail */
-    char text[512];   /* the same */
+    char text[512];   /* of the last host->fail */
     char fault[256];  /* how the plugin broke the interface: completes 'the plugin x.so ...' */
 } fe_instance;
 
@@ -69,8 +70,8 @@ typedef struct fe_build {
     ff_engine *engine;
     ff_report *report;
     bool everything;
-    uint32_t requested; /* outputs so far */
-    uint32_t file_rank; /* of the file's layer: that of an assignment is higher */
+    uint32_t requested; /* number of outputs so far */
+    uint32_t file_rank; /* the layer of the file; assignments have higher ones */
 } fe_build;
 
 /* messages.c: texts that live as long as the pipeline. */
@@ -88,30 +89,30 @@ bool fe_expected(fe_build *b, const ff_node *node, const char *where, const char
 char *fe_copy_clean(const char *text);
 void fe_hand_on(const ff_message *m, ff_report *report); /* the same to another report */
 
-/* setting.c: the node at "a.b" behind maps within maps; NULL: there is none. */
+/* setting.c: returns the node at "a.b" in maps within maps; NULL: there is none. */
 const ff_node *fe_find_node(const ff_node *map, const char *path);
-/* The map that stands for the model under `with`; NULL: there is none. */
+/* Returns the parameter set of the model under `with`; NULL: there is none. */
 const ff_node *fe_model_set(const ff_stage *stage, const char *model);
 
 /* What the file says for a parameter or wire of `model`: written on the stage, or in the set that
    stands for the model under `with`. */
 typedef struct fe_setting {
     const ff_node *node; /* NULL: nothing */
-    uint64_t priority;   /* the later layer wins; in one layer the stage's own key */
-    bool displaced;      /* a parameter whose preset gives way to another of its group */
+    uint64_t priority; /* of the later layer, or in one layer the stage's own key, is the higher */
+    bool displaced;    /* its preset gives way to another parameter of its group */
     const ff_wire *wire; /* connected, and replaces the parameter; NULL: none */
 } fe_setting;
 
-uint32_t fe_latest_rank(const ff_node *node); /* of the layers that say something in it */
+uint32_t fe_latest_rank(const ff_node *node); /* the latest layer that says something in the node */
 /* An empty value takes away what an earlier layer says. */
 bool fe_is_taken_away(const ff_node *node);
 fe_setting fe_find_setting(const ff_stage *stage, const char *model, const char *path);
 
 /* ports.c */
-const char *fe_output_name(const ff_port *input); /* what it takes: "teeth" */
+const char *fe_output_name(const ff_port *input); /* the output that it takes: "teeth" */
 const ff_wire *fe_input_wire(const ff_stage *stage, size_t input);
 bool fe_is_fed_back(const ff_stage *stage, size_t input); /* by a wire that closes a loop */
-/* The output or service of `from` that an input row takes, or -1. */
+/* Returns the output or service of `from` that an input row takes, or -1. */
 int fe_find_offer(const ff_loaded *from, const ff_port *input);
 uint64_t fe_wanted_of(const ff_stage *stage); /* bits of the first 64 outputs */
 bool fe_wants_any(const ff_stage *stage);
@@ -125,68 +126,69 @@ typedef struct fe_call {
     ff_guard_mark previous;
 } fe_call;
 
-/* The NULL that ends its services, to be replaced by one more where there is room. */
+/* Returns the place of the NULL that ends the list of services; one more may be put there if
+ * there is room. */
 const ff_guard_mark **fe_end_of_services(const ff_guard_mark *mark);
-/* Says in ff_guard_current that its code runs, and returns what ran before. */
+/* Enters the model's code in ff_guard_current, and returns the mark that stood there before. */
 ff_guard_mark fe_enter_model(const ff_stage *stage, const char *action);
 fe_call fe_call_begin(const ff_stage *stage, const char *action);
-/* Restores the environment that a model must not change, and reports the status of the call and the
-   faults of the model. True when the call was good. */
+/* Restores the environment that a model must not change, and reports the status of the call and
+ * the faults of the model. True if the call was good. */
 bool fe_call_end(const fe_call *call, ff_status status, ff_report *report);
-/* Goes back to the working directory that the calls so far must not have left, with a warning. */
+/* Returns to the working directory that the calls so far had to keep, and warns if a model has
+ * left it. */
 void fe_check_folder(const ff_pipeline *pipeline, const ff_stage *stage, const char *action,
                      ff_report *report);
 /* Reports 'the plugin x.so <what>' at the stage's model. Returns false. */
 bool fe_plugin_fault(const ff_stage *stage, ff_report *report, const char *what);
-/* The same where a model that serves it may have done it. */
+/* The same if a model that serves the stage may be at fault. */
 bool fe_shared_fault(const ff_stage *stage, ff_report *report, const char *what);
 
-/* A line that a stage of a loop has logged: it is handed on after the last round. */
+/* A line that a stage of a loop has logged. It is handed on after the last round. */
 typedef struct fe_log_line {
     int level;
     char text[512];
 } fe_log_line;
 
-/* A stage of a loop that runs. */
+/* A stage of a running loop. */
 typedef struct fe_loop_stage {
     ff_stage *stage;
-    bool first;         /* the first round: nothing is fed back */
-    ff_result *asked;   /* by output row: what is wanted and requested, refused or not */
-    ff_result *fed;     /* by input row: what a feedback wire carries, from the round before */
-    bool *fed_anew;     /* by input row: it is not what it was then */
-    bool *gave_anew;    /* by output row: the same of what the stage gave */
+    bool first;         /* this is the first round, in which nothing is fed back */
+    ff_result *asked;   /* by output row: whether it is wanted, requested or refused */
+    ff_result *fed;     /* by input row: what a feedback wire carries from the round before */
+    bool *fed_anew;     /* by input row: the value differs from that of the round before */
+    bool *gave_anew;    /* by output row: the output differs from that of the round before */
     ff_report *report;  /* of its last evaluation */
-    fe_log_line *lines; /* the same */
+    fe_log_line *lines; /* of its last evaluation */
     size_t line_count;
 } fe_loop_stage;
 
 /* host.c: the functions that a model may call. */
 void fe_host_init(fe_instance *instance);
 void fe_forget_results(ff_stage *stage);
-void fe_forget_servings(fe_instance *instance); /* and needs */
-/* The parameter that names the table of a column, of "file.time"; -1: there is none. */
+void fe_forget_servings(fe_instance *instance); /* and what it said by host->needs */
+/* Returns the parameter that names the table of a column such as "file.time"; -1: there is none. */
 int fe_find_table(const ff_model *model, const char *item);
 
 /* read.c: format, title and the stages with their `use`. False when there are no stages. */
 bool fe_read_stages(fe_build *b, const ff_node *root);
-/* The stage of that name; NULL after an error that begins with `where`. */
+/* Returns the stage of that name; NULL after an error that begins with `where`. */
 ff_stage *fe_find_stage(fe_build *b, const char *name, ff_place place, const char *where);
 
 /* load.c: loads the stage's model; false after an error. */
 bool fe_load_stage(fe_build *b, ff_stage *stage);
 
-/* wire.c: why `from` cannot feed the wire of that name, to complete 'the stage ...'; NULL: it
-   offers all that the wire requires, and at least one output. */
+/* wire.c: explains why `from` cannot feed the wire of that name, to complete 'the stage ...'.
+ * NULL: it offers all that the wire requires, and at least one output. */
 const char *fe_wire_misfit(fe_build *b, const ff_stage *stage, const char *wire,
                            const ff_loaded *from);
-/* Loads the stage and links it, and the stages behind it. */
+/* Links the stage, after loading it, and then the stages that feed it. */
 void fe_link_from(fe_build *b, ff_stage *stage);
-/* Reports each input of a needed stage that must be as long as an input of another wire, and is
-   fed along a dimension that is not its. */
+/* Reports each input of a needed stage whose length is tied to an input of another wire, but
+ * which is fed along a different dimension. */
 void fe_check_dims(fe_build *b);
 
-/* hint.c: what may be meant by a key that the model does not have, in words; NULL: nothing is near.
- */
+/* hint.c: says what a key that the model does not have may mean; NULL: nothing is near. */
 const char *fe_hint_of_key(fe_build *b, const ff_stage *stage, const ff_model *model,
                            const char *key);
 
@@ -195,102 +197,105 @@ void fe_bind_stage(fe_build *b, ff_stage *stage);
 
 /* instance.c: create, set, wire, ready; destroy. */
 void fe_open_instance(fe_build *b, ff_stage *stage);
-/* The steps of it; false after an error. */
+/* The steps of fe_open_instance; false after an error. */
 bool fe_create_object(ff_stage *stage, ff_report *report);
-void fe_place_params(const ff_stage *stage); /* those that have a place */
+void fe_place_params(const ff_stage *stage); /* parameters whose rows have a place */
 bool fe_set_param(ff_stage *stage, size_t param,
-                  ff_report *report); /* unless it is absent or has a place */
+                  ff_report *report); /* for parameters that are given and have no place */
 bool fe_wire_object(ff_stage *stage, size_t input, const void *service, ff_report *report);
 bool fe_ready_object(ff_stage *stage, ff_report *report);
-void fe_close_object(ff_stage *stage); /* another one may be opened, which finds its tables */
+void fe_close_object(ff_stage *stage); /* its tables are kept for the next object */
 void fe_close_instance(ff_stage *stage);
-/* The table behind a service of a live instance, looked at where a wire carries it. NULL: it gives
-   none that can be used, and the report says why. */
+/* Returns the table behind a service of a live instance, after checking it if a wire carries it.
+ * NULL: the instance gives no usable table, and the report says why. */
 const void *fe_fetch_service(ff_stage *stage, uint32_t output, bool wired, ff_report *report);
 
-/* arrays.c: the length that each named dimension of each wire was first seen with. Starts zeroed;
-   `seen` is to be freed. */
+/* arrays.c: the length that each named dimension of each wire had when it was first seen. Starts
+ * zeroed; `seen` is to be freed. */
 typedef struct fe_lengths {
     struct {
-        const char *wire, *dim, *row; /* fe_dim_wire */
+        const char *wire, *dim, *row; /* `wire` as fe_dim_wire gives it */
         size_t wire_length, length;
     } * seen;
     size_t count;
 } fe_lengths;
 
-/* Whether an array may have that rank. */
+/* Whether an array with these dimensions may have that rank. */
 bool fe_rank_fits(const ff_dims *dims, uint32_t rank);
-/* Records the lengths of one array, whose rank fits; false, with a clause in why, when a dimension
-   has two. */
+/* Records the lengths of one array whose rank fits. False, with a clause in `why`, if a
+ * dimension has two lengths. */
 bool fe_enter_lengths(fe_lengths *all, const ff_model *model, const ff_port *row,
                       const ff_dims *dims, uint32_t rank, const size_t *shape, char *why,
                       size_t why_size);
 
-size_t fe_count(const ff_array *array); /* of its numbers; no data: 0 */
-/* One number for each array of `in`, which changes with what the array holds. */
+size_t fe_count(const ff_array *array); /* numbers in the array; 0 without data */
+/* Returns a checksum for each array of `in`. */
 uint64_t *fe_sum_inputs(const ff_stage *stage, const ff_array *in);
-/* Reports what the stage's model has written of its inputs, or about them, since. False then. */
+/* Reports inputs whose checksums have changed: the model wrote into them. Returns false then. */
 bool fe_check_inputs(const ff_stage *stage, const ff_array *in, const uint64_t *sums,
                      ff_report *report);
 
-/* What feeds the stage, one array per input row. False when a feeding stage has not run,
-   which is known already, or with an error. */
+/* Collects what feeds the stage, one array per input row. False if a feeding stage has not run,
+ * or after an error. */
 bool fe_gather_inputs(const ff_pipeline *pipeline, const ff_stage *stage, ff_array *in,
                       ff_report *report);
-/* Drops outputs that are not wanted and still hold the NaN that their memory was filled with. */
+/* Drops outputs that nobody wants and that still hold the NaN with which their memory was
+ * filled. */
 void fe_drop_untouched(ff_stage *stage);
-/* False, with an error, when the stage's results cannot be used. `in`: what it was evaluated with;
-   NULL: not known here. */
+/* False, with an error, if the results of the stage cannot be used. `in` holds the arrays that
+ * it was evaluated with; NULL: not known here. */
 bool fe_check_results(const ff_stage *stage, const ff_array *in, ff_report *report);
 
-/* quality.c: adds a line of quality, FF_BAD, for each result outside of the natural bounds of its
-   row. */
+/* quality.c: adds a quality line with FF_BAD for each result outside the natural bounds of its
+ * row. */
 void fe_judge_bounds(ff_stage *stage);
 void fe_forget_quality(ff_stage *stage); /* all lines */
-/* Marks as wanted what two needed stages give of one quantity. */
+/* Marks outputs as wanted if two needed stages give the same quantity, so that they can be
+ * compared. */
 void fe_want_quantities(ff_pipeline *pipeline);
-/* After a run: adds a line to each stage that gives a quantity as one before it does: FF_RANGE
-   where they lie further apart than their rows allow. */
+/* After a run: compares stages that give the same quantity. The later one gets a quality line,
+ * with FF_RANGE if they differ by more than their rows allow. */
 void fe_compare_quantities(ff_pipeline *pipeline);
 
-/* evaluate.c: one evaluation of a stage, without the outputs that it refuses where nothing requires
-   them. False after an error. */
+/* evaluate.c: evaluates a stage once. An output that it refuses is left out if nothing requires
+ * it. False after an error. */
 bool fe_evaluate(const ff_pipeline *pipeline, ff_stage *stage, const ff_array *in,
                  ff_report *report);
-/* Reports what the stage itself calls bad. False when it does. */
+/* Reports the quality lines that the stage itself calls bad. Returns false if there are any. */
 bool fe_check_quality(const ff_stage *stage, ff_report *report);
 
-/* rounds.c: evaluates the stages of a loop until what its feedback wires carry has settled. False
-   after an error; when it was stopped, all its stages have that status. */
+/* rounds.c: evaluates the stages of a loop until the values on its feedback wires have settled.
+ * False after an error. If the observer stops it, all its stages get that status. */
 bool fe_run_loop(ff_pipeline *pipeline, const ff_loop *loop, const ff_observer *watch,
                  ff_report *report);
 
-/* state.c: the state of a chain, before and after evaluate; nothing outside of one. False after an
-   error. */
+/* state.c: restores and saves the state of a chain, before and after evaluate; without a chain
+ * it does nothing. False after an error. */
 bool fe_restore_state(const ff_pipeline *pipeline, ff_stage *stage, ff_report *report);
 bool fe_save_state(const ff_pipeline *pipeline, ff_stage *stage, ff_report *report);
 
-/* request.c: marks the requested outputs, and those that have limits; links what they need. */
+/* request.c: marks the outputs that the file requests or sets limits for, and links what they
+ * need. */
 void fe_request_outputs(fe_build *b, const ff_node *outputs);
 void fe_request_limits(fe_build *b, const ff_node *limits);
-/* Keeps on each stage which of its doubts the file accepts. */
+/* Notes on each stage which of its doubts the file accepts. */
 void fe_read_accept(fe_build *b, const ff_node *accept);
 
-/* feedback.c: what the file says under `feedback`. */
+/* feedback.c: reads what the file says under `feedback`. */
 void fe_read_feedback(fe_build *b, const ff_node *feedback);
-/* Finds the loops of a pipeline whose other wires are sorted, and puts the stages of each side by
-   side. */
+/* Finds the loops, once the stages are sorted by the wires that are no feedback, and makes the
+ * stages of each loop neighbours in the order. */
 void fe_find_loops(fe_build *b);
 ff_loop *fe_loop_of(const ff_pipeline *pipeline, const ff_stage *stage); /* NULL: in none */
 
-/* needs.c: leaves out what lacks what it needs, as the models say, and refuses it where somebody
-   needs it. */
+/* needs.c: leaves out outputs that lack what they need, as host->needs has told, and refuses
+ * those that somebody requires. */
 void fe_check_needs(fe_build *b);
 
-/* unread.c: warns of what the file says in vain, and refuses what it says in two places. */
+/* unread.c: warns of settings that have no effect, and refuses what is said in two places. */
 void fe_check_unread(fe_build *b, const ff_node *outputs);
 
-/* order.c: which stages run, why, and in which order. */
+/* order.c: finds which stages run, why, and in which order. */
 void fe_mark_needed(ff_pipeline *pipeline);
 void fe_sort_stages(fe_build *b);
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Turns the outcome of a call into a model into messages with places in the user's file. */
+/* Brackets a call into a model, and turns its outcome into messages with places in the user's
+ * file. */
 #include "build.h"
 
 #include <assert.h>
@@ -32,7 +33,8 @@ static fe_instance *instance_of(const ff_guard_mark *mark)
     return (fe_instance *)((char *)(uintptr_t)mark - offsetof(fe_instance, mark));
 }
 
-/* Of the object, and of the services that it may call. */
+/* Returns the locks that a call needs: those of the stage's object and of the services that it
+ * may call. */
 static fe_serial locks_of(const ff_guard_mark *mark)
 {
     fe_serial locks = instance_of(mark)->alone;
@@ -58,7 +60,8 @@ fe_call fe_call_begin(const ff_stage *stage, const char *action)
     return call;
 }
 
-/* The place of a parameter, input or output of the stage; when it is not known, of the stage. */
+/* Returns the place of a parameter, an input or an output of the stage; if it is not known, that
+ * of the stage. */
 static ff_place place_of(const ff_stage *stage, const char *item, bool *known)
 {
     const ff_model *model = stage->loaded->model;
@@ -109,7 +112,7 @@ bool fe_shared_fault(const ff_stage *stage, ff_report *report, const char *what)
     return ff_error(report, FF_FAULT_PLUGIN, stage->use_place, NULL, "%s %s", who, what);
 }
 
-/* False after an error: the model has written outside of an output. */
+/* False, with an error, if the model has written outside an output array. */
 static bool check_outputs(const fe_call *call, ff_report *report)
 {
     const ff_stage *stage = call->stage;
@@ -143,7 +146,8 @@ static bool tell_table(const ff_stage *stage, ff_report *report)
     return false;
 }
 
-/* The stage behind the service input of that name; NULL: there is none, or it is no such input. */
+/* Returns the stage that gives the service input of that name; NULL: there is none, or this is
+ * no service input. */
 static const ff_stage *server_of(const ff_stage *stage, const char *item)
 {
     const ff_model *model = stage->loaded->model;
@@ -157,7 +161,7 @@ static const ff_stage *server_of(const ff_stage *stage, const char *item)
     return NULL;
 }
 
-/* Writes what the services have said, while the call ran, of why they fail: " (mine: not so)". */
+/* Writes the reasons that failing services gave during the call: " (mine: not so)". */
 static void print_words_of_services(const ff_stage *stage, char *out, size_t size)
 {
     const ff_guard_mark **services = stage->instance->mark.services;
@@ -171,7 +175,7 @@ static void print_words_of_services(const ff_stage *stage, char *out, size_t siz
     }
 }
 
-/* The plugin at fault is the stage's own, or that of the service that it complains of. */
+/* Reports a fault of a plugin: the stage's own, or that of the service that it complains of. */
 static bool tell_fault(const fe_call *call, ff_status status, const char *text, ff_report *report)
 {
     const ff_stage *stage = call->stage, *server = server_of(stage, stage->instance->item);
@@ -223,7 +227,8 @@ static bool judge(const fe_call *call, ff_status status, ff_report *report)
     return true;
 }
 
-/* Services are called past the core: that one of them made the change cannot be told from it. */
+/* Warns that the call changed something which it must keep. Any service that the stage calls may
+ * have made the change, since these calls bypass the engine. */
 static void warn_of_change(const ff_stage *stage, const char *changed, const char *action,
                            ff_report *report)
 {

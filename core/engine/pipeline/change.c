@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A pipeline that goes on with other values of parameters: its stages and wires stay. */
+/* Gives a built pipeline other parameter values. Its stages and wires stay. */
 #include "build.h"
 #include "pipeline.h"
 
@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-/* The stage whose parameter the assignment gives; NULL: it says something else. */
+/* Returns the stage whose parameter the assignment sets; NULL: it sets something else. */
 static ff_stage *find_target(const ff_pipeline *pipeline, const char *assignment)
 {
     static const char top[] = "pipeline.";
@@ -24,7 +24,7 @@ static ff_stage *find_target(const ff_pipeline *pipeline, const char *assignment
     return fits ? stage : NULL;
 }
 
-/* What a run may leave behind: outputs that were refused. */
+/* False if a run has left refused outputs behind. */
 static bool is_as_built(const ff_pipeline *pipeline)
 {
     bool good = true;
@@ -44,10 +44,10 @@ static void bind_anew(fe_build *b, ff_stage *stage)
     fe_bind_stage(b, stage);
 }
 
-/* An object whose values stay serves the next case, too: what it gives depends on them and on its
-   inputs alone, and it may have kept what follows from those that stay. One that is wired to a
-   service does not, since the table may be of an object that goes, and one that hands on a state
-   does not, since it would start from the case before. */
+/* Whether an object also serves the next case. If its values stay, its results depend on them
+ * and on its inputs alone. An object with a service wire does not stay, since the service table
+ * may belong to an object that is destroyed; nor does one that hands on a state, since it would
+ * start from the case before. */
 static bool stays(const ff_stage *stage, bool changed)
 {
     bool kept = !changed && stage->loaded && stage->instance->alive && !ff_stage_has_state(stage);

@@ -27,7 +27,7 @@ static double seconds_of(clockid_t clock)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* Whether a stage requires the output, or it closes a loop. */
+/* Whether another stage requires the output, or it closes a loop. */
 static bool must_feed(const ff_pipeline *pipeline, const ff_result *result)
 {
     for (size_t k = 0; k < pipeline->count; k++) {
@@ -42,12 +42,10 @@ static bool must_feed(const ff_pipeline *pipeline, const ff_result *result)
     return false;
 }
 
-/*
- * A model may refuse an output that its inputs do not allow. It is dropped when it was not
- * requested by name (but as one of "film.*") and no required input needs it. In the first round of
- * a loop, which lacks the feedback, one that was requested by name is dropped too. True when it was
- * dropped.
- */
+/* Drops outputs that the model refuses because its inputs do not allow them. An output may be
+ * dropped if no required input needs it and it was not requested by name; "film.*" does not
+ * count as a name. In the first round of a loop, which lacks the feedback, one that was
+ * requested by name is dropped, too. True if any was dropped. */
 static bool drop_refused(const ff_pipeline *pipeline, ff_stage *stage)
 {
     const fe_instance *instance = stage->instance;
@@ -64,14 +62,14 @@ static bool drop_refused(const ff_pipeline *pipeline, ff_stage *stage)
     return true;
 }
 
-/* Again without what it refuses. */
+/* Calls the model, and once more without the outputs that it refuses. */
 static bool call_model(const ff_pipeline *pipeline, ff_stage *stage, const ff_array *in,
                        ff_report *report)
 {
     fe_instance *instance = stage->instance;
     bool good, again;
     for (size_t i = 0; i < stage->loaded->model->output_count; i++)
-        if (stage->results[i].wanted) /* else it was left out before the run */
+        if (stage->results[i].wanted) /* the others were left out before the run */
             stage->results[i].refused = false;
     do {
         fe_forget_results(stage);

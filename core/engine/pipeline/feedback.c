@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Loops that feedback wires close: which stages they hold, and how the file has them iterated. */
+/* Loops closed by feedback wires: which stages they hold, and how the file wants them iterated. */
 #include "build.h"
 
 #include <stdlib.h>
@@ -95,7 +95,7 @@ ff_loop *fe_loop_of(const ff_pipeline *pipeline, const ff_stage *stage)
     return stage->loop ? &pipeline->loops[stage->loop - pipeline->loops] : NULL;
 }
 
-/* A loop is the stages that need each other. */
+/* Groups stages that need each other into loops. */
 static void gather_loops(ff_pipeline *pipeline)
 {
     size_t count = pipeline->count;
@@ -123,7 +123,8 @@ static void refuse(fe_build *b, ff_stage *stage, ff_place place, const char *why
     ff_error(b->report, FF_FAULT_INPUT, place, NULL, "%s: it is in a loop, %s", stage->name, why);
 }
 
-/* Marks the wires that close the loop of the stage, and refuses what a loop cannot hold. */
+/* Marks the feedback wires that close the loop of the stage, and refuses what a loop cannot
+ * hold. */
 static void check_member(fe_build *b, ff_stage *stage)
 {
     for (size_t i = 0; i < stage->wire_count; i++) {
@@ -142,7 +143,7 @@ static void check_member(fe_build *b, ff_stage *stage)
     }
 }
 
-/* Puts a stage, or all stages of its loop, behind what they need. */
+/* Puts a stage, or all stages of its loop, behind those that it needs. */
 static void put_in_order(ff_pipeline *pipeline, const size_t *sorted, size_t at, bool *there,
                          size_t *count)
 {

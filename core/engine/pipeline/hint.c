@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* What may be meant by a key that a model does not have, in words of the models' own tables. */
+/* Guesses the meaning of a key that a model does not have, from the words of the models' tables. */
 #include "build.h"
 
 #include <ctype.h>
 #include <string.h>
 #include <strings.h>
 
-/* Whether the text has the word, as a whole one. */
+/* Whether the text contains the whole word. */
 static bool has_word(const char *text, const char *word, size_t length)
 {
     for (const char *at = text; *at; at++) {
@@ -17,7 +17,7 @@ static bool has_word(const char *text, const char *word, size_t length)
     return false;
 }
 
-/* Whether the text has all words of "helix_angle". */
+/* Whether the text contains all words of a key such as "helix_angle". */
 static bool has_words(const char *text, const char *key)
 {
     for (const char *at = key; *at; at += *at != 0) {
@@ -29,8 +29,8 @@ static bool has_words(const char *text, const char *key)
     return true;
 }
 
-/* The parameter whose name has the words of the key, or, failing that, whose line of explanation
-   has; NULL: there is none. */
+/* Returns the parameter whose name has all words of the key or, if `explained`, whose line of
+ * explanation has them; NULL: there is none. */
 static const ff_param *find_by_words(const ff_model *model, const char *key, bool explained)
 {
     for (size_t i = 0; i < model->param_count; i++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The functions of the host that a model may call. */
+/* The host's functions that a model may call. */
 #include "build.h"
 
 #include <flankfilm/needs.h>
@@ -11,9 +11,13 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { MOST_QUALITY = 1000, MOST_NEEDS = 1000, FE_LEAVE = 2 /* an observer's answer */ };
+enum {
+    MOST_QUALITY = 1000,
+    MOST_NEEDS = 1000,
+    FE_LEAVE = 2 /* the observer's answer that skips a stage */
+};
 
-/* Keeps the first breach of the interface for the message. */
+/* Keeps the first breach of the interface, for the message. */
 __attribute__((format(printf, 2, 3))) static void breach(fe_instance *instance, const char *format,
                                                          ...)
 {
@@ -75,15 +79,15 @@ static int32_t host_progress(void *ctx, double fraction)
 {
     fe_instance *instance = ctx;
     watch_call call = {.instance = instance,
-                       .fraction = fraction > 0 ? fmin(fraction, 1) : 0}; /* NaN: 0 */
+                       .fraction = fraction > 0 ? fmin(fraction, 1) : 0}; /* NaN gives 0 */
     bool lacks = protect(instance, tell_progress, &call) == FF_NOMEM;
     instance->left = instance->left || call.stop == FE_LEAVE;
     return lacks || call.stop;
 }
 
-/* Runs a function that allocates, or of the program: a fault in it is not the plugin's. It may not
-   be left across the plugin that called, maybe in a thread of its own: without memory, the call
-   into the plugin is left when it returns. */
+/* Runs engine code that allocates or that calls the program, so that a fault in it is not blamed
+ * on the plugin. It must not jump across the plugin's frames, which may be on another thread; if
+ * memory is missing, the call ends when the plugin returns. */
 static ff_status protect(fe_instance *instance, void (*function)(void *ctx), void *ctx)
 {
     ff_guard_mark mark = fe_guard_enter((ff_guard_mark){.path = NULL});
@@ -163,7 +167,8 @@ static int32_t host_given(void *ctx, uint32_t param)
     return 0;
 }
 
-/* A parameter, a column of the table that one names ("file.time"), an input or a wire. */
+/* Whether the model has a parameter, a column of a table ("file.time"), an input or a wire of
+ * that name. */
 static bool has_item(const ff_model *model, const char *item)
 {
     if (ff_model_find_param(model, item) >= 0 || fe_find_table(model, item) >= 0)
@@ -174,7 +179,7 @@ static bool has_item(const ff_model *model, const char *item)
     return false;
 }
 
-/* A word of the list that is not an output; NULL: there is none. */
+/* Returns the first word of the list that is not an output; NULL: there is none. */
 static const char *unknown_output(const ff_model *model, const char *list, char *word, size_t size)
 {
     for (const char *at = list; *at; at += *at == '|') {
@@ -200,7 +205,7 @@ static void free_serving(fe_serving *serving)
     fe_free(serving->text);
 }
 
-/* The last call for an item holds. */
+/* Keeps what the model says of an item. A later call for the same item replaces it. */
 static void keep_serving(void *ctx)
 {
     const serves_call *call = ctx;
@@ -258,7 +263,7 @@ static void keep_need(void *ctx)
     instance->need_count++;
 }
 
-/* A word of the list that is no parameter, input or wire; NULL: there is none. */
+/* Returns the first word of the list that is no parameter, input or wire; NULL: there is none. */
 static const char *unknown_item(const ff_model *model, const char *list, char *word, size_t size)
 {
     for (const char *at = list; *at; at += *at == '|') {
@@ -319,10 +324,10 @@ void fe_forget_servings(fe_instance *instance)
     instance->serving_count = 0;
 }
 
-/* False for more numbers than the memory of the machine holds: the shape is wrong. */
+/* False if the machine's memory cannot hold that many numbers, so that the shape must be wrong. */
 static bool has_room(uint32_t rank, const size_t *shape)
 {
-    const double surely = 1e6; /* for which the system need not be asked */
+    const double surely = 1e6; /* this many surely fit */
     double product = 1;
     for (uint32_t i = 0; i < rank; i++)
         product *= (double)shape[i];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The life of a model's object: create, set, wire, ready; destroy. */
+/* The life of a model's object: create, set, wire, ready, destroy. */
 #include "build.h"
 
 #include "../plugin/param.h"
@@ -33,7 +33,7 @@ void fe_place_params(const ff_stage *stage)
     }
 }
 
-/* Notes what keeps its parameters from being placed. */
+/* Notes which parameters cannot be placed, and why. */
 static void inspect(fe_instance *instance)
 {
     const ff_hooks *hooks = instance->hooks;
@@ -85,8 +85,9 @@ static bool set(ff_stage *stage, ff_report *report)
     return good;
 }
 
-/* What is wrong with a table that a wire carries, to complete 'the plugin gave ...'; "": nothing. A
-   table of flankfilm's begins with its size and `self`; functions and positive numbers follow. */
+/* Writes what is wrong with a service table, to complete 'the plugin gave ...'; "": nothing. A
+ * table of an interface of flankfilm's own begins with its size and `self`, followed by
+ * functions and positive numbers. */
 static void look_at_table(const void *table, const char *id, char *wrong, size_t wrong_size)
 {
     enum { LARGEST = 4096 };
@@ -114,7 +115,8 @@ const void *fe_fetch_service(ff_stage *stage, uint32_t output, bool wired, ff_re
     char what[200], wrong[80] = "no table";
     fe_call call = fe_call_begin(stage, "service");
     const void *table = stage->loaded->model->service(stage->instance->self, output);
-    if (table && wired) /* a wild pointer crashes here, where the call is that of its maker */
+    if (table &&
+        wired) /* Reads it here, so that a wild pointer crashes in the call that names its maker. */
         look_at_table(table, row->service, wrong, sizeof wrong);
     if (!fe_call_end(&call, FF_OK, report) || (table && (!wired || !wrong[0])))
         return table;

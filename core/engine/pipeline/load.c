@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The model of a stage. */
+/* Loads the model that a stage names. */
 #include "build.h"
 
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Texts that live as long as the pipeline, and what several messages have in common. */
+/* Texts that live as long as the pipeline, and parts that several messages share. */
 #include "build.h"
 
 #include "../value/tree.h"

@@ -1,16 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * Outputs that a model does not give without a parameter or an input, as it says by host->needs. An
- * output that is left out may be the input that another one lacks, so that stages are looked at in
- * the order of the run.
- */
+/* Leaves out outputs whose model says, by host->needs, that a parameter or an input is missing.
+ * An output that is left out may be the input that another stage lacks, so stages are visited in
+ * the order of the run. */
 #include "build.h"
 
 #include "../plugin/param.h"
 
 #include <string.h>
 
-/* Whether an input of the stage, or its wire, of that name brings anything. */
+/* Whether the input or wire of that name brings anything. */
 static bool is_fed(const ff_pipeline *pipeline, const ff_stage *stage, const char *item)
 {
     for (size_t i = 0; stage->wire_count && i < stage->loaded->model->input_count; i++) {
@@ -23,7 +21,7 @@ static bool is_fed(const ff_pipeline *pipeline, const ff_stage *stage, const cha
     return false;
 }
 
-/* Whether one of the items is there. */
+/* Whether one of the items is given. */
 static bool is_met(const ff_pipeline *pipeline, const ff_stage *stage, const char *items)
 {
     for (const char *at = items; *at; at += *at == '|') {
@@ -39,7 +37,7 @@ static bool is_met(const ff_pipeline *pipeline, const ff_stage *stage, const cha
     return false;
 }
 
-/* "film, losses": the stages that require the output; "": none does. */
+/* Returns the stages that require the output: "film, losses"; "": none does. */
 static const char *readers_of(const fe_build *b, const ff_result *result)
 {
     const char *names = "";

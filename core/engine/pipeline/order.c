@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Which stages run, why, and in which order. */
+/* Finds which stages run, why, and in which order. */
 #include "build.h"
 
 #include <assert.h>
@@ -31,7 +31,7 @@ static void say_why(ff_pipeline *pipeline, ff_stage *stage)
         stage->why = fe_pipeline_print(pipeline, "no requested output needs it");
 }
 
-/* Marks a stage as needed, its inputs as wanted, and the stages behind them as needed. */
+/* Marks a stage as needed, its inputs as wanted, and so on with the stages that feed it. */
 static void mark(ff_pipeline *pipeline, ff_stage *stage)
 {
     if (stage->needed)
@@ -81,7 +81,7 @@ static void report_cycle(fe_build *b, const ff_stage *first, ff_place place)
              "pipeline: the stages wait for each other: %s%s", text, first->name);
 }
 
-/* Sorts depth first: a stage comes after those that feed it, but for feedback wires. */
+/* Sorts depth first: a stage comes after those that feed it. Feedback wires do not count. */
 static void visit(fe_build *b, ff_stage *stage, size_t *sorted)
 {
     assert(stage->instance->sorting == FE_NEW);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Building a pipeline from a file, step by step. */
+/* Builds a pipeline from a file, step by step. */
 #include "pipeline.h"
 #include "build.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Which wire an input is on, which output feeds it, and which outputs are wanted. */
+/* Finds which wire an input is on, which output feeds it, and which outputs are wanted. */
 #include "build.h"
 
 #include <assert.h>

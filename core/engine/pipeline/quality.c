@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* Lines of quality: what models say, unless the file accepts a doubt; natural bounds, which are
-   what the numbers of an output cannot be by its row; and what several stages give of one quantity.
- */
+/* Quality lines: those that models give, unless the file accepts the doubt; results outside the
+ * natural bounds of their rows; and differences between stages that give the same quantity. */
 #include "build.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Why the file accepts a doubt of that name; NULL: it does not. */
+/* Returns the file's reason for accepting a doubt of that name; NULL: it does not accept it. */
 static const char *reason_to_accept(const ff_stage *stage, const char *name)
 {
     const size_t length = strlen(stage->name);
@@ -72,7 +71,8 @@ typedef struct bounds {
     double least, most;
 } bounds;
 
-/* A model before 1.3 cannot say that a number in K is a difference. */
+/* Returns the bounds of a row. Models before 1.3 cannot say that a number in K is a difference
+ * of temperatures. */
 static bounds bounds_of(const ff_model *model, const ff_port *row)
 {
     const bool point = !(row->flags & FF_DIFFERENCE) && !strcmp(row->unit, "K");
@@ -89,8 +89,8 @@ static double outside(const bounds *b, double value)
     return fmax(fmax(b->least - value, value - b->most), 0);
 }
 
-/* The number that lies farthest outside; NULL: all are within. Rounding, of the bounds or of the
-   largest number, is no violation. */
+/* Returns the number that lies farthest outside the bounds; NULL: all are within. A distance
+ * within rounding, of the bounds or of the largest number, is no violation. */
 static const double *find_worst(const bounds *b, const ff_result *result)
 {
     const double rounding = 1e-12;
@@ -132,7 +132,7 @@ void fe_judge_bounds(ff_stage *stage)
     }
 }
 
-/* The output that the stage gives of a quantity, a scalar; NULL: none. */
+/* Returns the scalar output with which the stage gives the same quantity; NULL: none. */
 static ff_result *find_quantity(const ff_stage *stage, const ff_port *as)
 {
     for (size_t i = 0; stage->needed && stage->loaded && i < stage->loaded->model->output_count;
@@ -185,13 +185,14 @@ static void add_agreement(ff_stage *stage, const ff_result *own, const pair *oth
              own->row->quantity, here, there, other->stage->name, other->result->row->name,
              own->row->unit);
     for (size_t i = stage->quality_count; i-- > 0;)
-        if (!strcmp(stage->quality[i].name, name)) /* of another run, whose results were taken */
+        if (!strcmp(stage->quality[i].name,
+                    name)) /* from another run, whose results were taken over */
             ff_drop_quality(stage, i);
     ff_add_quality(stage, name, other->apart, other->allowed,
                    other->apart > other->allowed ? FF_RANGE : FF_GOOD, text);
 }
 
-/* Holds an output against the stages before its own, in the order of the run. */
+/* Compares an output with those of the earlier stages that give the same quantity. */
 static void compare(const ff_pipeline *pipeline, size_t place, const ff_result *own)
 {
     const double rounding = 1e-9;

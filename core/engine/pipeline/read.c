@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Reads the top of a file and the names and models of its stages. */
+/* Reads the top of a file, and the names and models of its stages. */
 #include "build.h"
 
 #include "../value/tree.h"
@@ -35,7 +35,7 @@ ff_stage *ff_stage_of(const ff_pipeline *pipeline, const char *path, const char 
     return NULL;
 }
 
-/* False where the stages themselves stand under a misspelt key. */
+/* False, with an error, if the stages stand under a misspelt key. */
 static bool check_top_keys(fe_build *b, const ff_node *root)
 {
     bool good = true;
@@ -108,7 +108,7 @@ static bool check_name(fe_build *b, const char *name, ff_place place)
         name, LONGEST_NAME);
 }
 
-/* Reports a stage without a model: one whose name was perhaps mistyped, as in --set. */
+/* Reports a stage without `use`; its name may be mistyped, as in a --set. */
 static void refuse_unused(fe_build *b, const ff_stage *stage, const ff_node *map)
 {
     const char **others = fe_alloc(map->count * sizeof *others), *list = "";

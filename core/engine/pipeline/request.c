@@ -5,14 +5,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Gives an output the next place among those that are asked for, unless it has one. */
+/* Gives an output the next place among the requested ones, unless it has one. */
 static void request(fe_build *b, ff_result *result)
 {
     if (!result->requested)
         result->requested = ++b->requested;
 }
 
-/* Requests all scalars and series of the stage; false when it has none. */
+/* Requests all scalars and series of the stage. False if it has none. */
 static bool request_all(fe_build *b, ff_stage *stage)
 {
     bool some = false;
@@ -27,7 +27,8 @@ static bool request_all(fe_build *b, ff_stage *stage)
     return some;
 }
 
-/* What is named by "STAGE.NAME", and where: `key` of the file, what NAME stands for there. */
+/* A text "STAGE.NAME" in the file: the key it stands under, and what NAME is there, for
+ * messages. */
 typedef struct naming {
     const char *key, *item;
 } naming;
@@ -90,7 +91,8 @@ static void read_request(fe_build *b, const ff_node *item)
     fe_link_from(b, stage);
 }
 
-/* Without a list, the outputs of stages that feed no other, but for feedback, are requested. */
+/* Requests the default outputs if the file lists none: those of the stages that feed no other
+ * stage. Feedback wires do not count. */
 static void request_default(fe_build *b)
 {
     ff_pipeline *pipeline = b->pipeline;
@@ -110,7 +112,7 @@ static void request_default(fe_build *b)
     fe_free(feeds);
 }
 
-/* The entry is of a stage that an entry before it has looked for in vain, too. */
+/* Whether an earlier entry named the same missing stage, so that it was reported. */
 static bool is_missed_again(const fe_build *b, const ff_node *outputs, size_t index)
 {
     const ff_node *item = outputs->items[index];
@@ -143,7 +145,7 @@ void fe_request_outputs(fe_build *b, const ff_node *outputs)
                 read_request(b, outputs->items[i]);
 }
 
-/* Whether the file says a map, or nothing; else an error says what is expected. */
+/* Whether the node is a map or absent; otherwise reports what is expected. */
 static bool is_map(fe_build *b, const ff_node *node, const char *key, const char *example)
 {
     if (!node || (node->kind == FF_SCALAR && !node->text[0]))

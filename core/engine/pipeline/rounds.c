@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * Runs a loop: its stages are evaluated in order, round after round, until what the feedback wires
- * carry no longer changes. In the first round they carry nothing: it is the run without feedback. A
- * stage whose inputs are the same to the bit as at its last evaluation is not evaluated again.
- */
+/* Runs a loop: evaluates its stages in order, round after round, until the values on its
+ * feedback wires no longer change. In the first round these are absent, which is the run without
+ * feedback. A stage whose inputs equal those of its last evaluation to the bit is not evaluated
+ * again. */
 #include "build.h"
 
 #include <assert.h>
@@ -12,14 +11,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A loop that runs. */
+/* A running loop. */
 typedef struct iteration {
     ff_pipeline *pipeline;
     fe_loop_stage *members;
     size_t count;
-    double *residuals; /* of each round so far */
+    double *residuals; /* one for each round so far */
     size_t rounds;
-    const char *uneven; /* an input whose series changed its length, the last time; or NULL */
+    const char *uneven; /* the last input whose series changed its length, or NULL */
     size_t lengths[2];
     ff_report *report;
 } iteration;
@@ -37,7 +36,7 @@ static bool same_bits(const ff_result *a, const ff_result *b)
     return same_shape(a, b) && !memcmp(a->data, b->data, a->count * sizeof *a->data);
 }
 
-/* Largest change over the largest number; 1 where there is nothing to compare with. */
+/* Returns the largest change over the largest number; 1 if the two cannot be compared. */
 static double change(const ff_result *now, const ff_result *before)
 {
     double most = 0, off = 0;
@@ -52,7 +51,8 @@ static double change(const ff_result *now, const ff_result *before)
     return off > 0 ? most > 0 ? off / most : 1 : 0;
 }
 
-/* What the stage at the other end of a feedback wire gave; NULL: the input is on no such wire. */
+/* Returns what the stage at the other end of a feedback wire gave; NULL: the input is on no such
+ * wire. */
 static const ff_result *given_back(const iteration *it, const fe_loop_stage *m, size_t input)
 {
     return fe_is_fed_back(m->stage, input) ? ff_feeding_result(it->pipeline, m->stage, input)
@@ -76,7 +76,7 @@ static void forget(ff_result *result)
     ff_guarded_free(result->data, result->count);
 }
 
-/* Replaces what a feedback wire carries. True when that is not what it carried. */
+/* Replaces the value on a feedback wire. True if it has changed. */
 static bool feed(ff_result *fed, const ff_result *given, double relaxation)
 {
     ff_result next = *given;
@@ -103,7 +103,7 @@ static void feed_all(iteration *it)
     }
 }
 
-/* Whether an input is not what it was when the stage was evaluated last. */
+/* Whether an input has changed since the stage was evaluated last. */
 static bool is_fed_anew(const iteration *it, const fe_loop_stage *m)
 {
     const ff_model *model = m->stage->loaded->model;
@@ -128,7 +128,7 @@ static void ask_for_all(fe_loop_stage *m)
     }
 }
 
-/* Whether the first round dropped an output that must be given. */
+/* Whether the first round dropped an output that the stage must give. */
 static bool lacks_output(const fe_loop_stage *m)
 {
     bool lacks = false;
@@ -194,8 +194,8 @@ static bool run_round(iteration *it, bool first)
     return true;
 }
 
-/* Notes the first input whose series has another length than in the round before, for which no
-   residual can be small. */
+/* Notes the first input whose series has another length than in the round before; its residual
+ * cannot become small. */
 static void note_uneven(iteration *it)
 {
     for (size_t k = 0; k < it->count; k++) {
@@ -212,7 +212,8 @@ static void note_uneven(iteration *it)
     }
 }
 
-/* "a, b: 1, 0.5, ..., 0.01": the stages, and the residuals of the first rounds and the last. */
+/* Prints the stages, and the residuals of the first rounds and the last: "a, b: 1, 0.5, ...,
+ * 0.01". */
 static char *print_history(const iteration *it)
 {
     enum { AT_FIRST = 4, AT_LAST = 8 };
@@ -234,7 +235,7 @@ static char *print_history(const iteration *it)
     return text;
 }
 
-/* Says that a stage failed in a later round than the first. */
+/* Reports that a stage failed in a round after the first. */
 static bool report_round(const iteration *it)
 {
     if (it->rounds == 0)
@@ -243,7 +244,7 @@ static bool report_round(const iteration *it)
                     "the loop failed in round %zu: %s", it->rounds + 1, print_history(it));
 }
 
-/* Adds how the loop went to the quality of its first stage. */
+/* Adds a quality line about the loop's convergence to its first stage. */
 static void note_rounds(const iteration *it)
 {
     const ff_feedback *feedback = &it->pipeline->feedback;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Runs each needed stage once, and each loop round after round, in order. */
+/* Runs the needed stages in order: a stage once, a loop round after round. */
 #include "../plugin/engine.h"
 #include "build.h"
 #include "pipeline.h"
@@ -12,8 +12,8 @@ static bool evaluate(const ff_pipeline *pipeline, ff_stage *stage, const ff_arra
     return fe_evaluate(pipeline, stage, in, report) && fe_save_state(pipeline, stage, report);
 }
 
-/* Evaluates the stage, or takes over the results of an earlier run. A stage that is needed for its
-   service alone computes nothing. */
+/* Evaluates the stage, or takes over the results of an earlier run. A stage that is needed only
+ * for its service computes nothing. */
 static bool obtain(const ff_pipeline *pipeline, ff_stage *stage, const ff_array *in,
                    ff_report *report)
 {
@@ -21,7 +21,8 @@ static bool obtain(const ff_pipeline *pipeline, ff_stage *stage, const ff_array 
     fe_forget_results(stage);
     if (!fe_wants_any(stage))
         return true;
-    if (pipeline->chained && ff_stage_has_state(stage)) /* the result depends on the chain so far */
+    if (pipeline->chained &&
+        ff_stage_has_state(stage)) /* its result depends on the earlier cases of the chain */
         return (stage->ran = evaluate(pipeline, stage, in, report));
     if (watch && watch->recall && watch->recall(watch->ctx, pipeline, stage)) {
         stage->reused = true;
@@ -58,8 +59,8 @@ static void begin_run(ff_pipeline *pipeline)
     }
 }
 
-/* The code of a plugin whose file is written over is changed while it runs: a file that is put in
-   its place, as `install` does, leaves it alone. */
+/* Reports plugins whose file was overwritten in place, which changes their code while it runs.
+ * Putting a new file in its place, as `install` does, is harmless. */
 static bool check_files(const ff_pipeline *pipeline, ff_report *report)
 {
     static const char what[] =

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Finds the setting of a parameter or a wire in the file. */
+/* Finds what the file says for a parameter or a wire. */
 #include "build.h"
 
 #include <stdio.h>

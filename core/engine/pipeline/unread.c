@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * Names what a file says in vain: of stages that do not run, and of parameters and wires that serve
- * no requested output as their models say (host->serves). What is said in two places is refused.
- */
+/* Reports settings without effect: those of stages that do not run, and parameters and wires
+ * that serve no requested output, as their models say by host->serves. Refuses what is said in
+ * two places. */
 #include "build.h"
 
 #include "../plugin/param.h"
@@ -22,8 +21,8 @@ int fe_find_table(const ff_model *model, const char *item)
     return -1;
 }
 
-/* What the model of the stage has said of the item; NULL: nothing, so that it serves all outputs.
- * `item` is a parameter or an input, which may be named by its wire. */
+/* Returns what the model has said of the item, a parameter or an input; an input may be named by
+ * its wire. NULL: nothing, so that it serves all outputs. */
 static const fe_serving *serving_of(const ff_stage *stage, const char *item)
 {
     const fe_instance *instance = stage->instance;
@@ -36,7 +35,7 @@ static const fe_serving *serving_of(const ff_stage *stage, const char *item)
     return NULL;
 }
 
-/* The stage that feeds an input, and the number of its output; NULL: none. */
+/* Returns the stage that feeds an input, and in *output which of its outputs; NULL: none. */
 static ff_stage *feeding(const ff_pipeline *pipeline, const ff_stage *stage, size_t input,
                          size_t *output)
 {
@@ -49,7 +48,7 @@ static ff_stage *feeding(const ff_pipeline *pipeline, const ff_stage *stage, siz
     return offer < 0 ? NULL : from;
 }
 
-/* Marks an output that a requested one depends on, and the outputs behind it. */
+/* Marks an output that a requested one depends on, and the outputs that it depends on itself. */
 static void mark_read(const ff_pipeline *pipeline, ff_stage *stage, size_t output)
 {
     bool *read = stage->instance->read;
@@ -76,7 +75,7 @@ static bool reads_any(const ff_stage *stage, const char *outputs)
     return false;
 }
 
-/* Where a parameter or a wire of the stage is written; source NULL: it is not. */
+/* Returns where a parameter or a wire of the stage is written; its source is NULL if it is not. */
 static ff_place written_at(const fe_build *b, const ff_stage *stage, const char *item)
 {
     int param = ff_model_find_param(stage->loaded->model, item);
@@ -90,7 +89,8 @@ static ff_place written_at(const fe_build *b, const ff_stage *stage, const char 
     return FF_NOWHERE;
 }
 
-/* Of an output that no requested one depends on: why a stage that takes it does not use it. */
+/* Explains why a stage that takes this output, on which no requested output depends, does not
+ * use it. */
 static const fe_serving *excuse_of(const fe_build *b, const ff_stage *from, size_t output,
                                    const ff_stage **taker)
 {
@@ -111,7 +111,8 @@ static const fe_serving *excuse_of(const fe_build *b, const ff_stage *from, size
     return NULL;
 }
 
-/* The parameter at `place` is said once more by what `serving` names, of the stage `by`. */
+/* Refuses a parameter that another setting replaces: `serving`, of the stage `by`, says the same
+ * thing a second time. */
 static bool refuse_twice(fe_build *b, const ff_stage *stage, const fe_serving *said, ff_place place,
                          const ff_stage *by, const fe_serving *serving)
 {
@@ -129,7 +130,7 @@ static bool refuse_twice(fe_build *b, const ff_stage *stage, const fe_serving *s
     return true;
 }
 
-/* "x", "film" or "pressure": of the list "x|film|pressure". */
+/* Prints "x|film|pressure" as a list in words: "x", "film" or "pressure". */
 static const char *list_outputs(fe_build *b, const char *outputs)
 {
     const char *text = "";
@@ -142,8 +143,8 @@ static const char *list_outputs(fe_build *b, const char *outputs)
     return text;
 }
 
-/* Whether the outputs were chosen after the value was written, by a file that includes it, a study
-   or an assignment: then it served others. */
+/* Whether the outputs were chosen after the value was written, by a file that includes it, a
+ * study or an assignment. The value then served other outputs. */
 static bool is_chosen_later(const ff_stage *stage, const char *item, const ff_node *outputs)
 {
     const ff_node *value = ff_node_get(stage->node, item);
@@ -180,7 +181,8 @@ static void check_serving(fe_build *b, const ff_stage *stage, const fe_serving *
                 said->item);
 }
 
-/* A stage that runs since others take what it gives, of which nothing counts. */
+/* Warns of a stage that runs because others take its outputs, none of which affects a requested
+ * one. */
 static void warn_of_stage(fe_build *b, const ff_stage *stage)
 {
     const ff_stage *taker = NULL;
@@ -193,7 +195,7 @@ static void warn_of_stage(fe_build *b, const ff_stage *stage)
             excuse && *excuse->text ? ": " : "", excuse ? excuse->text : "");
 }
 
-/* What assignments say of a stage that does not run; true: something. */
+/* Warns of assignments to a stage that does not run. True if there are any. */
 static bool warn_of_assigned(fe_build *b, const ff_stage *stage, const ff_node *node,
                              const char *path)
 {
@@ -217,7 +219,7 @@ static void warn_of_idle(fe_build *b, const ff_node *outputs)
     for (size_t i = 0; i < b->pipeline->count; i++) {
         const ff_stage *stage = &b->pipeline->stages[i];
         if (stage->needed || fe_latest_rank(stage->node) < b->file_rank)
-            continue; /* what an included file offers may stay unused */
+            continue; /* an included file may offer more than is used */
         if (warn_of_assigned(b, stage, stage->node, stage->name))
             continue;
         names = fe_join(b->pipeline, names,
@@ -225,7 +227,8 @@ static void warn_of_idle(fe_build *b, const ff_node *outputs)
                                           fe_place_text(b->pipeline, stage->place)));
         count++;
     }
-    bool chosen = outputs && outputs->rank > b->file_rank; /* for this run, or by a study */
+    /* the outputs were chosen for this run, or by a study */
+    bool chosen = outputs && outputs->rank > b->file_rank;
     if (count > 0 && !chosen)
         ff_warn(b->report, outputs ? outputs->place : FF_NOWHERE,
                 "%s not run, since no requested output needs %s, and what %s in the file changes "

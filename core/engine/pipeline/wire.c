@@ -7,8 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Compares names from the last one on. An optional first dimension may be absent on either side:
-   the run checks that. */
+/* Compares names from the last one backwards. An optional first dimension may be absent on
+ * either side; the run checks that. */
 static bool dims_agree(const ff_dims *given, const ff_dims *taken)
 {
     const ff_dims *longer = given->rank > taken->rank ? given : taken;
@@ -31,7 +31,7 @@ static bool units_agree(const ff_port *given, const ff_port *taken)
            ff_unit_same_dimension(&one, &other);
 }
 
-/* Why output `output` of `from` cannot feed a data row; NULL: it can. */
+/* Explains why output `output` of `from` cannot feed a data row; NULL: it can. */
 static const char *row_misfit(fe_build *b, const ff_loaded *to, size_t input, const ff_loaded *from,
                               size_t output)
 {
@@ -46,7 +46,7 @@ static const char *row_misfit(fe_build *b, const ff_loaded *to, size_t input, co
     return NULL;
 }
 
-/* A service that a wire may carry beside its first one. */
+/* Whether the row is a service that a wire may carry beside its first one. */
 static bool is_further_service(const ff_port *row)
 {
     return (row->flags & FF_OPTIONAL) && strchr(row->name, '.');
@@ -73,7 +73,7 @@ const char *fe_wire_misfit(fe_build *b, const ff_stage *stage, const char *wire,
     return why || feeds ? why : "offers nothing that this wire carries";
 }
 
-/* Lists what the wire must carry: "time, load_per_width" or a service's id; "": nothing. */
+/* Lists what the wire must carry: "time, load_per_width", or the id of a service; "": nothing. */
 static const char *wire_needs(fe_build *b, const ff_stage *stage, const ff_wire *wire)
 {
     const char *needs = "";
@@ -92,7 +92,7 @@ static bool is_of_kind(const char *id, const char *kinds)
     return fe_word_find(kinds, kind) >= 0;
 }
 
-/* Connects a wire that the file gives; false when it stays without the stage that it needs. */
+/* Connects a wire that the file gives. False if a required wire stays unconnected. */
 static bool link_written(fe_build *b, const ff_stage *stage, ff_wire *wire, const ff_node *node)
 {
     const char *path = fe_pipeline_print(b->pipeline, "%s.%s", stage->name, wire->name);
@@ -148,8 +148,8 @@ static bool is_kind_installed(fe_build *b, const char *use)
     return false;
 }
 
-/* A stage without a model, or of a kind that no model is of, whose error is reported: it may be the
-   one that is meant to feed a wire. */
+/* Whether some stage has no model or an unknown kind, which is reported already. That stage may
+ * be the one that is meant to feed a wire. */
 static bool is_some_kind_unknown(fe_build *b)
 {
     bool some = false;
@@ -161,7 +161,7 @@ static bool is_some_kind_unknown(fe_build *b)
     return some;
 }
 
-/* Connects the only stage of the wire's kinds that can feed it; false after an error. */
+/* Connects the only stage, among the kinds of the wire, that can feed it; false after an error. */
 static bool link_automatic(fe_build *b, const ff_stage *stage, ff_wire *wire, const char *kinds)
 {
     const char *fitting = "", *why_not = NULL;
@@ -201,7 +201,8 @@ static bool link_automatic(fe_build *b, const ff_stage *stage, ff_wire *wire, co
                     fitting);
 }
 
-/* One wire for each word before the dot in the names of the input rows, and what feeds each. */
+/* Makes a wire for each word that stands before the dot in names of input rows, and finds what
+ * feeds it. */
 static void link_stage(fe_build *b, ff_stage *stage)
 {
     const ff_model *model = stage->loaded->model;
@@ -238,10 +239,10 @@ void fe_link_from(fe_build *b, ff_stage *stage)
             fe_link_from(b, &b->pipeline->stages[stage->wires[i].stage]);
 }
 
-/* Where the length of a dimension is made. */
+/* The stage and output that determine the length of a dimension. */
 typedef struct fe_origin {
     const ff_stage *stage;
-    bool known; /* a model that is older than 1.3 cannot tell */
+    bool known; /* false for a model older than 1.3, which cannot tell */
 } fe_origin;
 
 static int find_dim(const ff_dims *dims, const char *name)
@@ -252,7 +253,7 @@ static int find_dim(const ff_dims *dims, const char *name)
     return -1;
 }
 
-/* An input that brings a dimension of that name over that wire in each round; -1: none does. */
+/* Returns an input that brings a dimension of that name over that wire in each round; -1: none. */
 static int find_bringer(const ff_pipeline *pipeline, const ff_stage *stage, const char *wire,
                         size_t length, const char *dim)
 {
@@ -267,7 +268,7 @@ static int find_bringer(const ff_pipeline *pipeline, const ff_stage *stage, cons
     return -1;
 }
 
-/* Of a dimension of what feeds an input. */
+/* Finds the origin of a dimension of the output that feeds an input. */
 static fe_origin origin_of(const ff_pipeline *pipeline, const ff_stage *stage, size_t input,
                            const char *dim)
 {
@@ -276,7 +277,7 @@ static fe_origin origin_of(const ff_pipeline *pipeline, const ff_stage *stage, s
         const ff_stage *from = &pipeline->stages[fe_input_wire(stage, input)->stage];
         const int at = find_dim(&from->loaded->output_dims[given - from->results], dim);
         size_t length;
-        if (at < 0) /* the optional first one, which is never given */
+        if (at < 0) /* the optional first dimension, which is never given here */
             break;
         const char *wire = fe_dim_wire(from->loaded->model, given->row, (uint32_t)at, &length);
         if (length == 0)
@@ -290,7 +291,8 @@ static fe_origin origin_of(const ff_pipeline *pipeline, const ff_stage *stage, s
     return (fe_origin){.known = false};
 }
 
-/* Whether input `i`, along a dimension of another wire, is fed along that. */
+/* Whether input `i`, whose dimension `at` belongs to another wire, is fed along that wire's
+ * dimension. */
 static bool check_dim(fe_build *b, const ff_stage *stage, size_t i, uint32_t at)
 {
     const ff_loaded *loaded = stage->loaded;

@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-/* Neither of the two ranges of control characters. */
+/* Whether the character is in neither of the two ranges of control characters. */
 static bool is_clean(uint32_t c)
 {
     return c >= 0x20 && (c < 0x7f || c > 0x9f) && c != FE_NO_CHAR;
@@ -16,7 +16,7 @@ void ff_clean_text(char *out, size_t size, const char *text)
     const char *end = text + strlen(text);
     uint32_t c;
     for (size_t n; text < end; text += n) {
-        bool plain = *text >= ' ' && *text < 0x7f; /* as nearly all are */
+        bool plain = *text >= ' ' && *text < 0x7f; /* nearly all characters are plain */
         n = plain ? 1 : fe_char_read(text, end, &c);
         if (n >= size)
             break;

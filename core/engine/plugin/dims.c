@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* The dimensions of a row: names, and the wires that they belong to. */
+/* The dimensions of a row: their names, and the wires that they belong to. */
 #include "rows.h"
 
 #include <string.h>
 
-/* Whether some input is on the wire whose name these characters are. */
+/* Whether an input is on the wire with this name of `length` characters. */
 static bool has_wire(const ff_model *model, const char *wire, size_t length)
 {
     for (size_t i = 0; i < model->input_count; i++) {

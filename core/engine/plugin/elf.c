@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * dlopen maps a file, and reading behind the end of a truncated one ends the program with a bus
- * error. So the extent that the file states is compared with its size first. On the way the file is
- * hashed, which tells one build of a plugin from another.
- */
+/* Checks a shared object before dlopen, which maps the file: reading behind the end of a
+ * truncated one would end the program with a bus error. So the extent that the file states is
+ * compared with its size. The file is also hashed, which tells one build of a plugin from
+ * another. */
 #include "private.h"
 
 #include <errno.h>
@@ -14,7 +13,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Reads on until there is enough, or the end; a system may interrupt that, or give less. */
+/* Reads until `size` bytes are there or the file ends. The system may interrupt a read or give
+ * less than asked. */
 static size_t read_at(int file, void *to, size_t size, off_t at)
 {
     size_t done = 0;
@@ -27,7 +27,8 @@ static size_t read_at(int file, void *to, size_t size, off_t at)
     return done;
 }
 
-/* NULL, or what is wrong. A cut takes the table of sections first, which is at the end. */
+/* Returns NULL, or what is wrong. The section table is at the end of the file, so any truncation
+ * loses it first. */
 static const char *find_fault(int file, struct stat *status)
 {
     static const char cut[] = "is not a complete shared object: it was cut short";
@@ -51,7 +52,7 @@ static const char *find_fault(int file, struct stat *status)
     return head.e_type == ET_DYN ? NULL : "is not a shared object";
 }
 
-/* As FNV-1a, but over words of eight bytes, whose high bits must reach the low ones. */
+/* FNV-1a over words of eight bytes; the high bits of a word are folded into the low ones. */
 static uint64_t hash_file(int file)
 {
     uint64_t block[2048], hash = UINT64_C(0xcbf29ce484222325);
@@ -106,7 +107,7 @@ bool fe_elf_is_same(int folder, const char *path, const fe_object_file *checked)
 
 bool fe_is_written_over(const ff_loaded *loaded)
 {
-    if (!loaded->file) /* it is being loaded */
+    if (!loaded->file) /* it is still being loaded */
         return false;
     const struct stat *then = &loaded->file->status;
     struct stat now;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* The engine itself: its life, and the message of its last call. */
+/* The life of an engine, and the message of its last call. */
 #include "../value/report.h"
 #include "private.h"
 
 #include <stdlib.h>
 
-/* No plugin's code runs in there. Whichever way the function is left, what ran before it runs after
-   it. */
+/* Calls the function with the mark of plugin code cleared, since no plugin's code runs in it.
+ * The mark is restored however the function is left. */
 static ff_status protect(fe_heap *heap, void (*function)(void *ctx), void *ctx)
 {
     ff_guard_mark before = fe_guard_enter((ff_guard_mark){.path = NULL});

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Finds the model of an id among those that a shared object exports. */
+/* Finds the model with an id among those that a shared object exports. */
 #include "private.h"
 
 #include <dlfcn.h>
@@ -11,7 +11,8 @@ enum { MOST_MODELS = 1000 };
 typedef const ff_model *one_model(void);
 typedef const ff_model *const *list_of_models(void);
 
-/* NULL, or what is wrong with entry `index` of a list whose entries before it are sound. */
+/* Returns NULL, or what is wrong with entry `index` of the list; the entries before it are
+ * sound. */
 static const char *find_fault(const ff_model *const *list, size_t index)
 {
     const ff_model *model = list[index];

@@ -7,7 +7,7 @@
 #include <locale.h>
 #include <string.h>
 
-/* Finds out by computing, which needs no knowledge of the control registers of the processor. */
+/* Finds the arithmetic modes by computing, without reading control registers of the processor. */
 static fe_arithmetic arithmetic(void)
 {
     volatile double smallest = DBL_MIN, subnormal = DBL_TRUE_MIN;

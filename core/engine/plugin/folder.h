@@ -7,11 +7,11 @@
 #include <stdbool.h>
 
 typedef struct fe_folder {
-    char path[PATH_MAX]; /* "" when it is not known */
+    char path[PATH_MAX]; /* "" if it is not known */
 } fe_folder;
 
 void fe_folder_keep(fe_folder *folder);
-/* Goes back there; true when the working directory was another one. */
+/* Returns to the working directory that was kept; true if it had been left. */
 bool fe_folder_restore(const fe_folder *folder);
 
 #endif

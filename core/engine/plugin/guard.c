@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
+/* Keeps the mark of the code that is running, for each thread, and names it for messages. */
 #include "guard.h"
 
 #include "private.h"
 
 #include <string.h>
 
-/* With this model of access nothing is allocated when a signal handler is the first to read it. */
+/* The initial-exec model needs no allocation when a signal handler is the first to read these. */
 static _Thread_local ff_guard_mark running __attribute__((tls_model("initial-exec")));
 static _Thread_local ff_guard_mirror *mirror __attribute__((tls_model("initial-exec")));
 
@@ -32,7 +33,8 @@ static size_t append(char *out, size_t size, size_t length, const char *text)
     return length;
 }
 
-/* Writes ', or one that serves it (oil: the plugin oil.so, rho: the plugin rho.so'. */
+/* Writes ', or one that serves it (oil: the plugin oil.so, rho: the plugin rho.so', without the
+ * closing bracket. */
 static void print_services(const ff_guard_mark *mark, const char *before, char *out, size_t size)
 {
     size_t length = append(out, size, 0, "");

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The models of an engine: those that can be found, and those that were loaded. */
+/* The models of an engine: those that can be found, and those that are loaded. */
 #include "environment.h"
 #include "folder.h"
 #include "private.h"
@@ -15,7 +15,7 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
-/* Works with the memory of the engine. */
+/* Calls the function with the memory of the engine in use. */
 static void protect(ff_engine *engine, void (*work)(void *ctx), void *ctx)
 {
     if (fe_protected(&engine->heap, work, ctx) == FF_NOMEM)
@@ -47,7 +47,7 @@ char *ff_engine_file(const ff_engine *engine, const char *name)
     return NULL;
 }
 
-/* The message of the dynamic linker without the path, which our sentence names already. */
+/* Returns the message of the dynamic linker without the path, which our own sentence contains. */
 static const char *linker_words(const char *path)
 {
     const char *words = dlerror();
@@ -57,8 +57,8 @@ static const char *linker_words(const char *path)
     return words ? words : "for a reason that the linker does not tell";
 }
 
-/* Whether the linker lacked memory. Where it cannot map a file it does not say why: there is no
-   memory left for that, or no program may be run from its file system. */
+/* Whether the linker failed for want of memory. If it cannot map a file it gives no reason:
+ * either memory is missing, or the file system forbids programs. */
 static bool is_of_memory(const char *path, const char *words)
 {
     struct statvfs system;
@@ -67,12 +67,10 @@ static bool is_of_memory(const char *path, const char *words)
            (strstr(words, unmapped) && statvfs(path, &system) == 0 && !(system.f_flag & ST_NOEXEC));
 }
 
-/*
- * RTLD_LOCAL keeps one plugin's names from another's; the object stays for good, since unloading
- * breaks what it registered; RTLD_DEEPBIND would give it an allocator of its own.
- * Without memory the linker often gives another reason. So it is asked twice: what is wrong with
- * the file is so again.
- */
+/* Opens a shared object for good, since unloading breaks what it registered. RTLD_LOCAL keeps
+ * the names of plugins apart; RTLD_DEEPBIND is not used, since it would give a plugin an
+ * allocator of its own. Without memory the linker often gives another reason, so it is asked
+ * twice: a fault of the file is the same again. */
 static void *open_file(const char *path, char *why, size_t why_size)
 {
     char first[1024];
@@ -97,7 +95,7 @@ typedef struct loading {
     ff_report *report;
     ff_loaded *loaded;
     bool good;
-    char why[1024]; /* it is not */
+    char why[1024]; /* why it cannot be loaded */
 } loading;
 
 static void open_object(void *ctx)
@@ -106,7 +104,8 @@ static void open_object(void *ctx)
     fe_object_file file;
     if (!fe_elf_check(l->loaded->path, &file, l->why, sizeof l->why))
         return;
-    int folder = open(".", O_PATH | O_DIRECTORY | O_CLOEXEC); /* a constructor may leave it */
+    /* to come back, since a constructor of the plugin may change the folder */
+    int folder = open(".", O_PATH | O_DIRECTORY | O_CLOEXEC);
     void *object = open_file(l->loaded->path, l->why, sizeof l->why);
     l->loaded->build = file.hash;
     fe_object_file *kept = fe_alloc(sizeof *kept);
@@ -123,7 +122,7 @@ static void open_object(void *ctx)
               fe_model_check(l->loaded, l->id, l->why, sizeof l->why);
 }
 
-/* False after an error. */
+/* Loads the file; false after an error. */
 static bool load_file(loading *l, char *path)
 {
     char clean[1024];
@@ -151,7 +150,8 @@ static bool load_file(loading *l, char *path)
     return ff_error(l->report, FF_FAULT_PLUGIN, l->place, NULL, "the plugin %s %s", path, clean);
 }
 
-/* The model with the nearest id, or of that name in any kind; NULL: there is none. */
+/* Returns the id nearest to a wrong one, or that of a model with the same name in another kind;
+ * NULL: none. */
 static const char *meant(ff_engine *engine, const char *id)
 {
     size_t count;
@@ -164,7 +164,7 @@ static const char *meant(ff_engine *engine, const char *id)
     return near;
 }
 
-/* The models of the kind of `id`: "kind/a, kind/b"; "": there are none. To be freed. */
+/* Lists the models of the kind of `id`: "kind/a, kind/b"; "": there are none. To be freed. */
 static char *models_of_kind(ff_engine *engine, const char *id)
 {
     size_t count, length = strcspn(id, "/") + 1;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Reads the value of a parameter from the file, as its row in the model's table says. */
 #include "param.h"
 
 #include "../value/limits.h"
@@ -17,7 +18,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* The parameter that is being read. */
+/* A parameter that is being read. */
 typedef struct reading {
     const ff_param *row;
     const ff_unit *unit;
@@ -134,7 +135,7 @@ static bool check_range(const reading *r, const ff_node *node, double *si)
     return true;
 }
 
-/* Reads the middle of a value with a tolerance, both ends of which must be possible. */
+/* Reads a value with a tolerance, and returns its middle. Both ends must be possible values. */
 static bool read_toleranced(const reading *r, const ff_node *node, const ff_tolerance *t,
                             double *si)
 {
@@ -150,7 +151,8 @@ static bool read_toleranced(const reading *r, const ff_node *node, const ff_tole
     return true;
 }
 
-/* Whether it is numbers with blanks between them, as a list without commas is. */
+/* Whether the text is several numbers with blanks between them, probably a list whose commas are
+ * missing. */
 static bool is_list_without_commas(const char *text)
 {
     double number;
@@ -235,7 +237,7 @@ static bool read_reals(const reading *r, const ff_node *node, ff_value *value)
     return good;
 }
 
-/* A relative path is relative to the directory of the text that gives it. */
+/* Reads the path of a file. A relative one is relative to the folder of the text that gives it. */
 static bool read_file(const reading *r, const ff_node *node, ff_value *value)
 {
     const ff_source *source = node->place.source;
@@ -270,7 +272,7 @@ static bool read_scalar(const reading *r, const ff_node *node, ff_value *value)
         return true;
     }
     if (row->choices && !ff_number_parse(node->text, &ignored, &end))
-        return refuse_kind(r, node); /* names the words, too */
+        return refuse_kind(r, node); /* lists the words that are possible, too */
     switch (row->type) {
     case FF_REAL:
         return read_real(r, node, &value->real);
@@ -296,7 +298,7 @@ bool ff_param_read(const ff_param *row, const ff_unit *unit, const char *name, c
     return false;
 }
 
-/* The items of "[20 mm, 21 mm]", which is cut up. */
+/* Cuts the text "[20 mm, 21 mm]" into items. */
 static void split_list(char *text, ff_node *list, ff_node *items, ff_node **pointers)
 {
     char *rest = NULL;
@@ -339,7 +341,7 @@ bool ff_param_read_preset(const ff_param *row, const ff_unit *unit, const char *
     return good;
 }
 
-/* A number stands nowhere. */
+/* The node of a number from memory, which stands in no file. */
 static const ff_node nowhere = {.kind = FF_SCALAR};
 
 static bool refuse_number(const reading *r, double number)
@@ -351,7 +353,7 @@ static bool refuse_number(const reading *r, double number)
 
 static const double LARGEST_WHOLE = 9007199254740992; /* 2^53 */
 
-/* One number, or one of a list. */
+/* Takes one number, alone or of a list. */
 static bool take_number(const reading *r, double *si)
 {
     bool whole = r->row->type == FF_INT || r->row->flags & FF_WHOLE;
@@ -383,7 +385,7 @@ static bool take_list(const reading *r, const double *si, size_t count, ff_value
     return good;
 }
 
-/* A switch, or the rank of a word. */
+/* Takes a switch (0 or 1), or the rank of a word. */
 static bool take_rank(const reading *r, double number, ff_value *value)
 {
     const ff_param *row = r->row;

@@ -1,17 +1,20 @@
 /* SPDX-License-Identifier: MIT */
+/* Values of parameters from texts, from numbers in SI, and into the memory of a model. */
 #ifndef FE_PARAM_H
 #define FE_PARAM_H
 
 #include <flankfilm/engine.h>
 
-/* ff_param_read from a text as a user writes it in a file: "3 mm", "[1 mm, 2 mm]". */
+/* Does what ff_param_read does, with a text as a user writes it in a file: "3 mm", "[1 mm, 2
+ * mm]". */
 bool fe_param_read_text(const ff_param *row, const ff_unit *unit, const char *name,
                         const char *text, ff_value *value, ff_report *report);
-/* The same from numbers in SI; a switch is 0 or 1, a choice the rank of its word. */
+/* Does the same with numbers in SI; a switch is 0 or 1, a choice the rank of its word. */
 bool fe_param_take(const ff_param *row, const ff_unit *unit, const char *name, const double *si,
                    size_t count, ff_value *value, ff_report *report);
 
-/* The member of the instance that a row of that type has, as the table in plugin.h says. */
+/* Size and alignment of the instance's member for a row of that type, as the table in plugin.h
+ * says. */
 typedef struct fe_member {
     size_t size, alignment; /* bytes */
 } fe_member;
@@ -20,8 +23,8 @@ fe_member fe_param_member(int32_t type);
 
 int fe_word_find(const char *words, const char *word); /* rank in "a|b|c"; -1: not there */
 
-/* Writes the value into the member that the row names by `place`; NULL: it was not given. Texts and
-   lists are not copied: they live until the instance is destroyed. */
+/* Writes the value into the member that the row's `place` names; NULL: no value was given. Texts
+ * and lists are not copied: they live until the instance is destroyed. */
 void fe_param_place(const ff_param *row, void *self, const ff_value *value);
 
 #endif

@@ -8,46 +8,46 @@
 
 #include <sys/stat.h>
 
-/* A file that was checked. */
+/* A file that has passed the check. */
 typedef struct fe_object_file {
     struct stat status;
     uint64_t hash; /* of its bytes */
 } fe_object_file;
 
-/* Whether the file is as long as its header says. On failure, `why` is a clause that completes 'the
-   plugin x.so ...'. */
+/* Whether the file is as long as its header says. If not, `why` is a clause that completes 'the
+ * plugin x.so ...'. */
 bool fe_elf_check(const char *path, fe_object_file *checked, char *why, size_t why_size);
 
-/* Whether the path, seen from the folder of that descriptor, still names the file that was checked,
-   unchanged. */
+/* Whether the path, relative to the open folder, still names the file that was checked,
+ * unchanged. */
 bool fe_elf_is_same(int folder, const char *path, const fe_object_file *checked);
 
-/* The model of that id that the object exports: NULL where its only one is. On failure false, and
-   `why` is a clause that completes 'the plugin x.so ...'. */
+/* Finds the model with that id among those that the object exports; with id NULL, its only
+ * model. If it fails, `why` is a clause that completes 'the plugin x.so ...'. */
 bool fe_entry_find(void *object, const char *id, const ff_model **model, char *why,
                    size_t why_size);
 
-/* Checks the descriptor of loaded->model, calling none of its functions, and reads the units and
-   dimensions of its rows. A descriptor or rows of an older version are replaced by copies of
-   today's length. On failure, `why` is a clause that completes 'the plugin x.so ...'. */
+/* Checks the descriptor of loaded->model without calling its functions, and reads the units and
+ * dimensions of its rows. A descriptor or rows of an older version are replaced by copies of
+ * today's length. If it fails, `why` is a clause that completes 'the plugin x.so ...'. */
 bool fe_model_check(ff_loaded *loaded, const char *id, char *why, size_t why_size);
 
-/* Whether it is "kind/name" of lower-case letters, digits and hyphens, which can be part of a path.
- */
+/* Whether the text is "kind/name" in lower-case letters, digits and hyphens, so that it can be
+ * part of a path. */
 bool fe_id_is_legal(const char *id);
 
-/* Those of the options come first. */
+/* Sets up the search path; the given directories come first. */
 void fe_search_path_new(fe_search_path *search, const char *const *given, size_t count);
 
-/* Returns the first file of that id, or NULL, and in *tried the names that were tried. The caller
-   frees both. */
+/* Returns the first file with that id, or NULL, and in *tried the names that were tried. The
+ * caller frees both. */
 char *fe_search_path_find(const fe_search_path *search, const char *id, char **tried);
 
-/* The further files of that id, "a.so, b.so", without those that are the one in use under another
-   name; NULL: there are none. The caller frees it. */
+/* Returns the other files with that id, "a.so, b.so"; links to the file in use do not count.
+ * NULL: none. The caller frees it. */
 char *fe_search_path_others(const fe_search_path *search, const char *id, const char *used);
 
-/* Sorted ids of all files, each once; freed by the caller. */
+/* Returns the ids of all files, sorted, each once; the caller frees them. */
 char **fe_search_path_list(const fe_search_path *search, size_t *count);
 
 #endif

@@ -1,27 +1,31 @@
 /* SPDX-License-Identifier: MIT */
-/* Rows of older versions of the interface, and how rows name each other. */
+/* Completes rows of older versions of the interface, and resolves the names by which rows refer
+ * to each other. */
 #ifndef FE_ROWS_H
 #define FE_ROWS_H
 
 #include <flankfilm/engine.h>
 
-/* A copy of the descriptor with all members of this version; what an older one lacks is 0. */
+/* Returns a copy of the descriptor with all members of this version; those that an older version
+ * lacks are 0. */
 const ff_model *fe_model_complete(const ff_model *model);
 
-/* "gear.teeth" and the service "gear" are on the wire "gear". */
+/* Whether the input is on the wire: "gear.teeth" and the service "gear" are on "gear". */
 bool fe_is_on_wire(const char *input, const char *wire);
 
-/* dims.c: letters, digits and "_", no digit first. */
+/* dims.c: a name has letters, digits and "_", and does not begin with a digit. */
 enum { FE_LONGEST_NAME = 64 };
 bool fe_is_name(const char *text, size_t length);
-/* Reads the "", "station", "engagement? gear.station" of a row. NULL, or what is wrong. The
-   names of `dims` are without their wires. */
+/* Reads the dimensions of a row, such as "", "station", "engagement? gear.station". Returns
+ * NULL, or what is wrong. The names in `dims` are without their wires. */
 const char *fe_dims_read(const ff_model *model, const char *text, ff_dims *dims);
-/* The wire that the i-th dimension of a row belongs to: "gear" of "t gear.station", else, of an
-   input row, its own. Length 0: an output's own dimension, and any of a model that is older
-   than 1.3, where equal names on all wires mean equal lengths. Not ended by '\0'. */
+/* Returns the wire that the i-th dimension of a row belongs to: "gear" for "t gear.station"; for
+ * an input row without such a prefix, the row's own wire. Length 0: an output's own dimension.
+ * The length is always 0 for a model older than 1.3, for which equal names mean equal lengths on
+ * all wires. Not ended by '\0'. */
 const char *fe_dim_wire(const ff_model *model, const ff_port *row, uint32_t i, size_t *length);
-/* A name that this output and one before it have for dimensions of different stages, or NULL. */
+/* Returns a name that this output and one before it use for dimensions of different stages, or
+ * NULL. */
 const char *fe_dims_clash(const ff_loaded *loaded, size_t output);
 
 #endif

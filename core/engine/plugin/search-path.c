@@ -10,8 +10,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Takes over `directory`. Empty ones are left out, since "" would be the current directory; so are
-   repeated ones. */
+/* Adds `directory` and takes ownership of it. Empty ones are left out, since "" would be the
+ * current directory, and so are repeated ones. */
 static void add(fe_search_path *search, char *directory)
 {
     bool known = !directory[0];
@@ -45,7 +45,7 @@ static void add_user(fe_search_path *search)
         add(search, fe_print_text("%s/.local/share/flankfilm/plugins", home));
 }
 
-/* Adds a directory that is found beside the engine. */
+/* Adds a directory that was found beside the engine. */
 static void add_own(fe_search_path *search, char *directory)
 {
     if (directory)
@@ -69,7 +69,7 @@ char *fe_search_path_find(const fe_search_path *search, const char *id, char **t
     *tried = fe_copy_text("", 0);
     for (size_t i = 0; i < search->count; i++) {
         char *path = fe_print_text("%s/%s.so", search->directories[i], id);
-        /* lstat: a link that leads nowhere is a broken plugin, not an absent one */
+        /* lstat, not stat: a dangling link is a broken plugin, not an absent one */
         if (lstat(path, &status) == 0)
             return path;
         char *longer = fe_print_text("%s%s%s", *tried, i ? ", " : "", path);
@@ -119,7 +119,7 @@ static void close_folder(void *of)
     closedir(((folder *)of)->stream);
 }
 
-/* NULL: there is no such folder. */
+/* Opens a folder; NULL: there is none. */
 static folder *open_folder(const char *path)
 {
     folder *f = fe_alloc(sizeof *f);
@@ -134,7 +134,8 @@ static folder *open_folder(const char *path)
     return NULL;
 }
 
-/* The next name with that ending and more, which is not hidden; NULL behind the last one. */
+/* Returns the next name that has that ending, something before it, and no leading dot; NULL
+ * after the last one. */
 static const char *next_name(folder *f, const char *ending)
 {
     const struct dirent *entry;

@@ -10,10 +10,10 @@ enum { LOCKS = 64 };
 static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
 static pthread_cond_t freed = PTHREAD_COND_INITIALIZER;
 
-/* Of each lock, under the mutex. */
+/* The state of each lock; the mutex guards it. */
 static struct {
     pthread_t owner;
-    size_t entered; /* how often; 0: it is free */
+    size_t entered; /* how often its owner has entered it; 0: it is free */
 } locks[LOCKS];
 
 fe_serial fe_serial_of(const ff_model *model)
@@ -24,7 +24,7 @@ fe_serial fe_serial_of(const ff_model *model)
     uintptr_t code = (uintptr_t)model->create, page = 4096;
     if (dladdr((const void *)code, &object))
         code = (uintptr_t)object.dli_fbase;
-    return (fe_serial)1 << (1 + code / page % (LOCKS - 1)); /* the first is of loading */
+    return (fe_serial)1 << (1 + code / page % (LOCKS - 1)); /* the first lock is that of loading */
 }
 
 static bool is_in(fe_serial set, size_t lock)

@@ -1,24 +1,21 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * Shared objects whose models say FF_SERIAL run one call at a time in the process, whichever engine
- * makes it: each has a lock. A call takes at once the locks of all objects whose code it may run,
- * its model's and those of the services that this was wired to, and waits while another thread has
- * one of them; it never holds a part of them while it waits, so that calls cannot wait for each
- * other in a ring. A thread that has a lock may take it again.
- */
+/* Locks for models with the flag FF_SERIAL: a shared object with such a model runs one call at a
+ * time in the process, whichever engine makes it. A call takes all locks it may need at once,
+ * those of its model and of the services that the model is wired to, and holds none of them
+ * while it waits, so that calls cannot deadlock. A thread may take a lock again that it has. */
 #ifndef FE_SERIAL_H
 #define FE_SERIAL_H
 
 #include <flankfilm/plugin.h>
 
-/* A set of locks: a bit for each. */
+/* A set of locks, one bit for each. */
 typedef uint64_t fe_serial;
 
-/* The loading of objects, which may make their tables only then. */
+/* The lock for loading objects, which may fill their tables only during loading. */
 #define FE_SERIAL_LOADING ((fe_serial)1)
 
-/* The lock of the object that the model is in; the empty set where it may run beside others. Few
-   objects are serial: two of them may share a lock. */
+/* Returns the lock of the object that the model is in; the empty set if it may run beside
+ * others. Two objects may share a lock, since few are serial. */
 fe_serial fe_serial_of(const ff_model *model);
 
 void fe_serial_enter(fe_serial set);

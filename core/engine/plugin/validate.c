@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Bytes of a row of version 1.0, which newer rows continue. */
+/* Size of a row in version 1.0; newer rows continue after it. */
 static const size_t param_row_1_0 = offsetof(ff_param, place);
 static const size_t port_row_1_0 = offsetof(ff_port, min);
 
@@ -41,13 +41,13 @@ __attribute__((format(printf, 2, 3))) static bool fault(const checking *c, const
     return false;
 }
 
-/* A condition, and the message when it does not hold. */
+/* A condition that must hold, and the message if it does not. */
 typedef struct claim {
     bool holds;
     const char *fault;
 } claim;
 
-/* Reports a fault of the row that is checked, or of the model. */
+/* Reports the first condition that does not hold, about the row that is checked or the model. */
 static bool check_claims(const checking *c, const claim *claims, size_t count)
 {
     for (size_t i = 0; i < count; i++)
@@ -58,7 +58,7 @@ static bool check_claims(const checking *c, const claim *claims, size_t count)
     return true;
 }
 
-/* Counts the names in a text such as "wire.output"; 0 when it is something else. */
+/* Counts the names in a text such as "wire.output"; 0 if it is not such a text. */
 static int count_names(const char *text)
 {
     for (int count = 1; text && strlen(text) < FE_LONGEST_NAME; count++) {
@@ -78,7 +78,7 @@ static bool same_first_name(const char *a, const char *b)
     return strcspn(b, ".") == length && !strncmp(a, b, length);
 }
 
-/* Keys that the file itself uses in a stage. */
+/* Whether the word is a key that the file itself uses in a stage. */
 static bool is_reserved(const char *name)
 {
     return same_first_name(name, "use") || same_first_name(name, "with");
@@ -192,7 +192,7 @@ static bool check_words(const checking *c, const ff_param *row)
         const char *end;
         size_t length = strlen(word);
         bool plain = length > 0 && length < FE_LONGEST_NAME && fe_text_is_clean(word);
-        /* "16MnCr5" is a word where no number may stand beside it */
+        /* "16MnCr5" is a word, unless a number may stand in its place */
         bool numeric = ff_number_parse(word, &number, &end) && (row->type != FF_CHOICE || !*end);
         if (!plain || (row->type != FF_TEXT && (strpbrk(word, " \"'[]{},:#") || numeric)))
             return fault(c, "has the choice \"%s\" for the parameter \"%s\", which is not a word",
@@ -203,7 +203,7 @@ static bool check_words(const checking *c, const ff_param *row)
     return true;
 }
 
-/* The first number of a range is the smaller one; two zeros stand for no range. */
+/* Whether the first number of a range is the smaller one; two zeros stand for no range. */
 static bool is_range(double from, double to)
 {
     return from < to || (from == 0 && to == 0);
@@ -247,7 +247,8 @@ static bool check_preset(const checking *c, const ff_param *row, const ff_unit *
     return good;
 }
 
-/* The member lies within the instance, aligned, and apart from those of the rows before. */
+/* Checks that the member lies within the instance, is aligned, and does not overlap those of
+ * earlier rows. */
 static bool check_place(const checking *c, size_t index)
 {
     const ff_model *m = c->model;
@@ -297,7 +298,8 @@ static bool check_param(checking *c, size_t index, ff_unit *unit)
                      index + 1, c->name);
     if (is_reserved(c->name))
         return fault(c, "calls a parameter \"%s\", a word of the file's own", c->name);
-    /* names differ, and none is the map of another: "atlas" and "atlas.from" */
+    /* names must differ, and none may be the map of another, as "atlas" would be for
+     * "atlas.from" */
     for (size_t i = 0; i < index; i++) {
         const char *other = ff_model_param(c->model, i)->name;
         size_t n = strlen(c->name), m = strlen(other), least = n < m ? n : m;
@@ -333,7 +335,7 @@ static bool check_port(const checking *c, const ff_port *row, ff_dims *dims)
                            c->name, row->dims, wrong);
 }
 
-/* A wire that may close a loop can be absent, and carries data. */
+/* Checks that a feedback wire is optional and carries data. */
 static bool check_feedback(const checking *c, const ff_port *row)
 {
     const claim claims[] = {
@@ -344,7 +346,8 @@ static bool check_feedback(const checking *c, const ff_port *row)
     return !(row->flags & FF_FEEDBACK) || check_claims(c, claims, sizeof claims / sizeof *claims);
 }
 
-/* A wire cannot have the name of a parameter, and its rows come from one stage. */
+/* Checks an input row: its wire must not have the name of a parameter, and the rows of a wire
+ * come from one stage. */
 static bool check_input(checking *c, size_t index, ff_dims *dims)
 {
     enum { LONGEST_WIRE = 47 };
@@ -378,7 +381,8 @@ static bool check_input(checking *c, size_t index, ff_dims *dims)
     return check_feedback(c, row) && check_port(c, row, dims);
 }
 
-/* What replaces a parameter may stay unconnected: a service, since 1.3 a data input or a wire. */
+/* Checks that the input which replaces a parameter is optional: a service, or since 1.3 a data
+ * input or a wire. */
 static bool check_instead(const checking *c, size_t index)
 {
     const ff_param *row = ff_model_param(c->model, index);
@@ -399,7 +403,7 @@ static bool check_instead(const checking *c, size_t index)
                      : "is not an optional input");
 }
 
-/* The members of an output row that came with 1.3. */
+/* Checks the members of an output row that came with 1.3. */
 static bool check_meaning(const checking *c, const ff_port *row)
 {
     ff_unit unit, shown;

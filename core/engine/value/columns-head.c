@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The header of a table: names and units of its columns, and whether required ones are missing. */
+/* Reads the header of a table: names and units of its columns, and whether required ones are
+ * missing. */
 #include "columns-read.h"
 
 #include "memory.h"
@@ -16,7 +17,7 @@ static int find(const fe_columns *c, fe_field name)
     return FE_NO_COLUMN;
 }
 
-/* "time [s]", as a header names the column. */
+/* Prints a column as a header names it: "time [s]". */
 static void print_head(const fe_columns *c, size_t k, char *out, size_t size)
 {
     bool bare = ff_unit_is_dimensionless(&c->units[k]) && strcmp(c->asked[k]->unit, "%") != 0;
@@ -44,7 +45,7 @@ static bool refuse_name(const fe_column_reader *r, fe_field head, const char *wo
     return fe_column_refuse(r, head, hint, "no column is called \"%s\"", word);
 }
 
-/* Reads "[GPa]", or nothing, behind the name; `head` is the whole field. */
+/* Reads the unit "[GPa]" behind a name, or nothing; `head` is the whole field. */
 static bool read_unit(fe_column_reader *r, size_t index, fe_field head, const char *open,
                       const char *word)
 {
@@ -74,7 +75,7 @@ static bool read_unit(fe_column_reader *r, size_t index, fe_field head, const ch
                             unit, c->asked[k]->unit);
 }
 
-/* "pressure [GPa]" */
+/* Reads one field of the header: "pressure [GPa]". */
 static bool read_head(fe_column_reader *r, size_t index, fe_field head)
 {
     fe_columns *c = r->c;
@@ -99,7 +100,7 @@ static bool same_group(const fe_columns *c, size_t i, size_t k)
     return i == k || (a && b && !strcmp(a, b));
 }
 
-/* Counts the columns of the file in the group of k; *first: k is the first row of the group. */
+/* Counts the columns of the file in the group of row k; *first: k is the first row of the group. */
 static size_t count_group(const fe_columns *c, size_t k, bool *first)
 {
     size_t given = 0;
@@ -126,7 +127,7 @@ static bool refuse_missing(const fe_column_reader *r, size_t k, fe_field line)
                             names, c->asked[k]->doc);
 }
 
-/* Required columns are there, and at most one column of each group. */
+/* Checks that required columns are there, and at most one column of each group. */
 static bool check_heads(const fe_column_reader *r, fe_field line)
 {
     const fe_columns *c = r->c;

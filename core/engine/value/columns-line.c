@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Splits the lines of a table into fields. */
 #include "columns-read.h"
 
 #include "text.h"
@@ -24,7 +25,7 @@ fe_field fe_field_trim(const char *at, const char *end)
     return (fe_field){at, end};
 }
 
-/* The stretch from `at` to `end` of the line that begins at `begin`. */
+/* Returns the place of a text within its line. */
 static ff_place place_in(const ff_source *source, uint32_t line, const char *begin, fe_field text)
 {
     const char *stop = source->text + source->length;
@@ -61,7 +62,8 @@ static bool has(const char *at, const char *end, char c)
     return memchr(at, c, (size_t)(end - at));
 }
 
-/* Behind the quote that closes the one at `at`; one that is written twice stands for itself. */
+/* Returns the character behind the quote that closes the one at `at`. A doubled quote stands for
+ * itself and closes nothing. */
 static const char *skip_quoted(const char *at, const char *end)
 {
     for (at++; at < end; at++) {
@@ -73,10 +75,10 @@ static const char *skip_quoted(const char *at, const char *end)
     return end;
 }
 
-/* Where that character stands first, but within quotes; `end`: nowhere. */
+/* Returns where a character first stands outside of quotes; `end`: nowhere. */
 static const char *find(const char *at, const char *end, char wanted)
 {
-    bool fresh = true; /* a quote here opens a quoted field */
+    bool fresh = true; /* a quote at this place opens a quoted field */
     while (at < end) {
         bool quoted = fresh && *at == '"';
         if (!quoted && *at == wanted)
@@ -87,7 +89,8 @@ static const char *find(const char *at, const char *end, char wanted)
     return end;
 }
 
-/* Where blanks separate the fields, a name and its unit are still one field: "time [s]". */
+/* Returns the end of a field. If blanks separate the fields, a name and its unit still make one:
+ * "time [s]". */
 static const char *field_end(const char *at, const char *end, char separator, bool quotes)
 {
     if (separator != ' ' && quotes)
@@ -110,7 +113,8 @@ static const char *field_end(const char *at, const char *end, char separator, bo
     return at;
 }
 
-/* Spreadsheets and R quote texts. None that is read holds a quote itself. */
+/* Takes off the quotes that spreadsheets and R put around texts. No text that is read contains a
+ * quote. */
 static fe_field unquote(fe_field field)
 {
     bool quoted = field.end - field.at >= 2 && *field.at == '"' && field.end[-1] == '"';
@@ -163,7 +167,7 @@ char fe_line_separator(fe_field line)
     return *s;
 }
 
-/* Sets what a field is without its quotes. */
+/* Finds the part of a field within its quotes, and its column and width in characters. */
 static ff_field read_field(const char *begin, fe_field text, const char *end)
 {
     ff_field field = {.at = text.at, .end = text.end, .column = 1};

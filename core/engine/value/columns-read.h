@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What the three files of the reader of tables share. */
+/* Shared by the three files that read tables. */
 #ifndef FE_COLUMNS_READ_H
 #define FE_COLUMNS_READ_H
 
@@ -7,27 +7,27 @@
 
 enum { FE_MOST_FIELDS = 100, FE_NO_COLUMN = -1 };
 
-/* A table, and where in which text it stands. */
+/* A table, with the places of its parts in the text. */
 typedef struct fe_columns {
-    ff_table table; /* the view of a model, which points to the rest */
+    ff_table table; /* what a model sees of it; points into the rest */
     ff_source source;
-    size_t count; /* columns that were asked for */
+    size_t count; /* requested columns */
     const ff_param **asked;
-    ff_unit *units; /* their rows' */
+    ff_unit *units; /* units of the requested rows */
     size_t rows;
-    double **values; /* in SI, of each column; NULL: the file lacks it */
-    uint32_t *lines; /* of each row */
-    ff_place *heads; /* of each column in the header */
-    size_t *fields;  /* of each column: which field of a line */
+    double **values; /* by column, in SI; NULL: the file lacks it */
+    uint32_t *lines; /* the line of each row */
+    ff_place *heads; /* the place of each column in the header */
+    size_t *fields;  /* by column: which field of a line it is */
     size_t width;    /* fields of a line */
-    char separator;  /* of the header; ' ': any blanks */
+    char separator;  /* that of the header; ' ': any blanks */
 } fe_columns;
 
 /* The state of reading one table. */
 typedef struct fe_column_reader {
     fe_columns *c;
     ff_report *report;
-    int column_of[FE_MOST_FIELDS]; /* rank of the column that was asked for, or FE_NO_COLUMN */
+    int column_of[FE_MOST_FIELDS]; /* rank among the requested columns, or FE_NO_COLUMN */
     ff_unit unit_of[FE_MOST_FIELDS];
     uint32_t line;
     const char *begin; /* of the line */
@@ -41,15 +41,15 @@ typedef struct fe_field {
 
 /* columns-line.c: a line and its fields. */
 fe_field fe_field_trim(const char *at, const char *end);
-/* Splits a line into fields; those beyond FE_MOST_FIELDS are counted, but not kept. */
+/* Splits a line into fields. Those beyond FE_MOST_FIELDS are counted but not kept. */
 size_t fe_line_split(fe_field line, char separator, fe_field fields[FE_MOST_FIELDS]);
-/* False after an error: a field among these begins with a quote that does not end it. */
+/* False, with an error, if one of the fields begins with a quote that does not end it. */
 bool fe_line_is_closed(const fe_column_reader *reader, size_t count, const fe_field *fields);
-/* Splits a line as the header was split. Without that separator in it, the first one that gives as
-   many fields as the header has is used. */
+/* Splits a line with the separator of the header. If the line lacks it, takes the first
+ * separator that gives as many fields as the header has. */
 size_t fe_row_split(const fe_columns *columns, fe_field line, fe_field fields[FE_MOST_FIELDS]);
 char fe_line_separator(fe_field line); /* of a header */
-/* The place of a part of the line that is being read; at NULL: of the whole file. */
+/* Returns the place of a part of the line that is being read; at NULL: of the whole file. */
 ff_place fe_column_place(const fe_column_reader *reader, fe_field text);
 /* Reports an error at a part of the line. Returns false. */
 bool fe_column_refuse(const fe_column_reader *reader, fe_field text, const char *hint,

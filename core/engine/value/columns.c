@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Reads a table of named columns with units from a CSV file. */
 #include "columns-read.h"
 
 #include "limits.h"
@@ -14,7 +15,7 @@
 
 enum { MOST_BYTES = 1 << 27, MOST_ROWS = 2000000, MOST_ERRORS = 20 };
 
-/* An error at this field is an error of the whole file. */
+/* Stands for the whole file where an error is not about one field. */
 static const fe_field whole = {NULL, NULL};
 
 static bool load(fe_column_reader *r, const char *path)
@@ -30,7 +31,8 @@ static bool load(fe_column_reader *r, const char *path)
     if (about.st_size > MOST_BYTES)
         return fe_column_refuse(r, whole, NULL, "the file has more than 128 MiB");
     size_t most = (size_t)about.st_size;
-    source->text = fe_resize(source->text, most + 1); /* not while there is a file to be closed */
+    /* before the file is opened, so that a failure leaves no open file */
+    source->text = fe_resize(source->text, most + 1);
     FILE *file = fopen(path, "rb");
     if (file)
         source->length = fread(source->text, 1, most, file);
@@ -43,7 +45,7 @@ static bool load(fe_column_reader *r, const char *path)
            fe_column_refuse(r, whole, NULL, "the file cannot be read: %s", fe_errno_text());
 }
 
-/* Drops a byte order mark and refuses zero bytes. Where no line ends with LF, a CR ends a line. */
+/* Drops a byte order mark and refuses zero bytes. CR ends a line if no line ends with LF. */
 static bool check_text(fe_column_reader *r)
 {
     ff_source *source = &r->c->source;
@@ -127,7 +129,7 @@ static void make_room(fe_column_reader *r)
     c->lines = fe_resize(c->lines, r->room * sizeof *c->lines);
 }
 
-/* False when reading on would serve nothing. */
+/* Reads a row. False if reading on would serve nothing. */
 static bool read_row(fe_column_reader *r, fe_field line)
 {
     fe_columns *c = r->c;
@@ -139,7 +141,7 @@ static bool read_row(fe_column_reader *r, fe_field line)
     c->lines[c->rows++] = r->line;
     for (size_t k = 0; k < c->count; k++)
         if (c->values[k])
-            c->values[k][row] = 0; /* until it is read */
+            c->values[k][row] = 0; /* until the field is read */
     if (!fe_line_is_closed(r, count, fields))
         return true;
     if (count != c->width)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Numbers between guard zones, which show a write outside of them. */
+/* Arrays between guard zones, which show writes outside of them. */
 #include "memory.h"
 
 #include <flankfilm/engine.h>
@@ -8,10 +8,11 @@
 
 enum { LEAST = 128, MOST = 512, MULTIPLE = 8 };
 
-/* What stands in the zones; a model has no reason to write it. */
+/* The content of the zones, a value that no model has a reason to write. */
 static const double canary = -7.6543210987e-123;
 
-/* The numbers of a zone: a row too many of a small field still lies in it. */
+/* Returns the length of a zone. It grows with the array, so that writing one row too many still
+ * lies in it. */
 static size_t zone_of(size_t count)
 {
     size_t zone = count < LEAST ? LEAST : count > MOST ? MOST : count;
@@ -24,7 +25,7 @@ static void fill(double *zone, size_t count)
         zone[i] = canary;
 }
 
-/* Each number is equal to the one behind it, and the first is right. */
+/* Whether a zone is unchanged: its first number is right, and each equals the next. */
 static bool is_filled(const double *zone, size_t count)
 {
     return !memcmp(zone, &canary, sizeof canary) &&

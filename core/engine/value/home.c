@@ -10,17 +10,17 @@
 #include <string.h>
 #include <unistd.h>
 
-/* What realpath may write, on Linux. */
+/* The longest path that realpath writes on Linux. */
 enum { LONGEST_PATH = 4096 };
 
-/* Writes the folder of the file that this code is in; false: it is not known. */
+/* Writes the folder of the file that this code is in; false: not known. */
 static bool find_folder(char folder[LONGEST_PATH])
 {
     static const char here = 0;
     Dl_info about;
     struct link_map *object = NULL;
     dladdr1(&here, &about, (void **)&object, RTLD_DL_LINKMAP);
-    /* the program itself has no name there */
+    /* a program itself has no name in the list of loaded objects */
     const char *file = object && object->l_name[0] ? object->l_name : "/proc/self/exe";
     char *slash = realpath(file, folder) ? strrchr(folder, '/') : NULL;
     if (slash)
@@ -42,7 +42,7 @@ char *fe_installed_file(const char *path)
     char folder[LONGEST_PATH];
     if (!find_folder(folder))
         return NULL;
-    char *file = find(folder, "../", path); /* from bin */
+    char *file = find(folder, "../", path); /* from the program's folder, bin */
     return file ? file : find(folder, FE_UP_FROM_LIBRARY, path);
 }
 
@@ -54,7 +54,7 @@ static bool is_there(const char *folder, const char *name)
     return there;
 }
 
-/* The build tree is where the plugins are: beside the code, or beside a build file above. */
+/* Finds the build tree beside the code, or beside a build file in a folder above. */
 char *fe_built_file(const char *path)
 {
     char folder[LONGEST_PATH];

@@ -15,10 +15,10 @@
 typedef struct file {
     fe_tree *tree;
     ff_report *report;
-    const struct file *parent; /* the file that includes it, or NULL */
-    ff_place place;            /* of its name in the parent */
+    const struct file *parent; /* the file that includes this one, or NULL */
+    ff_place place;            /* of this file's name in the parent */
     const char *path;
-    const char *hint; /* for the case that it cannot be read, or NULL */
+    const char *hint; /* added to the message if the file cannot be read, or NULL */
     struct stat info;
     int level;
 } file;
@@ -40,7 +40,8 @@ static char *read_file(file *f, size_t *length)
         return refuse(f, "it is a directory");
     if (!S_ISREG(f->info.st_mode)) /* reading a named pipe would block */
         return refuse(f, "it is not a regular file");
-    char *text = fe_alloc(FE_MOST_TEXT + 1); /* not while there is a stream to be closed */
+    /* before the stream is opened, so that a failure leaves no open stream */
+    char *text = fe_alloc(FE_MOST_TEXT + 1);
     FILE *stream = fopen(f->path, "re");
     if (!stream)
         return refuse(f, fe_errno_text());
@@ -57,21 +58,22 @@ static char *read_file(file *f, size_t *length)
     return refuse(f, why);
 }
 
-/* Without a leading "./". */
+/* Joins the paths, without a leading "./". */
 char *ff_path_beside(const char *directory, const char *path)
 {
     bool alone = *path == '/' || !strcmp(directory, ".");
     return fe_print_text("%s%s%s", alone ? "" : directory, alone ? "" : "/", path);
 }
 
-/* The path of an example that came with the engine, in the installed tree or of the build; the
-   caller frees it. NULL: the file is not among them. */
+/* Returns the path of an example that came with the engine, in the installed or the build tree.
+ * NULL: there is none of that name. The caller frees it. */
 static char *shipped(const char *path)
 {
     if (*path == '/')
         return NULL;
     char *installed = fe_print_text("share/flankfilm/configs/%s", path);
-    char *built = fe_print_text("configs/%s", path); /* a link there to the source tree */
+    /* in the build tree, configs is a link to the source tree */
+    char *built = fe_print_text("configs/%s", path);
     char *found = fe_installed_file(installed);
     if (!found)
         found = fe_built_file(built);
@@ -80,7 +82,7 @@ static char *shipped(const char *path)
     return found;
 }
 
-/* The example whose name is near to that of a path; the caller frees it. NULL: none is. */
+/* Returns the example with a name near to that of a path; NULL: none. The caller frees it. */
 static char *near_example(const char *path)
 {
     const char *slash = strrchr(path, '/'), *word = slash ? slash + 1 : path;
@@ -94,8 +96,9 @@ static char *near_example(const char *path)
     return hint;
 }
 
-/* What may be meant by a path where no file is: one of a near name, there or among the examples, or
-   an example, as "../gears/x.yaml" is in a copy of one. The caller frees it; NULL: nothing. */
+/* Suggests a file in place of one that does not exist: one with a near name in that folder or
+ * among the examples, or the example meant by "../gears/x.yaml" in a copy of an example. NULL:
+ * none. The caller frees it. */
 static char *hint_at(const char *whole, const char *path)
 {
     const char *below = path;
@@ -137,7 +140,7 @@ static ff_node *load_entry(const file *f, const ff_node *entry)
     return node;
 }
 
-/* Merges the named files into *base, which may be NULL. False when one cannot be read. */
+/* Merges the named files into *base, which may be NULL. False if one cannot be read. */
 static bool load_named(const file *f, const ff_node *named, ff_node **base)
 {
     bool list = named->kind == FF_SEQUENCE, whole = true;
@@ -150,7 +153,7 @@ static bool load_named(const file *f, const ff_node *named, ff_node **base)
     return whole;
 }
 
-/* Removes `include` from the map and reads its files. False when one cannot be read. */
+/* Removes `include` from the map and reads the files that it names. False if one cannot be read. */
 static bool load_includes(const file *f, ff_node *map, ff_node **base)
 {
     size_t at = fe_map_find(map, "include");
@@ -174,7 +177,7 @@ bool fe_check_format(ff_report *report, const ff_node *format)
         format->text);
 }
 
-/* Reads a source with what it includes. NULL when any part of it cannot be read. */
+/* Reads a source and the files that it includes. NULL if any part of it cannot be read. */
 static ff_node *read_source(const file *f, const ff_source *source)
 {
     ff_node *root = fe_yaml_read(f->tree, source, source->text, f->report), *base;
@@ -192,8 +195,8 @@ static ff_node *read_source(const file *f, const ff_source *source)
     }
     if (!root)
         return NULL;
-    /* names of another format would be errors that help nobody; a file that is included may leave
-     * it out */
+    /* Stops at another format, whose other names would only give useless errors. An included
+     * file may leave `format` out. */
     const ff_node *format = ff_node_get(root, "format");
     if (format && format->kind == FF_SCALAR && !fe_check_format(f->report, format))
         return NULL;

@@ -12,8 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The blocks of a heap form a list in both directions: a block knows what points to it, so that it
-   can be taken out without its heap. */
+/* The blocks of a heap form a doubly linked list. A block knows the pointer to it, so that it
+ * can be taken out without knowing its heap. */
 struct fe_block {
     struct fe_block *next, **link; /* link NULL: it belongs to no heap */
     max_align_t memory[];
@@ -26,8 +26,8 @@ typedef struct frame {
     jmp_buf escape;
 } frame;
 
-/* The innermost bracket of the thread. With this model of access a signal handler may run before
-   the thread has read it once, and nothing is allocated for it. */
+/* The innermost bracket of the thread. The initial-exec model allows a signal handler to be the
+ * first to read it, since nothing is allocated for that. */
 static _Thread_local frame *innermost __attribute__((tls_model("initial-exec")));
 
 ff_status fe_protected(fe_heap *heap, void (*function)(void *ctx), void *ctx)
@@ -91,7 +91,7 @@ static struct fe_block *block_of(void *memory)
     return (struct fe_block *)(void *)((char *)memory - offsetof(struct fe_block, memory));
 }
 
-/* calloc without memory, else realloc, of a block; NULL without room for it. */
+/* Allocates zeroed memory, or resizes a block; NULL if there is no room. */
 static struct fe_block *allocate(struct fe_block *old, size_t size)
 {
     size_t whole = sizeof *old + (size ? size : 1);

@@ -1,15 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * Memory of the engine. A block belongs to the heap that was in use when it was made, and is freed
- * with it at the latest.
- *
- * Every public call runs inside fe_protected. There an allocation does not fail: without memory the
- * call is left at once, as an error leaves a call of Lua, and its bracket answers FF_NOMEM. What
- * the call had half done stays in the heap until that is closed. So no call may be left across a
- * frame of a plugin: a function that a plugin calls has a bracket of its own.
- *
- * Outside of any bracket blocks belong to no heap, and without memory the answer is NULL.
- */
+/* Memory of the engine. A block belongs to the heap that was in use when it was made, and is
+ * freed with it at the latest. Every public call runs inside fe_protected, where allocations do
+ * not fail: without memory the call is left by a long jump, as errors leave a call in Lua, and
+ * returns FF_NOMEM. Half-done work stays in the heap until that is closed. No call may be left
+ * across a frame of a plugin, so a function that plugins call has a bracket of its own. Outside
+ * of brackets blocks belong to no heap, and a failed allocation returns NULL. */
 #ifndef FE_MEMORY_H
 #define FE_MEMORY_H
 
@@ -18,8 +13,8 @@
 #include <stdarg.h>
 #include <stddef.h>
 
-/* Something that must be closed and is not memory: a parser, the object of a plugin. It lies in
-   memory of the heap. */
+/* Something other than memory that must be closed, such as a parser or the object of a plugin.
+ * It lies in memory of the heap. */
 typedef struct fe_resource {
     void (*close)(void *object);
     void *object;
@@ -32,24 +27,25 @@ typedef struct fe_heap {
     fe_resource *resources;
 } fe_heap;
 
-/* FF_OK, or FF_NOMEM when function(ctx) was left. Brackets nest; each is of its thread. */
+/* Calls function(ctx) in a bracket. FF_OK, or FF_NOMEM if the function was left. Brackets nest,
+ * in each thread by itself. */
 ff_status fe_protected(fe_heap *heap, void (*function)(void *ctx), void *ctx);
 
-/* The heap in use; NULL outside of any bracket. */
+/* Returns the heap in use; NULL outside of brackets. */
 fe_heap *fe_heap_in_use(void);
-/* Makes another heap the one in use until the bracket ends, and returns the one before. */
+/* Uses another heap until the bracket ends, and returns the one used before. */
 fe_heap *fe_heap_use(fe_heap *heap);
 
 /* Closes the resources, the newest first, and frees all blocks. */
 void fe_heap_close(fe_heap *heap);
 
-/* Has the heap in use close the object, unless it is removed before. */
+/* Registers the object with the heap in use, which closes it unless it is removed before. */
 void fe_resource_add(fe_resource *resource, void (*close)(void *object), void *object);
 void fe_resource_remove(fe_resource *resource);
 
-/* Leaves the call: memory was missing elsewhere. Returns when there is no bracket. */
+/* Leaves the call because memory was missing elsewhere. Returns if there is no bracket. */
 void fe_out_of_memory(void);
-/* What errno says; for want of memory, the call is left. */
+/* Returns the text of errno. If errno says that memory is missing, the call is left. */
 const char *fe_errno_text(void);
 
 void *fe_alloc(size_t size);                /* zeroed, for any type */

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
+/* Finds the word that a misspelt one may mean. */
 #include <flankfilm/engine.h>
 
 #include <string.h>
 
 enum { LONGEST = 63, NEVER = 1000 };
 
-/* The case of letters and the sign that joins words do not count as mistakes. */
+/* Folds letter case and the signs that join words, which do not count as mistakes. */
 static char fold(char c)
 {
     if (c >= 'A' && c <= 'Z')
@@ -40,7 +41,7 @@ static int distance(const char *a, const char *b)
     return row[n % 3][m];
 }
 
-/* How many letters both begin with. */
+/* Counts the letters with which both words begin. */
 static int beginning(const char *a, const char *b)
 {
     int n = 0;
@@ -52,14 +53,14 @@ static int beginning(const char *a, const char *b)
 const char *ff_nearest(const char *word, const char *const *candidates, size_t count)
 {
     const char *best = NULL;
-    /* one mistake in three letters is near; two letters with a mistake are another word */
+    /* one mistake in three letters is near; a word of two letters with a mistake is another word */
     size_t n = strlen(word);
     int near = n < 3 ? 0 : min((int)((n + 1) / 3), 4), shared = -1, least = NEVER;
     for (size_t i = 0; i < count; i++) {
         int mistakes = distance(word, candidates[i]), cost = mistakes;
         int same = beginning(word, candidates[i]);
         if (n >= 3 && (size_t)same == n)
-            cost = min(cost, 1); /* the rest was left out */
+            cost = min(cost, 1); /* the word is a shortened form */
         if (cost > near || (cost == near && same < shared))
             continue;
         if (cost < near || same > shared || mistakes < least) {

@@ -135,13 +135,13 @@ ff_source *fe_tree_source(fe_tree *tree, const char *name, const char *directory
     return source;
 }
 
-/* A copy that stands in the same layers and remembers what the node replaced. */
+/* Returns a copy that belongs to the same layers and remembers what the node replaced. */
 static ff_node *copy_layers(fe_tree *tree, const ff_node *node)
 {
     ff_node *copy = fe_arena_alloc(&tree->arena, sizeof *copy);
     size_t room = 1;
     *copy = *node;
-    while (room < node->count) /* as fe_node_add leaves it */
+    while (room < node->count) /* the room that fe_node_add would have left */
         room *= 2;
     if (node->kind == FF_SCALAR || node->count == 0)
         return copy;

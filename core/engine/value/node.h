@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* How trees are made. Internal to core/engine/value. */
+/* Makes and merges trees of nodes. Internal to core/engine/value. */
 #ifndef FE_NODE_H
 #define FE_NODE_H
 
@@ -15,7 +15,7 @@ enum {
     FE_MOST_INCLUDE_LEVELS = 16
 };
 
-/* Owns its nodes and the texts that places point into. No node has two parents. */
+/* A tree owns its nodes and the texts that their places point into. No node has two parents. */
 struct fe_tree {
     fe_arena arena;
     ff_node *root;
@@ -30,27 +30,27 @@ ff_node *fe_node_copy(fe_tree *tree, const ff_node *node);
 void fe_node_add(fe_tree *tree, ff_node *node, char *key, ff_place key_place, ff_node *item);
 void fe_map_remove(ff_node *map, size_t index);
 size_t fe_map_find(const ff_node *map, const char *key); /* map->count: absent */
-bool fe_node_is_empty(const ff_node *node);              /* a key without a value */
-size_t fe_node_levels(const ff_node *node);              /* 1 for a scalar */
+bool fe_node_is_empty(const ff_node *node);              /* true for a key without a value */
+size_t fe_node_levels(const ff_node *node);              /* depth; 1 for a scalar */
 void fe_node_set_rank(ff_node *node, uint32_t rank);
 
-/* Merges `later` into `base` (or NULL), which both become part of the result. */
+/* Merges `later` into `base`, which may be NULL. Both become part of the result. */
 ff_node *fe_node_merge(fe_tree *tree, ff_node *base, ff_node *later);
 
-/* Merges the files that `named` lists into the tree. False after an error. */
+/* Reads the files that `named` lists and merges them into the tree. False after an error. */
 bool fe_node_include(fe_tree *tree, const ff_node *named, ff_report *report);
 
-/* A source with copies of its texts, owned by the tree: line breaks are LF, a byte order mark is
-   left out. */
+/* Returns a source with its own copies of the texts, owned by the tree. Line breaks become LF; a
+ * byte order mark is left out. */
 ff_source *fe_tree_source(fe_tree *tree, const char *name, const char *directory, const char *text,
                           size_t length);
 
-/* Reads `text`, whose lines and columns are those of the source, as one YAML document. Without
-   content it is an empty scalar; NULL after an error that lost something. */
+/* Reads `text` as one YAML document; its lines and columns are those of the source. A document
+ * without content gives an empty scalar; NULL after an error that lost something. */
 ff_node *fe_yaml_read(fe_tree *tree, const ff_source *source, const char *text, ff_report *report);
 
 struct yaml_parser_s;
-/* Reports the error of the parser in words for a user. */
+/* Explains the parser's error to a user. */
 void fe_yaml_explain(const struct yaml_parser_s *parser, const ff_source *source,
                      ff_report *report);
 

@@ -12,14 +12,14 @@
 
 enum { LONGEST_QUOTE = 60 };
 
-/* The text that is read, and the buffer for the sentence when that fails. */
+/* The text that is read, and a buffer for the sentence that explains a failure. */
 typedef struct reading {
     const char *text;
     char *why;
     size_t why_size;
 } reading;
 
-/* How many bytes of the text a message quotes; they end between two characters. */
+/* Returns how many bytes of the text a message quotes, ending between two characters. */
 static int quoted(const char *text)
 {
     size_t n = strnlen(text, LONGEST_QUOTE);
@@ -51,7 +51,8 @@ static bool is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
-/* Reads as strtod does, but decimal numbers alone and "." in every locale; may give an infinity. */
+/* Reads a number as strtod does, but decimal only and with "." in every locale. May give an
+ * infinity. */
 static bool read_number(const char *text, double *value, const char **end)
 {
     const char *start = text + (*text == '+' || *text == '-');
@@ -76,7 +77,8 @@ bool ff_number_parse(const char *text, double *value, const char **end)
     return true;
 }
 
-/* "a length (m, mm, um, nm)", or the row's own unit where the dimension has no name. */
+/* Writes what a row expects: "a length (m, mm, um, nm)", or the row's own unit if the dimension
+ * has no name. */
 static void expect(const ff_unit *row, const char *row_text, char out[120])
 {
     const char *name = fe_dimension_name(row);
@@ -88,7 +90,8 @@ static void expect(const ff_unit *row, const char *row_text, char out[120])
         snprintf(out, 120, "%s (%s)", name, ff_unit_examples(row));
 }
 
-/* Says how to write a number without the mark that `rest` begins with; NULL: it is not one. */
+/* Returns how to write a number without the mark at `rest`, such as a comma; NULL: it is no such
+ * mark. */
 static const char *wrong_mark(const char *rest)
 {
     if (*rest == '\0' || !is_digit(rest[1]))
@@ -125,7 +128,8 @@ static bool read_unit(const char *text, ff_unit *unit, const char *wanted, const
     return false;
 }
 
-/* "min^-1" of a rotational speed is that of drawings: revolutions. As a frequency it stays one. */
+/* Whether the text is "min^-1" for a rotational speed, where drawings mean revolutions. For a
+ * frequency it stays 1/min. */
 static bool is_per_minute(const char *text, const ff_unit *row)
 {
     static const ff_unit turning = {.power = {0, 0, -1, 0, 1}};
@@ -168,7 +172,7 @@ bool ff_quantity_parse(const char *text, const ff_unit *row, const char *row_tex
     return true;
 }
 
-/* Plain digits are exact; "1e6" goes by way of a double, exact up to 2^53. */
+/* Reads an integer. Plain digits are exact; "1e6" is read as a double, exact up to 2^53. */
 static bool to_integer(const char *text, const char *end, double number, int64_t *value)
 {
     char *stop;

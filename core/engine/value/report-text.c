@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Messages for people: place, sentence, the line with a caret, what to do about it. */
+/* Prints messages for people: place, sentence, the line with a caret, and a hint. */
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -52,7 +52,7 @@ static void paint(printer *p, const char *style)
         add(p, style);
 }
 
-/* Control characters and marks that change the direction of writing are not printed. */
+/* False for control characters and for marks that change the direction of writing. */
 static bool is_printable(uint32_t c)
 {
     bool control = c < 0x20 || (c >= 0x7F && c < 0xA0) || c == FE_NO_CHAR;
@@ -61,7 +61,8 @@ static bool is_printable(uint32_t c)
     return !control && !turning;
 }
 
-/* How many columns a terminal uses: none for combining marks, two for East Asian characters. */
+/* Returns how many columns a character takes on a terminal: none for combining marks, two for
+ * East Asian characters. */
 static int width_of(uint32_t c)
 {
     if ((c >= 0x300 && c <= 0x36F) || (c >= 0x200B && c <= 0x200D))
@@ -93,7 +94,7 @@ static void print_text(printer *p, const char *text)
     }
 }
 
-/* Prints the line, or the part of a long line around the place, and the underline below it. */
+/* Prints the line, or the part of a long line around the place, and underlines the place. */
 static void print_line(printer *p, const ff_place *place)
 {
     const char *end, *at = fe_line_begin(place->source, place->line, &end);
@@ -122,7 +123,8 @@ static void print_line(printer *p, const ff_place *place)
     add(p, "\n");
 }
 
-/* A hint that begins with a line end has several lines, as what is to be written instead. */
+/* Prints a hint. One that begins with a line break has several lines, such as the text to be
+ * written instead. */
 static void print_hint(printer *p, const char *hint)
 {
     const char *end = hint + strlen(hint);
@@ -164,7 +166,8 @@ static void print_message(printer *p, const ff_message *m)
 
 typedef struct entry {
     const ff_message *message;
-    size_t file; /* index of the first message about its file; without a file it comes last */
+    size_t file; /* index of the first message about the same file; messages without a file come
+                    last */
 } entry;
 
 static int compare(const void *a, const void *b)
@@ -177,7 +180,7 @@ static int compare(const void *a, const void *b)
         return p->line < q->line ? -1 : 1;
     if (p->column != q->column)
         return p->column < q->column ? -1 : 1;
-    /* the array of messages is in the order in which they were added */
+    /* messages of one place stay in the order in which they were added */
     return x->message < y->message ? -1 : x->message > y->message;
 }
 

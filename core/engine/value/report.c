@@ -8,17 +8,17 @@
 
 #include "memory.h"
 
-/* Nobody reads more, and a file full of mistakes must not cost quadratic time. */
+/* Nobody reads more messages, and a file full of mistakes must not cost quadratic time. */
 enum { MOST_KEPT = 1000 };
 
 struct ff_report {
-    fe_heap *heap; /* of its messages */
+    fe_heap *heap; /* memory of its messages */
     ff_message *messages;
     size_t count;
-    size_t errors; /* with those beyond MOST_KEPT */
+    size_t errors; /* all errors, including those beyond MOST_KEPT */
     int fault;
     bool lacked_memory;
-    ff_source **sources; /* copies of temporary ones */
+    ff_source **sources; /* copies of temporary sources */
     size_t source_count;
 };
 
@@ -48,14 +48,15 @@ void ff_report_free(ff_report *report)
     fe_free(report);
 }
 
-/* A source may be read twice: by a file, and by a case of its study. */
+/* Whether both are the same text. A source may be read twice: by a file, and by a case of its
+ * study. */
 static bool same_source(const ff_source *a, const ff_source *b)
 {
     return a == b || (a && b && a->length == b->length && !strcmp(a->name, b->name) &&
                       !memcmp(a->text, b->text, a->length));
 }
 
-/* The report's own copy of a temporary source. */
+/* Returns the report's own copy of a temporary source. */
 static const ff_source *keep_source(ff_report *report, const ff_source *source)
 {
     for (size_t i = 0; i < report->source_count; i++) {
@@ -87,7 +88,7 @@ static bool is_known(const ff_report *report, const ff_message *message)
     return false;
 }
 
-/* Takes over the message's texts. */
+/* Adds a message and takes ownership of its texts. */
 static void add(ff_report *report, ff_message message)
 {
     if (message.place.source && message.place.source->temporary)

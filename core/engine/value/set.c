@@ -6,12 +6,12 @@
 #include "node.h"
 #include "text.h"
 
-/* Follows the path of one assignment through the tree. */
+/* The walk along the path of one assignment through the tree. */
 typedef struct walk {
     fe_tree *tree;
     ff_report *report;
     uint32_t rank;
-    const ff_place *at; /* the place that all words of the path get; NULL: their own */
+    const ff_place *at; /* the place given to all words of the path; NULL: their own */
     ff_node **slot;     /* the node that the path has reached */
     size_t level;
 } walk;
@@ -27,7 +27,7 @@ static bool step_into_map(walk *w, char *word, ff_place place, bool last)
     size_t at = fe_map_find(map, word);
     if (at == map->count)
         fe_node_add(w->tree, map, word, place, fe_node_new(w->tree, FF_SCALAR, place));
-    if (last) /* keys on the way keep their places in the file */
+    if (last) /* keys before the last one keep their places in the file */
         map->key_places[at] = place;
     w->slot = &map->items[at];
     return true;
@@ -45,7 +45,7 @@ static bool step_into_list(walk *w, const char *word, ff_place place)
     return true;
 }
 
-/* Follows one word of the path; an empty value on the way becomes a map. */
+/* Follows one word of the path. An empty value on the way becomes a map. */
 static bool step(walk *w, char *word, ff_place place, bool last)
 {
     ff_node *node = *w->slot;
@@ -61,8 +61,8 @@ static bool step(walk *w, char *word, ff_place place, bool last)
     return fail(w->report, place, NULL, "the path before this part leads to a value, not to a map");
 }
 
-/* The length of the next word: it ends at a dot, unless the map has a longer key with dots in it,
-   as the paths of a sweep are. */
+/* Returns the length of the next word. It ends at a dot, unless the map has a longer key that
+ * contains dots, such as the paths of a sweep. */
 static size_t word_length(const walk *w, const char *at, const char *end)
 {
     const ff_node *map = *w->slot;
@@ -77,7 +77,8 @@ static size_t word_length(const walk *w, const char *at, const char *end)
     return length;
 }
 
-/* Follows the words from `at` to `end`, separated by dots, and merges the value into that node. */
+/* Follows the words between `at` and `end`, which dots separate, and merges the value into the
+ * node reached. */
 static bool apply(walk *w, const ff_source *source, const char *at, const char *end, ff_node *value)
 {
     for (bool last = false; !last; at++) {
@@ -115,7 +116,8 @@ static bool is_file_key(const char *word, size_t length)
     return false;
 }
 
-/* Reads the value behind "=". The path becomes blanks, so that columns count from its start. */
+/* Reads the value behind "=". The path before it is blanked, so that columns still count from
+ * the start of the assignment. */
 static ff_node *read_value(fe_tree *tree, const ff_source *source, const char *equals,
                            ff_report *report)
 {
@@ -173,7 +175,7 @@ bool fe_tree_set(fe_tree *tree, const char *assignment, const ff_place *path, co
     return apply(&w, source, at, end, value);
 }
 
-/* The node behind the words up to `end`; NULL: there is none. */
+/* Returns the node at the path that ends at `end`; NULL: there is none. */
 static ff_node *find(fe_tree *tree, const char *at, const char *end)
 {
     walk w = {.tree = tree, .slot = &tree->root};

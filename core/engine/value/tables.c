@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Reads tables for a model, and keeps each one as long as its file is unchanged. */
 #include "tables.h"
 
 #include "memory.h"
@@ -11,9 +12,9 @@
 struct fe_kept_table {
     const ff_table *table; /* NULL: it could not be read */
     char *item;
-    char *asked; /* what the rows say of the columns, packed */
+    char *asked; /* what the rows request of the columns, packed */
     size_t asked_size;
-    struct stat file; /* before it was read; st_nlink 0: it may have changed unseen */
+    struct stat file; /* state before the file was read; st_nlink 0: a change might go unnoticed */
     struct fe_kept_table *next;
 };
 
@@ -24,8 +25,8 @@ static void append(char *out, size_t *at, const void *bytes, size_t size)
     *at += size;
 }
 
-/* Packs what reading takes from the rows, which the model may have made for this call. Returns how
-   many bytes that takes; `out` may be NULL. */
+/* Packs the request that the rows make, since a model may have made the rows for this call
+ * alone. Returns its size in bytes; `out` may be NULL. */
 static size_t pack_rows(const ff_param *rows, size_t count, size_t stride, char *out)
 {
     size_t at = 0;
@@ -56,8 +57,8 @@ static void free_list(struct fe_kept_table **list)
     *list = NULL;
 }
 
-/* The state of a file, before it is read. One that was written a moment ago may be written again
-   within the resolution of its clock. */
+/* Returns the state of a file before it is read. A file written a moment ago may be written
+ * again within the resolution of its clock, so its state is marked as unsafe. */
 static struct stat state_of(const char *path)
 {
     enum { MOMENT = 2 }; /* s */
@@ -75,7 +76,7 @@ static bool same_file(const struct stat *a, const struct stat *b)
            a->st_ctim.tv_nsec == b->st_ctim.tv_nsec;
 }
 
-/* Whether both ask for the same columns of the same file, which has not changed. */
+/* Whether both request the same columns of the same unchanged file. */
 static bool is_same(const struct fe_kept_table *a, const struct fe_kept_table *b, const char *path)
 {
     return a->table && same_file(&a->file, &b->file) && a->asked_size == b->asked_size &&
@@ -83,7 +84,7 @@ static bool is_same(const struct fe_kept_table *a, const struct fe_kept_table *b
            !strcmp(ff_columns_place(a->table, SIZE_MAX, SIZE_MAX).source->name, path);
 }
 
-/* Takes the table over from the instance before, if that has read it; else reads it. */
+/* Takes the table over from the previous instance if that has read it, or reads it. */
 static void find_table(fe_tables *tables, struct fe_kept_table *kept, const char *path,
                        const ff_param *rows, size_t count, size_t stride, ff_report *report)
 {
@@ -113,7 +114,7 @@ ff_status fe_tables_read(fe_tables *tables, const char *item, const char *path,
     item = item ? item : "";
     kept->item = fe_copy_text(item, strlen(item));
     kept->next = tables->kept;
-    tables->kept = kept; /* also one that failed: the error names its item */
+    tables->kept = kept; /* also after a failure, since the error names its item */
     tables->item = kept->item;
     *table = kept->table;
     if (kept->table) {

@@ -11,13 +11,13 @@ enum { FE_NO_CHAR = 0xFFFFFFFFu >> 1 };
    is one byte long and reads as FE_NO_CHAR. */
 size_t fe_char_read(const char *at, const char *end, uint32_t *code);
 
-/* The line of a place: its first byte and its end, without the break. */
+/* Returns the first byte of the line of a place, and its end without the line break. */
 const char *fe_line_begin(const ff_source *source, uint32_t line, const char **end);
 
-/* The place of the character at byte `offset`. */
+/* Returns the place of the character at byte `offset`. */
 ff_place fe_place_of(const ff_source *source, size_t offset, uint32_t width);
 
-/* The text of the place's line from the place on, up to *end. */
+/* Returns the text of the line from the place on, up to *end. */
 const char *fe_text_at(const ff_place *place, const char **end);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Values with the tolerances of a drawing. */
+/* Reads values with the tolerances of a drawing. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -13,7 +13,8 @@ typedef struct part {
     ff_unit unit;
 } part;
 
-/* Finds the mark between both parts; `pass` is where the second begins. NULL: there is none. */
+/* Finds the tolerance mark between the two parts; `pass` is where the second part begins. NULL:
+ * there is none. */
 static const char *find_mark(const char *text, const char **pass)
 {
     static const char *const marks[] = {"+-", "+/-", "\xc2\xb1", " to "};
@@ -27,7 +28,8 @@ static const char *find_mark(const char *text, const char **pass)
     return NULL;
 }
 
-/* Reads "20 um" up to `end`; false: it begins with no number, or has no known unit. */
+/* Reads a number with a unit, "20 um", up to `end`. False if it begins with no number or has no
+ * known unit. */
 static bool read_part(const char *at, const char *end, part *p)
 {
     char why[200];

@@ -5,8 +5,8 @@
 
 #include <flankfilm/engine.h>
 
-/* One unit in terms of the base units: scale * 10^ten. Powers of ten stay apart from the rest so
-   that the factor of a product of decimal units is correctly rounded. */
+/* One unit in terms of the base units: scale * 10^ten. The power of ten is kept apart, so that
+ * the factor of a product of decimal units is correctly rounded. */
 typedef struct fe_symbol {
     const char *name;
     double scale;
@@ -16,13 +16,13 @@ typedef struct fe_symbol {
     double offset; /* degC and degF */
 } fe_symbol;
 
-/* The unit written as `word`, its prefix worked in. */
+/* Finds the unit written as `word`, with its prefix included in the scale. */
 bool fe_symbol_find(const char *word, fe_symbol *symbol);
 
-/* The symbol that a writer of `word` may have meant, or NULL. */
+/* Returns the symbol nearest to `word`, or NULL. */
 const char *fe_symbol_nearest(const char *word);
 
-/* "a length", "a rotational speed"; NULL when the dimension has no name. */
+/* Returns "a length", "a rotational speed"; NULL if the dimension has no name. */
 const char *fe_dimension_name(const ff_unit *unit);
 
 #endif

@@ -44,8 +44,8 @@ __attribute__((format(printf, 2, 3))) static bool refuse(const reader *r, const 
     return false;
 }
 
-/* What keyboards and papers offer, and the plain spelling that the grammar knows. "u" stands for
-   the micro sign and for the Greek letter; the last three are no-break and thin spaces. */
+/* Spellings that keyboards and papers use, and the plain ones that the grammar knows. "u" stands
+ * for both the micro sign and the Greek letter; the last three are no-break and thin spaces. */
 static const char *const spellings[][2] = {
     {"**", "^"}, {"*", "."},      {"·", "."},      {"⋅", "."},      {"⁻", "-"}, {"⁰", "0"},
     {"¹", "1"},  {"²", "2"},      {"³", "3"},      {"⁴", "4"},      {"⁵", "5"}, {"⁶", "6"},
@@ -53,7 +53,7 @@ static const char *const spellings[][2] = {
     {"\t", " "}, {"\u00A0", " "}, {"\u2009", " "}, {"\u202F", " "},
 };
 
-/* Keeps a blank only where it separates two factors. */
+/* Appends a piece. A blank is kept only between two factors. */
 static void append(reader *r, const char *piece)
 {
     size_t used = strlen(r->text);
@@ -63,7 +63,8 @@ static void append(reader *r, const char *piece)
     strcpy(r->text + used - (blank_before && strchr("./)", *piece)), piece);
 }
 
-/* Reads one character of `text` and returns its plain spelling; of one byte, the byte itself. */
+/* Reads one character of `text` and returns its plain spelling; for a character of one byte, the
+ * byte itself. */
 static const char *next_piece(const char **text, char byte[2])
 {
     bool plain = strchr(letters, **text) || strchr(digits, **text) || strchr(" ./()^-", **text);
@@ -93,7 +94,7 @@ static bool spell_plainly(reader *r, const char *text)
     return true;
 }
 
-/* Says what is wrong with the character at a place where a unit should be. */
+/* Explains what is wrong with the character at a place where a unit should stand. */
 static bool refuse_here(const reader *r)
 {
     int length = 1;
@@ -192,7 +193,7 @@ static bool read_product(reader *r, int sign)
     return false;
 }
 
-/* For text behind a complete "a/b": says how to write what may be meant. */
+/* Explains a text behind a complete "a/b", and how to write what it may mean. */
 static bool refuse_tail(const reader *r, const char *slash)
 {
     int above = (int)(slash - r->text), below = (int)(r->at - slash) - 1;
@@ -242,14 +243,14 @@ static bool read_unit(reader *r)
 static bool finish(const reader *r, ff_unit *unit)
 {
     if (r->offset_at && (r->factors > 1 || r->offset_power != 1)) {
-        int length = 4; /* of "degC" */
+        int length = 4; /* "degC" has four letters */
         return refuse(
             r, "has %.*s in a product, where only differences make sense; write \"%.*sK%s\"",
             length, r->offset_at, (int)(r->offset_at - r->text), r->text, r->offset_at + length);
     }
     for (int i = 0; i < FF_DIMENSIONS; i++)
         unit->power[i] = (int8_t)r->power[i];
-    /* correctly rounded when scale is a whole number and ten is moderate */
+    /* correctly rounded if scale is a whole number and `ten` is moderate */
     double tens = pow(10, abs(r->ten));
     unit->factor = r->ten < 0 ? r->scale / tens : r->scale * tens;
     unit->offset = r->offset;
@@ -279,8 +280,8 @@ bool ff_unit_is_dimensionless(const ff_unit *unit)
     return ff_unit_same_dimension(unit, &none);
 }
 
-/* Returns n when the factor is 1/n for a whole n, else 0. A factor such as 1e-3 is itself rounded,
-   so that dividing by 1000 rounds once less. */
+/* Returns n if the factor is 1/n for a whole n, else 0. A factor such as 1e-3 is rounded itself,
+ * so dividing by 1000 saves one rounding. */
 static double inverse(const ff_unit *unit)
 {
     double n = unit->factor < 1 ? round(1 / unit->factor) : 0;

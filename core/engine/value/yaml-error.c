@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Explains an error of libyaml to someone who writes a file. */
+/* Explains an error of libyaml to the writer of a file. */
 #include <stdio.h>
 #include <string.h>
 #include <yaml.h>
@@ -12,20 +12,21 @@ enum { AT, BEGIN, LINE, COLON, PLACES };
 
 typedef struct fault {
     const char *problem, *context; /* of libyaml; never NULL */
-    ff_place places[PLACES];       /* of the problem; of what was being read; of the line's first
-                                      character; of a ":" without a blank, column 0: none */
-    char c, opening;               /* that stand AT and at BEGIN, '\n' at the end of a line */
-    bool after_colon;              /* a "key: " stands before the problem in its line */
+    ff_place
+        places[PLACES]; /* where the problem is; where the construct being read began; the line's
+                           first character; a ":" that no blank follows (column 0: none) */
+    char c, opening;    /* the characters AT and at BEGIN; ' ' at the end of a line */
+    bool after_colon;   /* the line has "key: " before the problem */
 } fault;
 
 /* Conditions of a rule. */
 enum { ALWAYS, LATER_IN_LINE, AFTER_COLON, TIGHT_COLON };
 
-/* The first rule that holds gives the message. A text that ends in a blank is followed by the
-   character. */
+/* The first rule that applies gives the message. If its text ends in a blank, the character is
+ * added. */
 static const struct rule {
-    const char *context, *problem; /* parts of libyaml's words */
-    const char *characters;        /* one of them is AT the place; "": any */
+    const char *context, *problem; /* parts of libyaml's texts */
+    const char *characters;        /* AT must be one of them; "": any */
     int when, where;
     const char *text, *hint;
 } rules[] = {
@@ -33,7 +34,7 @@ static const struct rule {
      NULL},
     {"quoted scalar", "", "", ALWAYS, AT, "this escape after \"\\\" is not known",
      "in \"...\" write \"\\\\\" for a backslash, or use '...'"},
-    {"scanning an a", "", "", ALWAYS, BEGIN, /* an anchor, an alias */
+    {"scanning an a", "", "", ALWAYS, BEGIN, /* libyaml's text for an anchor or an alias */
      "an anchor or alias needs a name of letters and digits",
      "put a text that begins with \"*\" or \"&\" in quotes"},
     {"tag", "", "", ALWAYS, BEGIN, "tags are not used in these files",
@@ -95,7 +96,7 @@ static char char_at(const ff_place *place)
     return at < end ? *at : '\n';
 }
 
-/* Finds the first ":" behind the place, in its line, that is not followed by a blank. */
+/* Finds the first ":" behind the place, in its line, that no blank follows. */
 static ff_place find_tight_colon(ff_place place)
 {
     const char *end, *at = fe_text_at(&place, &end);

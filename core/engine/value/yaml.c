@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Makes nodes of the events of libyaml, within bounds, and refuses parts of YAML that are not used.
- */
+/* Turns the events of libyaml into nodes, within limits, and refuses parts of YAML that are not
+ * used. */
 #include <stdlib.h>
 #include <string.h>
 #include <yaml.h>
@@ -8,7 +8,7 @@
 #include "node.h"
 #include "text.h"
 
-/* Anchors are looked up one after the other. */
+/* Lookup of anchors is linear, so their number is limited. */
 enum { MOST_ANCHORS = 1000, TO_THE_END = 1 << 20 };
 
 typedef struct anchor {
@@ -28,7 +28,8 @@ typedef struct reader {
     bool stopped; /* the rest cannot be read, and what was read is lost */
 } reader;
 
-/* The place of a text over several lines is its part in the first line. */
+/* Returns the place of an event. If its text has several lines, this is the part in the first
+ * line. */
 static ff_place event_place(const reader *r, const yaml_event_t *event)
 {
     const yaml_mark_t *start = &event->start_mark, *end = &event->end_mark;
@@ -63,7 +64,7 @@ static void copy_word(reader *r, yaml_char_t **word)
     copy_text(r, word, *word ? strlen((const char *)*word) : 0);
 }
 
-/* Takes over the event of the parser: its texts are the tree's. */
+/* Takes the event from the parser; the tree then owns its texts. */
 static yaml_event_t take_event(reader *r)
 {
     yaml_event_t taken = r->event;
@@ -71,7 +72,7 @@ static yaml_event_t take_event(reader *r)
         copy_word(r, &taken.data.alias.anchor);
     } else if (taken.type == YAML_SCALAR_EVENT || taken.type == YAML_SEQUENCE_START_EVENT ||
                taken.type == YAML_MAPPING_START_EVENT) {
-        copy_word(r, &taken.data.scalar.anchor); /* the three begin alike, with anchor and tag */
+        copy_word(r, &taken.data.scalar.anchor); /* all three events begin with anchor and tag */
         copy_word(r, &taken.data.scalar.tag);
     }
     if (taken.type == YAML_SCALAR_EVENT)
@@ -80,7 +81,7 @@ static yaml_event_t take_event(reader *r)
     return taken;
 }
 
-/* The next event; false when there is none. */
+/* Reads the next event; false if there is none. */
 static bool next(reader *r, yaml_event_t *event)
 {
     if (r->stopped)
@@ -99,7 +100,7 @@ static bool next(reader *r, yaml_event_t *event)
     return !r->stopped;
 }
 
-/* The text of a scalar event. */
+/* Returns the text of a scalar event. */
 static char *read_text(reader *r, const yaml_event_t *event, ff_place place)
 {
     char *text = (char *)event->data.scalar.value;
@@ -123,7 +124,7 @@ static const anchor *find_anchor(const reader *r, const char *name)
     return NULL;
 }
 
-/* A copy of what the alias names; an empty map when it names nothing. */
+/* Returns a copy of the node that the alias names; an empty map if it names nothing. */
 static ff_node *read_alias(reader *r, const yaml_event_t *event, ff_place place, size_t level)
 {
     const char *name = (const char *)event->data.alias.anchor;
@@ -161,14 +162,14 @@ static void add_pair(reader *r, ff_node *map, char *key, ff_place place, ff_node
         stop(r, place, NULL, "the map has more than 4096 keys");
     else if (strchr(key, ':') && fe_node_is_empty(item) && item->place.line == place.line &&
              item->place.column == place.column + place.width)
-        /* in { }, "use:gear" is a key without a value */
+        /* within braces, "use:gear" is a key without a value */
         ff_error(r->report, FF_FAULT_INPUT, place, "write \"key: value\"",
                  "a space is missing after \":\" in \"%.60s\"", key);
     else
         fe_node_add(r->tree, map, key, place, item);
 }
 
-/* The value of "<<" is an alias of a map, or a list of such aliases. */
+/* Checks that the value of "<<" is an alias of a map, or a list of such aliases. */
 static void check_merge(reader *r, const ff_node *item, bool alias, ff_place place)
 {
     bool good = item->kind == FF_SEQUENCE || (alias && item->kind == FF_MAP);
@@ -179,7 +180,8 @@ static void check_merge(reader *r, const ff_node *item, bool alias, ff_place pla
              "\"<<\" takes aliases of maps only");
 }
 
-/* Keys of the merged maps do not replace the map's own, nor those of earlier merged maps. */
+/* Merges maps into the map. Their keys replace neither the map's own nor those of earlier merged
+ * maps. */
 static void merge_maps(reader *r, ff_node *map)
 {
     size_t at = fe_map_find(map, "<<");
@@ -234,13 +236,14 @@ static void read_map(reader *r, ff_node *map, size_t level)
         merge_maps(r, map);
 }
 
-/* A list, a map or a scalar. */
+/* Reads a list, a map or a scalar. */
 static ff_node *read_content(reader *r, const yaml_event_t *event, ff_place place, size_t level)
 {
     static const ff_node_kind kinds[] = {[YAML_SCALAR_EVENT] = FF_SCALAR,
                                          [YAML_SEQUENCE_START_EVENT] = FF_SEQUENCE,
                                          [YAML_MAPPING_START_EVENT] = FF_MAP};
-    const char *name = (const char *)event->data.scalar.anchor; /* of a list or a map, too */
+    /* at the same offset for lists and maps */
+    const char *name = (const char *)event->data.scalar.anchor;
     ff_node *node = fe_node_new(r->tree, kinds[event->type], place);
     size_t at = r->anchor_count;
     check_tag(r, event->data.scalar.tag, place);
@@ -267,7 +270,7 @@ static ff_node *read_content(reader *r, const yaml_event_t *event, ff_place plac
     return node;
 }
 
-/* Reads the node that `event` begins. */
+/* Reads the node that begins with `event`. */
 static ff_node *read_node(reader *r, const yaml_event_t *event, size_t level)
 {
     ff_place place = event_place(r, event);
@@ -305,8 +308,8 @@ static ff_node *read_document(reader *r)
     return NULL;
 }
 
-/* libyaml names controls and ill-formed bytes by their offset only, and takes some of them for line
-   breaks. */
+/* Refuses control characters and ill-formed bytes. libyaml names these only by their offset, and
+ * takes some of them for line breaks. */
 static bool check_characters(const ff_source *source, ff_report *report)
 {
     const char *at = source->text, *end = at + source->length;
