@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What moves on with the oil: pressure, state and mass of a rough film. */
+/* Moves pressure, state and mass of a rough film along with the oil. */
 #include "advection.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Shortest way of the oil in a step, in cells: shorter steps gain nothing that the cells
-   resolve. */
+/* Shortest way of the oil in a step, in cells. The cells do not resolve what shorter steps would
+ * gain. */
 static const double SHORTEST_ADVECTION = 0.25;
 
-/* Share of the load below which what asperities carry need not be known to a part of itself. */
+/* Share of the load below which the asperities' part may be known less well than a fixed fraction
+ * of itself. */
 static const double LITTLE = 0.01;
 
-/* Returns the node that the oil at node i comes from, `cells` upstream; oil from outside the domain
-   is that of the first node. */
+/* Returns the node `cells` upstream of node i, where its oil comes from. Oil from outside the
+ * domain is that of the first node. */
 static size_t upstream_node(size_t i, size_t cells)
 {
     return i > cells ? i - cells : 0;
@@ -37,11 +38,9 @@ void ehl_advect_values(const ehl_march *m, const ehl_state *s, size_t each, cons
         memcpy(to + i * each, from + upstream_node(i, cells) * each, each * sizeof *to);
 }
 
-/*
- * The nodes move with the oil, and are moved back by a whole cell when they have moved by one. What
- * is only transported thus stays unchanged in any number of steps, and the change of mass along the
- * path of the oil takes the place of the wedge.
- */
+/* Moves the masses of the last two films with the oil. The nodes move with the oil and are shifted
+ * back by a whole cell whenever they have moved by one. So what is only transported stays unchanged
+ * in any number of steps, and the change of mass along the path of the oil replaces the wedge. */
 void ehl_advect_mass(ehl_march *m, const double **one, const double **two)
 {
     double *moved[2] = {m->change, m->deflection};
@@ -51,11 +50,9 @@ void ehl_advect_mass(ehl_march *m, const double **one, const double **two)
     *two = m->deflection;
 }
 
-/*
- * The roughness carries its pressure along at about the mean speed. The trial becomes the last film
- * on the nodes as they have moved, with pressure and thickness extrapolated from the last step, h00
- * being such that the mean of the thickness, weighted by the pressure, is what was extrapolated.
- */
+/* Sets the trial film from the last one, shifted with the nodes. The roughness carries its pressure
+ * along at about the mean speed. Pressure and thickness are extrapolated from the last step. h00
+ * keeps the pressure-weighted mean of the extrapolated thickness. */
 void ehl_advect_film(ehl_march *m, const ehl_instant *at)
 {
     ehl_reynolds *r = m->solver->reynolds;
@@ -94,7 +91,7 @@ void ehl_advect_film(ehl_march *m, const ehl_instant *at)
         film->h00 += off / weight;
 }
 
-/* Share of the load that asperities carry in the newest film. */
+/* Returns the share of the load that asperities carry in the newest film. */
 static double asperity_share(const ehl_march *m)
 {
     const ehl_film *film = &m->state[0].film;
@@ -104,11 +101,10 @@ static double asperity_share(const ehl_march *m)
     return m->step.load > 0 ? sum * m->solver->grid->dx / m->step.load : 0;
 }
 
-/*
- * Steps of half the inlet of an asperity leave 1.3 % out of what asperities carry, and four times
- * as much for twice the way (docs/validation/mixed.md); below LITTLE of the load they may leave out
- * as much of the load as they do there.
- */
+/* Returns the largest way of the oil in a step, in cells. Steps of half the inlet of an asperity
+ * lose 1.3 % of the asperities' load, and the loss grows with the square of the way
+ * (docs/validation/mixed.md). If asperities carry less than LITTLE of the load, the loss may be as
+ * large a part of the load as at LITTLE. */
 double ehl_largest_advection(const ehl_march *m)
 {
     const double dx = m->solver->grid->dx, contact = m->solver->reynolds->contact;

@@ -1,27 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What moves on with the oil: pressure, state and mass of a rough film. */
+/* Moves pressure, state and mass of a rough film along with the oil. */
 #ifndef EHL_ADVECTION_H
 #define EHL_ADVECTION_H
 
 #include "march.h"
 
-/* Rough flanks: sets the trial to the last film, carried along with the oil to `at`. */
+/* Rough flanks: sets the trial film to the last film, carried along with the oil to `at`. */
 void ehl_advect_film(ehl_march *m, const ehl_instant *at);
 
-/* Sets `to` to what the state has, `each` values per node, moved with the oil to the instant that
-   is placed. */
+/* Sets `to` to the values of the state, `each` per node, moved with the oil to the present instant.
+ */
 void ehl_advect_values(const ehl_march *m, const ehl_state *s, size_t each, const double *from,
                        double *to);
 
-/* The node of an earlier state that the oil at node i was at. */
+/* Returns the node of an earlier state at which the oil now at node i was. */
 size_t ehl_upstream_node(const ehl_march *m, const ehl_state *s, size_t i);
 
-/* Returns the masses of the last two films, moved with the oil to the instant that is placed. */
+/* Gives the masses of the last two films, moved with the oil to the present instant. */
 void ehl_advect_mass(ehl_march *m, const double **one, const double **two);
 
-/* Rough flanks: returns the cells by which the oil may move in a step: one, or more of cells that
-   are finer than the shortest waves ask for, and half the inlet of an asperity where asperities
-   carry load. */
+/* Rough flanks: returns the largest way of the oil in a step, in cells. It is one cell, or several
+ * if the cells are finer than the shortest waves need; where asperities carry load it is half the
+ * inlet of an asperity. */
 double ehl_largest_advection(const ehl_march *m);
 
 #endif

@@ -1,68 +1,59 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Rough flanks: a node with pressure is full, and its balance of mass holds, or its asperities are
- * in contact, and h is the contact film; they then carry its pressure:
- *
- *   min(F, c (h - contact film)) = 0
- *
- * with F the mass that the cell loses and c what F changes by with h where the oil is only carried
- * along. In contact F >= 0: the film would fall further. That is the reduced Reynolds equation (Hu
- * & Zhu 2000; Li & Kahraman 2011) with the contact as complementarity. Between the asperities stays
- * the oil that the balance leaves there, less than the contact film holds; the missing part travels
- * on with it. Filled up, it would be neither in contact nor apart from it downstream, where
- * rounding would then decide what the asperities carry.
- */
+/* Contact of rough flanks. A node with pressure is in one of two states. It is full and its balance
+ * of mass holds; or its asperities touch, h is the contact film, and they carry its pressure:
+ * min(F, c (h - contact film)) = 0. F is the mass that the cell loses, and c the derivative of F by
+ * h for oil that is only carried along. In contact F >= 0: without contact the film would fall
+ * further. This is the reduced Reynolds equation (Hu & Zhu 2000; Li & Kahraman 2011) with contact
+ * as a complementarity. The oil between asperities in contact is what the balance leaves, less than
+ * the contact film holds, and the lack travels on with it. If it were filled up, a node downstream
+ * would be neither in contact nor apart, and rounding would decide the asperities' load. */
 #ifndef EHL_ASPERITIES_H
 #define EHL_ASPERITIES_H
 
 #include "reynolds.h"
 
-/* Gives each node with pressure the equation whose residual, as evaluated last, is the less, and
-   puts cavitated ones in contact that are closer than the contact film. 1: some changed. */
+/* Gives each node with pressure the equation with the smaller residual, as last evaluated, and puts
+ * cavitated nodes closer than the contact film in contact. 1: some nodes changed. */
 int ehl_contact_choose(const ehl_reynolds *r, const ehl_step *step, ehl_film *film);
 
-/* Puts c (h - contact film) in place of the balance at the nodes in contact, after the slopes. */
+/* Replaces the balance by c (h - contact film) at the nodes in contact, after the derivatives. */
 void ehl_contact_rows(ehl_reynolds *r, const ehl_step *step, const ehl_film *film);
 
-/* mass = the oil that the balance leaves at the nodes in contact, up to what the contact film
-   holds, after a step in time. */
+/* Sets `mass` after a time step at the nodes in contact: the oil that the balance leaves there, at
+ * most what the contact film holds. */
 void ehl_contact_mass(ehl_reynolds *r, const ehl_step *step, const ehl_film *film, double *mass);
 
-/* Statistical flanks, after the slopes: by_h takes what p_a changes by with h, since the slopes are
-   by p_f; and a cavitated node has p = p_a(h) in place of p = 0. */
+/* Statistical flanks, after the derivatives: adds the derivative of p_a by h to by_h, since the
+ * derivatives are by p_f, and gives a cavitated node p = p_a(h) in place of p = 0. */
 void ehl_statistical_rows(ehl_reynolds *r, const ehl_film *film);
 
-/*
- * Rough flanks: no pressure exceeds the hardness H. Where it reaches it the metal yields, elastic
- * and perfectly plastic, and the gap takes a plastic part:
- *
- *   h = h00 + x^2/(2 R) + v - R1 - R2 + plastic,  0 <= plastic,  p <= H,  plastic (H - p) = 0
- *
- * (dry contacts: Almqvist et al. 2007, Tribol. Int. 40). The balance of mass and the contact of
- * asperities hold at such a node as at others, with the plastic part as the unknown in place of p.
- * The plastic part is that of the instant: where p falls below H again the gap is elastic, and no
- * dent stays on a flank.
- */
+/* Yield of rough flanks: no pressure exceeds the hardness H. Where p reaches H, the metal yields
+ * (elastic, perfectly plastic), and the gap gains a plastic part: h = h00 + x^2/(2 R) + v - R1 - R2
+ * + plastic, 0 <= plastic, p <= H, plastic (H - p) = 0 (dry contacts: Almqvist et al. 2007, Tribol.
+ * Int. 40). The balance of mass and the contact of asperities hold at such a node as at others,
+ * with the plastic part as the unknown instead of p. The plastic part belongs to the instant: where
+ * p falls below H the gap is elastic again, and no dent stays on a flank. */
 
-/* Takes the film as it comes: p above H becomes H, and below H there is no plastic part. 1: p has
-   changed. */
+/* Makes a given film admissible: p above H becomes H, and a plastic part where p is below H becomes
+ * 0. 1: p has changed. */
 int ehl_yield_begin(const ehl_reynolds *r, ehl_film *film);
 
-/* by_p of the nodes that yield: by the plastic part, in units of give. */
+/* Sets by_p of the nodes that yield: derivatives by the plastic part, in units of give. */
 void ehl_yield_columns(ehl_reynolds *r, const ehl_film *film);
 
-/* Plastic part += share of the step. */
+/* Adds `share` of the step to the plastic parts. */
 void ehl_yield_step(const ehl_reynolds *r, ehl_film *film, double share, const double *step);
 
-/* Nodes with p > H yield, and those with a plastic part below 0 do no more. Returns the largest
-   pressure that was cut off, or plastic part, in units; `change` gains what p changed by. */
+/* Lets nodes with p > H yield and ends the yielding of nodes with a negative plastic part. Returns
+ * the largest pressure that was cut off, or plastic part, in its unit; the change of p is added to
+ * `change`. */
 double ehl_yield_turn(const ehl_reynolds *r, ehl_film *film, double *change);
 
-/* Load per width on the nodes that yield. */
+/* Returns the load per width on the nodes that yield. */
 double ehl_yield_load(const ehl_reynolds *r, const ehl_film *film);
 
-/* Brings the pressures below H to what is left of the load, by a factor; `change` is what they
-   change by. 0: the load is further off than that. */
+/* Scales the pressures below H to the remaining load; `change` is the change of them. 0: the load
+ * error is too large for that. */
 int ehl_yield_balance(const ehl_reynolds *r, ehl_film *film, double load, double *change);
 
 #endif

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The balances of volumes that lie on one side of their node, of control-volume (reynolds.h). */
+/* Balances over volumes on one side of their node, for control-volume (reynolds.h). */
 #include "reynolds.h"
 
-/* Returns 0, first order, downstream of a cavitated node, where the film begins sharply. The order
-   must not depend on the state of nodes i and i + 1, whose balances have a face there: they could
-   then be neither full nor cavitated. */
+/* Weights of the flow at a face. The first order is used downstream of a cavitated node, where the
+ * film begins sharply. The order must not depend on the state of the nodes i and i + 1, which share
+ * a face there: they could then be neither full nor cavitated. */
 static int is_second_order(const ehl_reynolds *r, const ehl_film *film, size_t i)
 {
     return r->wedge == 2 && !(i > 0 && ehl_is_cavitated(r, film, i - 1));
@@ -22,15 +22,15 @@ static face face_weights(const ehl_reynolds *r, const ehl_film *film, size_t i)
 }
 
 /* Returns the part of the mass between the midpoints around node i that lies in its own volume; the
-   rest lies in the next one. Where a node may be cavitated all of it is its own: in short steps the
-   trapezoidal rule would otherwise require a negative mass in one volume for an excess in the
-   next. */
+ * rest lies in the next one. If a node may be cavitated, all of its mass is its own. Otherwise the
+ * trapezoidal rule would, in short steps, require a negative mass in one volume for an excess in
+ * the next. */
 static double own_part(const ehl_reynolds *r)
 {
     return r->wedge == 2 && !r->conserving ? 0.5 : 1;
 }
 
-/* Returns Q(i); 0 downstream of the last node that pressure can reach. */
+/* Returns Q(i), or 0 downstream of the last node that pressure can reach. */
 static double between(const ehl_reynolds *r, const ehl_film *film, size_t i)
 {
     return i < r->last ? r->mean[i] * (film->p[i + 1] - film->p[i]) / r->dx : 0;
@@ -56,7 +56,7 @@ void ehl_asymmetric_balance(ehl_reynolds *r, const ehl_step *step, const ehl_fil
     }
 }
 
-/* Row i += weight Q(k) */
+/* Adds weight Q(k) to row i. */
 static void add_flow(ehl_reynolds *r, const ehl_film *film, size_t i, size_t k, double weight)
 {
     if (k >= r->last)
@@ -73,7 +73,7 @@ static void add_flow(ehl_reynolds *r, const ehl_film *film, size_t i, size_t k, 
     r->by_h[s + 1][i] += right * r->f_h[k + 1];
 }
 
-/* Row i += `stored` m(k) + `flows` times what the flanks carry along of it */
+/* Adds `stored` m(k) plus `flows` times the mass that the flanks carry along to row i. */
 static void add_mass(ehl_reynolds *r, const ehl_film *film, size_t i, size_t k, double stored,
                      double flows)
 {

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* int ln|s| ds */
+/* Returns the integral of ln|s| ds. */
 static double log_integral(double s)
 {
     return s > 0 ? s * log(s) - s : s < 0 ? s * log(-s) - s : 0;
@@ -25,7 +25,7 @@ void ehl_kernel_fill(size_t count, double dx, double modulus, double unit, doubl
         double s = (double)k, ln;
         if (k < 1000)
             ln = log_integral(s + 0.5) - log_integral(s - 0.5);
-        else /* expansion of the above; the difference would cancel */
+        else /* expansion of the above, whose difference would cancel */
             ln = log(s) - 1 / (24 * s * s) - 1 / (320 * s * s * s * s);
         d[k] = scale * dx * (ln + log(dx / unit));
     }
@@ -44,8 +44,8 @@ void ehl_kernel_direct(size_t nodes, const double *d, const double *p, double *v
 struct ehl_fft {
     size_t nodes, length;
     fftw_plan forward, backward;
-    double *line, *spectrum; /* spectrum: real, because the kernel is even */
-    double *bent;            /* what comes back; `line` keeps the zeros at its end */
+    double *line, *spectrum; /* spectrum of the kernel: real, because the kernel is even */
+    double *bent;            /* output of the transform; `line` keeps the zeros at its end */
     fftw_complex *image;
 };
 
@@ -64,7 +64,8 @@ ehl_fft *ehl_fft_create(size_t nodes, const double *d)
     f->image = numerics_fftw_array(half, sizeof *f->image);
     if (f->line && f->bent && f->spectrum && f->image &&
         numerics_has_room(numerics_fftw_room(f->length))) {
-        fftw_make_planner_thread_safe(); /* it is one per process, and other plugins plan, too */
+        fftw_make_planner_thread_safe(); /* the planner is shared by the process, and other plugins
+                                            plan, too */
         /* an estimated plan depends on the length alone, so that results repeat to the last bit */
         f->forward = fftw_plan_dft_r2c_1d((int)f->length, f->line, f->image,
                                           FFTW_ESTIMATE | FFTW_PRESERVE_INPUT);
@@ -85,7 +86,7 @@ ehl_fft *ehl_fft_create(size_t nodes, const double *d)
     return f;
 }
 
-/* Multiplies complex numbers, as pairs, by real ones. */
+/* Multiplies complex numbers, stored as pairs, by real ones. */
 FF_SIMD
 static void multiply_pairs(size_t count, const double *restrict factor, double *restrict pairs)
 {

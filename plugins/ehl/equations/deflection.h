@@ -9,14 +9,14 @@
 
 #include <stddef.h>
 
-/* Fills d[0 .. count-1]: deflection at distance k dx per pressure in one cell, m/Pa. */
+/* Fills d[0 .. count-1] with the deflection at distance k dx per pressure in one cell, m/Pa. */
 void ehl_kernel_fill(size_t count, double dx, double modulus, double unit, double *d);
 
-/* v[0 .. nodes-1] of p by the plain double sum. */
+/* Computes v[0 .. nodes-1] from p by the plain double sum. */
 void ehl_kernel_direct(size_t nodes, const double *d, const double *p, double *v);
 
-/* The same as a circular convolution of length 2 (nodes - 1), which is enough because the pressure
-   is zero at both ends. NULL: out of memory. */
+/* Computes the same as a circular convolution of length 2 (nodes - 1), which suffices because the
+ * pressure is zero at both ends. NULL: out of memory. */
 typedef struct ehl_fft ehl_fft;
 ehl_fft *ehl_fft_create(size_t nodes, const double *d);
 void ehl_fft_apply(ehl_fft *f, const double *p, double *v);

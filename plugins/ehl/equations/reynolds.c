@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Hands out the next array of the block. */
+/* Takes the next array from the block. */
 static double *next_array(double **next, size_t nodes)
 {
     double *array = *next;
@@ -68,7 +68,7 @@ double ehl_film_load(const ehl_film *film, size_t nodes, double dx)
     return ehl_sum(nodes, film->p) * dx + film->ahead;
 }
 
-/* h = h00 + x^2/2 curvature + v */
+/* Fills h = h00 + x^2/2 curvature + v. */
 FF_SIMD
 static void add_gaps(size_t n, double h00, double curvature, const double *restrict half_square,
                      const double *restrict v, double *restrict h)
@@ -106,8 +106,8 @@ const double *ehl_fluid_of(const ehl_reynolds *r, const ehl_film *film, const do
     return room;
 }
 
-/* Returns the last node that pressure can reach: one downstream of the last one that is full, or
-   whose asperities touch. */
+/* Returns the last node that pressure can reach: one downstream of the last node that is full or
+ * whose asperities touch. */
 static size_t last_node(const ehl_reynolds *r, const ehl_film *film)
 {
     size_t i = r->nodes - 1;
@@ -153,7 +153,7 @@ void ehl_reynolds_mass(ehl_reynolds *r, const ehl_film *film)
     masses(r, film, count);
 }
 
-/* The heat of the film, which does not move with p and h here. */
+/* Applies the factors of the heated film, which do not depend on p and h here. */
 static void ease_flow(ehl_reynolds *r, size_t count)
 {
     const ehl_liquid *q = &r->liquid;
@@ -179,7 +179,7 @@ static void mobility(ehl_reynolds *r, size_t count)
     FF_SIMD_LOOP
     for (size_t i = 0; i < count; i++) {
         double h = thick[i], square = h * h / 12;
-        double open = gap[i] > floor ? 1 : 0; /* the floor does not move with h */
+        double open = gap[i] > floor ? 1 : 0; /* the floor does not depend on h */
         f[i] = rho[i] * h * square * psi[i];
         f_p[i] =
             h * square * (rho_p[i] * psi[i] + rho[i] * psi_l[i] * ln_eta_p[i] + rho[i] * psi_p[i]);
@@ -187,12 +187,10 @@ static void mobility(ehl_reynolds *r, size_t count)
     }
 }
 
-/*
- * Mobility of the face behind node i. f falls exponentially with p: the geometric mean G suits a
- * resolved inlet, the arithmetic mean A keeps a face open where f drops by decades, at a spike.
- * With s = (G/A)^2 the mean A (1 - s (1 - s)/2) is G to second order where s is near 1, and A
- * where s vanishes.
- */
+/* Mobility of the face after node i. f falls exponentially with p. The geometric mean G suits a
+ * resolved inlet. The arithmetic mean A keeps a face open where f drops by decades, at a spike.
+ * With s = (G/A)^2 the mean A (1 - s (1 - s)/2) is G to second order for s near 1, and A for s near
+ * 0. */
 FF_SIMD
 static void face_mobilities(ehl_reynolds *r)
 {
@@ -210,15 +208,13 @@ static void face_mobilities(ehl_reynolds *r)
     }
 }
 
-/*
- * Rough flanks: mobility of a face, h^3 times rho psi/12. The logarithmic mean of rho psi is that
- * over the pressures between, where psi falls exponentially with p: the flow then grows with their
- * difference however steep. The mean of h^3 is M^(1/3) N^(2/3) of M = 2/(h^-3 + h'^-3), that of two
- * stretches in a row, and N = 2 (h h')^2/(h + h'), that of a gap that widens in a straight line.
- * Beside a wide gap it is 2 h^3 (h'/h)^(2/3), which is within 8 % that of a gap that opens with
- * x^(3/2) upstream of an elastic contact: the flow out of inlets is right even where the cells do
- * not resolve them.
- */
+/* Rough flanks: mobility of a face, h^3 times rho psi/12. The mean of rho psi is logarithmic: it is
+ * the mean over the pressures in between, where psi falls exponentially with p. The flow then grows
+ * with the difference of pressure, however steep. The mean of h^3 is M^(1/3) N^(2/3). M = 2/(h^-3 +
+ * h'^-3) belongs to two stretches in series, and N = 2 (h h')^2/(h + h') to a gap that widens
+ * linearly. Beside a wide gap the mean is 2 h^3 (h'/h)^(2/3). That is within 8 % of a gap that
+ * opens with x^(3/2) upstream of an elastic contact, so that the flow out of inlets is right even
+ * if the cells do not resolve them. */
 FF_SIMD
 static void rough_face_mobilities(ehl_reynolds *r)
 {
@@ -232,7 +228,7 @@ static void rough_face_mobilities(ehl_reynolds *r)
         double ea = f[i] / a, eb = f[i + 1] / b;
         ea = ea > 1e-200 ? ea : 1e-200;
         eb = eb > 1e-200 ? eb : 1e-200;
-        /* where both are nearly alike the difference would cancel, and a series holds */
+        /* if both are nearly alike the difference would cancel, and a series replaces it */
         double t = ff_log(ea / eb), size = fabs(t), grown = 1 + t * t / 24;
         double alike = eb * (1 + t / 2 * (1 + t / 3 * (1 + t / 4 * (1 + t / 5 * (1 + t / 6)))));
         double root = alike / grown, alike_a = root * (grown / 2 + t / 12) / ea;
@@ -256,7 +252,8 @@ static void rough_face_mobilities(ehl_reynolds *r)
     }
 }
 
-/* Adds u times the mass that each face takes along, near m(i) + far m(i-1), all faces alike. */
+/* Adds u times the mass carried through each face, near m(i) + far m(i-1), with the same weights
+ * for all faces. */
 FF_SIMD
 static void add_wedge(size_t from, size_t faces, double u, double near, double far,
                       const double *restrict m, double *restrict flux)
@@ -294,7 +291,7 @@ static void fluxes(ehl_reynolds *r, const ehl_step *step, const ehl_film *film)
     add_pressure_flow(r->last, 1 / r->dx, r->mean, ehl_fluid(r, film), r->flux);
 }
 
-/* What flows in, less what flows out and what is stored: of nodes 1 to n - 2. */
+/* Balances nodes 1 to n - 2: inflow less outflow less storage. */
 FF_SIMD
 static void balance(size_t n, double dx, double rate, const double *restrict flux,
                     const double *restrict mass, const double *restrict past,
@@ -304,7 +301,7 @@ static void balance(size_t n, double dx, double rate, const double *restrict flu
         residual[i] = flux[i] - flux[i - 1] - dx * (rate * mass[i] + past[i]);
 }
 
-/* What nodes 1 to n - 2 lose, from the masses and the mobilities of the faces. */
+/* Computes the loss of mass of nodes 1 to n - 2 from the masses and the mobilities of the faces. */
 static void balances(ehl_reynolds *r, const ehl_step *step, const ehl_film *film)
 {
     const size_t n = r->nodes;
@@ -348,7 +345,8 @@ void ehl_reynolds_evaluate(ehl_reynolds *r, const ehl_step *step, const ehl_film
 
 void ehl_reynolds_turned(ehl_reynolds *r, const ehl_step *step, const ehl_film *film)
 {
-    if (!r->conserving || r->asymmetric) { /* the nodes that pressure reaches may have changed */
+    if (!r->conserving ||
+        r->asymmetric) { /* the set of nodes that pressure reaches may have changed */
         ehl_reynolds_evaluate(r, step, film);
         return;
     }
@@ -358,7 +356,7 @@ void ehl_reynolds_turned(ehl_reynolds *r, const ehl_step *step, const ehl_film *
     balances(r, step, film);
 }
 
-/* The stencil of the wedge and of the change in time, in rho h. */
+/* Gives the stencil of the wedge and of the change in time, in rho h. */
 static void transport_stencil(const ehl_reynolds *r, const ehl_step *step, const ehl_film *film,
                               size_t i, double *c)
 {
@@ -367,21 +365,21 @@ static void transport_stencil(const ehl_reynolds *r, const ehl_step *step, const
     ehl_upwind(r, film, i, &near, &far);
     if (i > 1)
         ehl_upwind(r, film, i - 1, &near_before, &far_before);
-    else if (r->wedge == 2) /* the face downstream of the first node has one node upstream only */
+    else if (r->wedge == 2) /* the face downstream of the first node has only one node upstream */
         near = 1, far = 0;
     c[0] = u * far_before;
     c[1] = u * (near_before - far);
     c[2] = -u * near - r->dx * step->rate;
 }
 
-/* Writes the column of a cavitated node, whose unknown is its mass in place of the pressure. */
+/* Writes the column of a cavitated node, whose unknown is its mass instead of the pressure. */
 static void cavitated_column(ehl_reynolds *r, size_t i, size_t s, double c, double mass_by_h)
 {
     r->by_p[s][i] = c * r->unit;
     r->by_h[s][i] -= c * mass_by_h;
 }
 
-/* Adds what faces with an abrupt change of the gap, and the side flow, contribute. */
+/* Adds the terms of faces with an abrupt change of the gap, and of the side flow. */
 FF_SIMD
 static void add_pinched_flow(ehl_reynolds *r, const ehl_film *film)
 {
@@ -403,8 +401,8 @@ static void add_pinched_flow(ehl_reynolds *r, const ehl_film *film)
     }
 }
 
-/* Adds to the columns of the wedge what the flanks carry along beyond u_r rho h; where the nodes
-   move with the oil it passes a face as the mean of both nodes. */
+/* Adds to the columns of the wedge the mass that the flanks carry along beyond u_r rho h. Where the
+ * nodes move with the oil it passes a face as the mean of both nodes. */
 static void add_carried(ehl_reynolds *r, const ehl_step *step, const ehl_film *film)
 {
     for (size_t i = 1; i < r->last; i++) {
@@ -426,8 +424,8 @@ static void add_carried(ehl_reynolds *r, const ehl_step *step, const ehl_film *f
     }
 }
 
-/* Rows from ... to - 1, that have the stencil c of the transport. `back`: how far its first node
-   lies upstream, 1 in row 1, where nothing is. */
+/* Fills rows from ... to - 1, which share the transport stencil c. `back` is the distance of its
+ * first node upstream; in row 1, which has nothing there, it is 1. */
 FF_SIMD
 static void slopes_of_rows(ehl_reynolds *r, const ehl_film *film, const double c[3], size_t back,
                            size_t from, size_t to)
@@ -460,7 +458,7 @@ static void slopes_of_rows(ehl_reynolds *r, const ehl_film *film, const double c
     }
 }
 
-/* Puts the columns of cavitated nodes into row i. */
+/* Writes the columns of cavitated nodes into row i. */
 static void cavitated_columns(ehl_reynolds *r, const ehl_step *step, const ehl_film *film, size_t i)
 {
     double c[EHL_STENCIL] = {0};
@@ -470,14 +468,14 @@ static void cavitated_columns(ehl_reynolds *r, const ehl_step *step, const ehl_f
             cavitated_column(r, i, s, c[s], r->liquid.rho[i + s - 2]);
 }
 
-/* Returns the end of the rows from `from` on that have its stencil of the transport. */
+/* Returns the end of the rows from `from` on that share its transport stencil. */
 static size_t end_of_alike(const ehl_reynolds *r, const ehl_film *film, size_t from)
 {
     enum { OWN = 3 }; /* the rows before it have stencils of their own */
     size_t to = from + 1;
     if (from < OWN)
         return to;
-    if (!r->conserving || r->wedge == 1) /* ehl_upwind asks no node then */
+    if (!r->conserving || r->wedge == 1) /* ehl_upwind depends on no node then */
         return r->last;
     int here = ehl_is_cavitated(r, film, from - 1), before = ehl_is_cavitated(r, film, from - 2);
     while (to < r->last && ehl_is_cavitated(r, film, to - 1) == here &&

@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A change of g that lies this close to the newer ones says nothing new. */
+/* A change of g is left out if this share of it is all that is linearly independent of the newer
+ * ones. */
 static const double parallel = 1e-6;
 
 int ehl_anderson_create(ehl_anderson *m, size_t size)
@@ -65,8 +66,8 @@ static void remember(ehl_anderson *m, const double *y, const double *g)
     }
 }
 
-/* Gram and Schmidt, the newest change first, twice for each: R of dG = Q R. Returns the columns
-   that are independent. */
+/* Orthogonalises by Gram and Schmidt, the newest change first and twice for each, which gives R of
+ * dG = Q R. Returns the number of independent columns. */
 static size_t factorise(ehl_anderson *m, double r[EHL_ANDERSON_DEPTH][EHL_ANDERSON_DEPTH],
                         size_t used[EHL_ANDERSON_DEPTH])
 {

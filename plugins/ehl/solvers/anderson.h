@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Acceleration of a relaxation y <- y + g(y): Anderson 1965, J. ACM 12; Walker & Ni 2011, SIAM J.
- * Numer. Anal. 49. The change is the one for which the last changes of y and g, taken as linear,
- * promise the least g.
- */
+/* Anderson acceleration of a relaxation y <- y + g(y) (Anderson 1965, J. ACM 12; Walker & Ni 2011,
+ * SIAM J. Numer. Anal. 49). The last changes of y and g are taken as a linear model; the step is
+ * the one for which the model predicts the least g. */
 #ifndef EHL_ANDERSON_H
 #define EHL_ANDERSON_H
 
@@ -12,13 +10,13 @@
 enum { EHL_ANDERSON_DEPTH = 8 };
 
 typedef struct ehl_anderson {
-    size_t size, count; /* count: changes that are known */
+    size_t size, count; /* count: number of known changes */
     size_t newest;
     int started;
     double *memory;
     double *y, *g; /* of the last call */
     double *dy[EHL_ANDERSON_DEPTH], *dg[EHL_ANDERSON_DEPTH];
-    double *basis[EHL_ANDERSON_DEPTH]; /* of the dg, orthonormal, newest first */
+    double *basis[EHL_ANDERSON_DEPTH]; /* of the changes of g, orthonormal, newest first */
 } ehl_anderson;
 
 /* 0: out of memory */

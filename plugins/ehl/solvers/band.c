@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* REACH: nodes that the kernel reaches; LOWER, UPPER: entries of a row on both sides of the
-   diagonal; LANES: of a vector; BEHIND: UPPER in whole vectors; WIDTH: of a row, with zeros at its
-   end. */
+/* REACH: nodes that the kernel reaches. LOWER, UPPER: entries of a row on either side of the
+ * diagonal. LANES: length of a vector. BEHIND: UPPER rounded up to whole vectors. WIDTH: length of
+ * a row, with zeros at its end. */
 enum {
     REACH = EHL_BAND_REACH - 1,
     LOWER = REACH + 2,
@@ -22,11 +22,10 @@ enum {
 _Static_assert(LOWER + 1 + BEHIND <= WIDTH && PAD >= LOWER, "a row reaches no farther");
 _Static_assert(LOWER % 2 == 0, "pairs of columns");
 
-/*
- * A substitution finds LANES values at a time: rows i ... i + LANES - 1 by columns, first those of
- * values known before, then the inverse of the triangle between these rows. An entry of `below`
- * stands for the column i - LOWER + j, one of `above` for the column i + LANES + j.
- */
+/* A block of the factors. A substitution finds LANES values at a time: rows i ... i + LANES - 1 by
+ * columns, first those of values already known, then the inverse of the triangle between these
+ * rows. An entry of `below` belongs to the column i - LOWER + j, one of `above` to the column i +
+ * LANES + j. */
 typedef struct block {
     double below[LOWER][LANES], below_inverse[LANES - 1][LANES]; /* L, with ones on its diagonal */
     double above[UPPER][LANES], above_inverse[LANES][LANES];     /* U */
@@ -35,10 +34,10 @@ typedef struct block {
 struct ehl_band {
     size_t rows;
     int loaded;
-    double shift;              /* the kernel behind the cut */
+    double shift;              /* value of the kernel just after the cut */
     double cut[2 * REACH + 7]; /* the shifted kernel at -REACH-3 ... REACH+3 */
     double *matrix;            /* row i: columns i - LOWER ... i + UPPER */
-    double *inverse;           /* of the pivots */
+    double *inverse;           /* inverse pivots */
     block *blocks;
     double *line;    /* PAD zeros, a vector, PAD zeros */
     double *memory;  /* PAD zeros, `carries`, PAD zeros */
@@ -87,7 +86,8 @@ void ehl_band_destroy(ehl_band *b)
     free(b);
 }
 
-/* row = by_h * cut kernel; `cut` is that of its first column and the node i - 2 of the stencil. */
+/* Writes row = by_h * cut kernel; `cut` is the kernel at the row's first column and the node i - 2
+ * of the stencil. */
 FF_SIMD
 static void fill_row(double h0, double h1, double h2, double h3, const double *restrict cut,
                      double *restrict row)
@@ -96,7 +96,7 @@ static void fill_row(double h0, double h1, double h2, double h3, const double *r
         row[k] = h0 * cut[k + 2] + h1 * cut[k + 1] + h2 * cut[k] + h3 * (cut - 1)[k];
 }
 
-/* Columns of a row whose unknown deflects nothing keep no kernel. */
+/* Removes the kernel from the columns whose unknown deflects nothing. */
 FF_SIMD
 static void drop_columns(const double *restrict carries, double *restrict row)
 {
@@ -104,7 +104,7 @@ static void drop_columns(const double *restrict carries, double *restrict row)
         row[k] *= carries[k];
 }
 
-/* What ehl_carries says where no metal yields. */
+/* Value of ehl_carries if no metal yields. */
 FF_SIMD
 static void find_carrying(size_t rows, int all, const unsigned char *restrict full,
                           double *restrict carries)
@@ -113,7 +113,7 @@ static void find_carrying(size_t rows, int all, const unsigned char *restrict fu
         carries[i] = all | full[i];
 }
 
-/* by_p + by_h * cut kernel; row i of the matrix is node i + 1. */
+/* Fills by_p + by_h * cut kernel; row i of the matrix is node i + 1. */
 static void fill(ehl_band *b, const ehl_reynolds *r, const ehl_film *film, size_t first)
 {
     memset(b->carries + b->rows, 0, (r->nodes - b->rows) * sizeof *b->carries);
@@ -130,7 +130,7 @@ static void fill(ehl_band *b, const ehl_reynolds *r, const ehl_film *film, size_
         /* column k - LOWER from the diagonal is k - LOWER + 2 from the node i - 2 of the stencil */
         fill_row(r->by_h[0][i + 1], r->by_h[1][i + 1], r->by_h[2][i + 1], r->by_h[3][i + 1],
                  b->cut + REACH + 3 - LOWER, row);
-        /* zeros, but where an elimination before came to no numbers */
+        /* zero, unless an earlier elimination overflowed */
         memset(row + LOWER + 1 + UPPER, 0, (WIDTH - LOWER - 1 - UPPER) * sizeof *row);
         if (r->conserving)
             drop_columns(b->carries + i - LOWER, row);
@@ -139,7 +139,7 @@ static void fill(ehl_band *b, const ehl_reynolds *r, const ehl_film *film, size_
     }
 }
 
-/* Factorises row by row, so that the rows before `first` stay as they are. */
+/* Factorises row by row; the rows before `first` stay as they are. */
 FF_SIMD
 static void eliminate(double *matrix, double *restrict inverse, size_t first, size_t rows)
 {
@@ -160,7 +160,7 @@ static void eliminate(double *matrix, double *restrict inverse, size_t first, si
     }
 }
 
-/* Inverts the triangles of a block of `count` rows, which are columns i - LOWER ... of `row`. */
+/* Inverts the triangles of a block of `count` rows, whose columns begin at i - LOWER in `row`. */
 static void invert_triangles(block *k, const double *row, const double *inverse, size_t count)
 {
     for (size_t j = 0; j < count; j++) { /* columns of the inverses */
@@ -187,7 +187,7 @@ static void arrange(ehl_band *b, size_t first)
         block *k = b->blocks + n;
         size_t at = n * LANES, count = b->rows - at < LANES ? b->rows - at : LANES;
         const double *row = b->matrix + at * WIDTH;
-        if (count < LANES) /* whole blocks write all that is not always 0 */
+        if (count < LANES) /* an incomplete block leaves entries that must be 0 */
             memset(k, 0, sizeof *k);
         for (size_t i = 0; i < count; i++) {
             for (size_t j = i; j < LOWER; j++)
@@ -199,7 +199,7 @@ static void arrange(ehl_band *b, size_t first)
     }
 }
 
-/* x = U^-1 L^-1 x; x is zero for PAD places on both sides. */
+/* Solves x = U^-1 L^-1 x in place; x is zero for PAD places on both sides. */
 FF_SIMD
 static void substitute(const block *restrict blocks, size_t count, double *x)
 {
@@ -227,7 +227,7 @@ static void substitute(const block *restrict blocks, size_t count, double *x)
         const double *known = x + (n + 1) * LANES;
         ehl_lanes sum, other = {0}, column;
         memcpy(&sum, x + n * LANES, sizeof sum);
-        for (size_t j = UPPER; j-- > 0;) { /* the nearest were found last */
+        for (size_t j = UPPER; j-- > 0;) { /* the nearest columns were found last */
             memcpy(&column, k->above[j], sizeof column);
             if (j % 2)
                 sum -= known[j] * column;
@@ -244,7 +244,7 @@ static void substitute(const block *restrict blocks, size_t count, double *x)
     }
 }
 
-/* The sum of carries[i] x[i] over whole vectors. */
+/* Returns the sum of carries[i] x[i] over whole vectors. */
 FF_SIMD
 static double carried(size_t blocks, const double *restrict carries, const double *restrict x)
 {
@@ -297,7 +297,7 @@ void ehl_band_solve(ehl_band *b, const double *residual, double sum, double *dp,
     memcpy(x, residual + 1, b->rows * sizeof *x);
     substitute(b->blocks, count_blocks(b->rows), x);
     double total = carried(count_blocks(b->rows), b->carries, x);
-    double h00_change; /* of all nodes, in place of the kernel's shift */
+    double h00_change; /* change of h00 with the kernel's shift taken out */
     if (b->loaded) {
         h00_change = (total - sum) / b->border_sum;
         *dh00 = h00_change - b->shift * sum;

@@ -9,27 +9,25 @@
 #include <stdlib.h>
 #include <string.h>
 
-/*
- * Corner k is node k stride. The pressure is unknown at the corners 1 ... count and zero at the
- * others; block i is what is nearest to corner i + 1, and with its stencils it knows the corners
- * i ... i + 2, and with no weight one more.
- */
+/* Corner k is node k stride. The pressure is unknown at the corners 1 ... count and zero at the
+ * others. Block i holds the nodes nearest to corner i + 1. With its stencils it depends on the
+ * corners i ... i + 2, and with zero weight on one more. */
 enum { NEAR = 4 };
 
 struct ehl_coarse {
-    size_t stride, most; /* most: more corners than there are, for sums that reach beyond */
-    size_t count;        /* unknown pressures; h00 is one more */
+    size_t stride, most; /* most: more corners than exist, for sums that reach beyond the end */
+    size_t count;        /* number of unknown pressures; h00 is one unknown more */
     int solvable, loaded;
     double *memory;
-    double *way;                         /* 0 ... 1 between two corners */
-    double *bend;                        /* deflection `most` + k corners away from a pressure */
-    double (*by_p)[NEAR], (*by_v)[NEAR]; /* of a block, by what is at its corners */
-    double *x, *v;                       /* of the unknowns and of the corners */
-    double *matrix;                      /* column by column */
+    double *way;  /* position between two corners, 0 ... 1 */
+    double *bend; /* deflection at a distance of k - `most` corners from a pressure */
+    double (*by_p)[NEAR], (*by_v)[NEAR]; /* derivatives of a block by the values at its corners */
+    double *x, *v;                       /* x: the unknowns; v: values at the corners */
+    double *matrix;                      /* by columns */
     size_t *pivot;
 };
 
-/* Deflection `distance` nodes away from a pressure that falls to 0 within a stride. */
+/* Returns the deflection `distance` nodes away from a pressure that falls to 0 within a stride. */
 static double bend_of(const double *kernel, size_t nodes, size_t stride, size_t distance)
 {
     double sum = 0;
@@ -80,7 +78,7 @@ void ehl_coarse_destroy(ehl_coarse *c)
     free(c);
 }
 
-/* The block of a node. */
+/* Returns the block of a node. */
 static size_t block(const ehl_coarse *c, size_t node)
 {
     size_t corner = (node + c->stride / 2) / c->stride;
@@ -88,8 +86,8 @@ static size_t block(const ehl_coarse *c, size_t node)
     return corner - 1;
 }
 
-/* Sums over the blocks; leaves the last column of the matrix, of h00, and its last row, of the
-   load. */
+/* Sums over the blocks. The last column of the matrix (h00) and its last row (load) are left out.
+ */
 static void gather(ehl_coarse *c, const ehl_reynolds *r, const ehl_film *film)
 {
     size_t m = c->count, rows = m + 1;
@@ -111,7 +109,7 @@ static void gather(ehl_coarse *c, const ehl_reynolds *r, const ehl_film *film)
             h00_change[b] += v;
         }
         double far = c->way[i % c->stride];
-        if (film->full[i]) { /* the load of the corners */
+        if (film->full[i]) { /* load of the corners */
             c->v[i / c->stride] += 1 - far;
             c->v[i / c->stride + 1] += far;
         }
@@ -138,7 +136,7 @@ static void fill(ehl_coarse *c)
     }
 }
 
-/* Factorises by Gauss with partial pivoting. 0: singular. */
+/* Factorises by Gaussian elimination with partial pivoting. 0: singular. */
 static int eliminate(ehl_coarse *c)
 {
     size_t rows = c->count + 1;
@@ -213,7 +211,7 @@ static void substitute(ehl_coarse *c)
     }
 }
 
-/* Deflection at the corners. */
+/* Computes the deflection at the corners. */
 static void deflect(ehl_coarse *c)
 {
     size_t corners = c->count + 2;
@@ -224,7 +222,7 @@ static void deflect(ehl_coarse *c)
     }
 }
 
-/* The balances alone: other nodes have an equation of their own, or none. */
+/* Sums the balances alone; other nodes have an equation of their own, or none. */
 static void restrict_to_blocks(ehl_coarse *c, const double *residual, const unsigned char *full,
                                size_t last)
 {

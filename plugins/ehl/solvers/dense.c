@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * One instant by Newton's method with a dense Jacobian, written down face by face, and LAPACK;
- * the deflection is a plain double sum. Slow and obvious: the twin that the fast solver is held to.
- */
+/* One instant by Newton's method with a dense Jacobian, written face by face, and LAPACK. The
+ * deflection is a plain double sum. It is slow and obvious: the twin that the fast solver is
+ * compared with. */
 #include "../equations/cavitation.h"
 #include "../equations/deflection.h"
 #include "../equations/solver.h"
@@ -12,13 +11,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Solves `size` equations with `sides` right-hand sides in place; columns follow each other. */
+/* LAPACK's solver of `size` equations with `sides` right-hand sides, in place; columns follow each
+ * other. */
 typedef void dgesv(const int *size, const int *sides, double *matrix, const int *rows, int *pivot,
                    double *rhs, const int *rhs_rows, int *info);
 
 typedef struct dense {
-    size_t size;      /* nodes + 1: all p, then h00 */
-    double *jacobian; /* by columns, as LAPACK wants them */
+    size_t size;      /* nodes + 1: every p, then h00 */
+    double *jacobian; /* by columns, as LAPACK expects */
     double *rhs, *change;
     int *pivot;
     dgesv *solve;
@@ -45,7 +45,7 @@ static void destroy(ehl_solver *s)
     s->self = NULL;
 }
 
-/* Row `row` += by_h dh(node)/d(unknowns) + by_p dp(node)/d(unknowns). */
+/* Adds by_h dh(node)/d(unknowns) + by_p dp(node)/d(unknowns) to a row. */
 static void add_gap_and_pressure(const ehl_solver *s, const ehl_film *film, size_t row, size_t node,
                                  double by_p, double by_h)
 {
@@ -60,7 +60,7 @@ static void add_gap_and_pressure(const ehl_solver *s, const ehl_film *film, size
     j[nodes * d->size] += by_h;
 }
 
-/* Row `row` += factor d(rho h)(node). */
+/* Adds factor d(rho h)(node) to a row. */
 static void add_mass(const ehl_solver *s, const ehl_film *film, size_t row, size_t node,
                      double factor)
 {
@@ -73,7 +73,7 @@ static void add_mass(const ehl_solver *s, const ehl_film *film, size_t row, size
                              factor * r->liquid.rho[node]);
 }
 
-/* Adds `sign` times the flux through the face behind node i to row `row`. */
+/* Adds `sign` times the flux through the face after node i to a row. */
 static void add_face(const ehl_solver *s, const ehl_step *step, const ehl_film *film, size_t row,
                      size_t i, double sign)
 {
@@ -123,7 +123,7 @@ static void assemble(const ehl_solver *s, const ehl_step *step, const ehl_film *
     d->rhs[n] = step->loaded ? step->load - ehl_film_load(film, n, r->dx) : 0;
 }
 
-/* Rows differ in unit: each is divided by its largest entry. */
+/* Scales each row by its largest entry, since rows differ in unit. */
 static void scale_rows(dense *d)
 {
     for (size_t i = 0; i < d->size; i++) {
@@ -136,8 +136,8 @@ static void scale_rows(dense *d)
     }
 }
 
-/* Applies the changes of the masses of cavitated nodes in full, and removes them from the step of
-   the pressures. */
+/* Applies the changes of the masses of cavitated nodes in full and removes them from the step of
+ * the pressures. */
 static void apply_mass_changes(dense *d, const ehl_reynolds *r, ehl_film *film, double *dh)
 {
     for (size_t i = 1; i + 1 < r->nodes; i++)
@@ -199,8 +199,8 @@ static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int 
     return FF_NOCONV;
 }
 
-/* LAPACK takes longer to load than a small film to solve, so that only this solver does. NULL: it
-   is not on this machine. */
+/* Loads LAPACK. Loading takes longer than solving a small film, so that only this solver does it.
+ * NULL: it is not on this machine. */
 static dgesv *load_dgesv(void)
 {
     dgesv *function = NULL;

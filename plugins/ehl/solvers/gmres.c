@@ -11,40 +11,42 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The coarse grid has a corner every so many nodes, and so many corners in all. */
+/* The coarse grid has a corner every LEAST_STRIDE nodes or more and at most MOST_CORNERS of them.
+ * It is used if there would be more than LEAST_CORNERS. */
 enum { LEAST_STRIDE = 16, LEAST_CORNERS = 16, MOST_CORNERS = 128 };
 
-/* Flow that a linear solution may leave unbalanced: as a share of the flow that it had to balance,
-   and of the flow through the contact. Both must be exceeded to count. */
+/* Imbalance of flow that a linear solution may leave: relative to the imbalance before it, and to
+ * the flow through the contact. An imbalance counts if both are exceeded. */
 static const double MOST_IMBALANCE_LEFT = 0.3, IMBALANCE_NOTICED = 0.01;
 
-/* A linear system is solved to this share of its first residual at least; to the second one with
-   rough flanks, since what is left may turn contacts, and under light loads, where a norm of the
-   pressure tells little of the film. */
+/* A linear system is solved at least to this share of its first residual. The second value applies
+ * to rough flanks, whose contacts the rest may turn, and to light loads, where a norm of the
+ * pressure says little about the film. */
 static const double LEAST_REDUCTION = 0.2, CAREFUL_REDUCTION = 0.05;
 
-/* The same where statistical flanks touch: where load passes between oil and asperities the film
-   changes, and the pressure hardly does. */
+/* The value where statistical flanks touch: load that passes between oil and asperities changes the
+ * film but hardly the pressure. */
 static const double SHARED_REDUCTION = 1e-3;
 
-/* With rough flanks a change of the pressure within the tolerance is left once it is this share of
-   it, and solved for down to it otherwise. */
+/* With rough flanks, a change of the pressure within the tolerance is solved to this share of the
+ * tolerance. */
 static const double SHARE_OF_LAST = 0.01;
 
-/* Newton's method neglects so many times the square of a relative change: alpha p_max/2 of a
-   viscosity exp(alpha p), some 10 in a contact of gears. */
+/* Newton's method neglects this multiple of the square of a relative change. It is alpha p_max/2
+ * for a viscosity exp(alpha p), some 10 in a contact of gears. */
 static const double CURVATURE = 10;
 
-/* The factor is learned where a step follows another one: twice what was found, no less than LEAST,
-   and it grows by this where one step was enough. */
+/* How the multiple is learned from a step that follows another: twice the value found, but at least
+ * LEAST_CURVATURE. It grows by FORGETTING after a step that was enough by itself. */
 static const double LEARNED = 2, LEAST_CURVATURE = 0.3, FORGETTING = 1.05;
 
-/* Share of the tolerance that a step may leave: the oil carries what each leaves through the
-   contact, where it adds up; docs/performance.md has what the presets leave in all. */
+/* Share of the tolerance that one time step may leave. The oil carries what each step leaves
+ * through the contact, where it adds up; docs/performance.md has the sum for the presets. */
 static const double SHARE_OF_STEP = 1. / 20;
 
-/* Flow that a step may leave unbalanced up to any place, in tolerances. Between two places it is
-   twice that at most, below the least limit of the lines of quality, 5 tolerances (quality.c). */
+/* Imbalance of flow that a step may leave between the inlet and any place, in tolerances. Between
+ * two places it is at most twice that, below the lowest limit of the quality lines, 5 tolerances
+ * (quality.c). */
 static const double MOST_UNBALANCED = 2;
 
 void ehl_linear_deflect(ehl_solver *s, const double *p, double *v)
@@ -54,7 +56,7 @@ void ehl_linear_deflect(ehl_solver *s, const double *p, double *v)
     s->counters.convolutions++;
 }
 
-/* Rows from ... last - 1 of the product. */
+/* Fills rows from ... last - 1 of the product. */
 FF_SIMD
 static void multiply_rows(const ehl_reynolds *r, size_t from, const double *restrict dp,
                           const double *restrict dh, double *restrict out)
@@ -144,8 +146,8 @@ const double *ehl_pressure_part(const ehl_solver *s, const ehl_film *film, const
     return w->masked;
 }
 
-/* (dp, dh00) = M^-1 (product, sum): the coarse grid takes the long waves, then the band solves for
-   what they leave. */
+/* Applies the preconditioner: (dp, dh00) = M^-1 (product, sum). The coarse grid removes the long
+ * waves, then the band solves for the rest. */
 static void apply_preconditioner(ehl_solver *s, const ehl_film *film, double sum, double *dp,
                                  double *dh00)
 {
@@ -164,10 +166,8 @@ static void apply_preconditioner(ehl_solver *s, const ehl_film *film, double sum
     *dh00 += h00_change;
 }
 
-/*
- * A vector of the Krylov space: the change of h00 times `weight` in place 0, of p in 1 ... last-1.
- * next = M^-1 J basis[k]; keeps the deflection of basis[k].
- */
+/* Extends the Krylov space: next = M^-1 J basis[k], and keeps the deflection of basis[k]. A vector
+ * holds `weight` times the change of h00 in place 0 and the change of p in 1 ... last - 1. */
 static void extend_krylov_space(ehl_solver *s, const ehl_film *film, int loaded, double weight,
                                 size_t k)
 {
@@ -190,7 +190,7 @@ typedef struct hessenberg {
     double h[EHL_KRYLOV + 1][EHL_KRYLOV], c[EHL_KRYLOV], s[EHL_KRYLOV], rest[EHL_KRYLOV + 1];
 } hessenberg;
 
-/* Rotates column k to triangular form (Givens) and returns the norm of the remaining residual. */
+/* Makes column k triangular by Givens rotations and returns the norm of the remaining residual. */
 static double rotate_column(hessenberg *q, size_t k)
 {
     for (size_t j = 0; j < k; j++) {
@@ -207,8 +207,7 @@ static double rotate_column(hessenberg *q, size_t k)
     return fabs(q->rest[k + 1]);
 }
 
-/* Combines `count` basis vectors to p_step and v_step so that the residual is least; returns
-   dh00. */
+/* Combines `count` basis vectors to p_step and v_step with the least residual; returns dh00. */
 static double combine_basis(ehl_linear *w, hessenberg *q, size_t count, size_t nodes, double weight)
 {
     if (count == 0) {
@@ -232,8 +231,8 @@ static double combine_basis(ehl_linear *w, hessenberg *q, size_t count, size_t n
     return dh00;
 }
 
-/* What is predicted to be left of a relative change: its share of the residual, and the square that
-   Newton's method neglects. */
+/* Predicts the error after a relative change: the residual's share of it, plus the square that
+ * Newton's method neglects. */
 static double left_of(const ehl_linear *w, double change)
 {
     return change * (w->reached + w->curvature * change);
@@ -270,11 +269,9 @@ int ehl_linear_balances(const ehl_solver *s)
     return w->unbalanced <= MOST_UNBALANCED * s->tolerance;
 }
 
-/*
- * Returns the share of the residual that may be left of a change of the pressure, relative: that at
- * which the film is accurate to its tolerance with what Newton's method neglects, or what it
- * neglects anyway (a forcing term as of Eisenstat & Walker 1996).
- */
+/* Returns the share of the residual that may be left for a relative change of the pressure: the
+ * share at which the film meets its tolerance together with Newton's neglected square, or that
+ * square itself if it is larger (a forcing term, Eisenstat & Walker 1996). */
 static double forcing_term(const ehl_solver *s, double change, int careful)
 {
     if (s->reynolds->rough && change <= s->tolerance)
@@ -286,12 +283,10 @@ static double forcing_term(const ehl_solver *s, double change, int careful)
     return fmin(s->reynolds->touching ? SHARED_REDUCTION : least, left);
 }
 
-/*
- * Solves J (dp, dh00) = (product, missing) until the preconditioned residual is the share of the
- * first one that forcing_term allows. The preconditioner stands on the left, so that the norm
- * measures the error of the pressure: short waves of the pressure change the balances so little
- * that a norm of the balances would let them grow from step to step.
- */
+/* Solves J (dp, dh00) = (product, missing) until the preconditioned residual is below the share of
+ * the first one that forcing_term allows. Left preconditioning makes the norm measure the error of
+ * the pressure. A norm of the balances would let short waves of the pressure grow from step to
+ * step, since they hardly change the balances. */
 static ff_status gmres(ehl_solver *s, const ehl_film *film, int loaded, double missing,
                        double *dh00)
 {
@@ -300,9 +295,9 @@ static ff_status gmres(ehl_solver *s, const ehl_film *film, int loaded, double m
     hessenberg q;
     size_t rows = s->reynolds->last, nodes = s->reynolds->nodes, k = 0;
     double p_max = ehl_pressure_scale(g, film, nodes);
-    /* Pa/m, makes a change of h00 comparable with one of the pressure: the pressure all over the
-       contact that deflects the flanks by it; under light loads, where the film changes the
-       pressure long before the flanks deflect, the pressure over the least film */
+    /* weight, in Pa/m, that makes a change of h00 comparable with one of the pressure: the pressure
+     * over the whole contact that deflects the flanks by as much; under light loads, where the film
+     * changes the pressure long before the flanks deflect, the pressure over the least film */
     double weight = g->dx / (g->half_width * (s->kernel[0] - s->kernel[nodes - 1]));
     double by_film = p_max / ehl_least(rows, s->reynolds->thick);
     int careful = w->careful = s->reynolds->rough || by_film < weight;
@@ -336,11 +331,9 @@ static ff_status gmres(ehl_solver *s, const ehl_film *film, int loaded, double m
     return isfinite(norm) ? FF_OK : FF_NOCONV;
 }
 
-/*
- * Returns 1 when the step leaves the flow unbalanced although the norm of GMRES is small. Where the
- * blocks of the coarse grid are wider than the contact, M^-1 almost annihilates some waves of the
- * balances, so that a norm preconditioned from the left does not contain them.
- */
+/* Returns 1 if the step leaves the flow unbalanced although GMRES's norm is small. Where the blocks
+ * of the coarse grid are wider than the contact, M^-1 almost annihilates some waves of the
+ * balances, and a left-preconditioned norm does not see them. */
 static int misses_imbalance(const ehl_solver *s, const ehl_step *step, const ehl_film *film,
                             double dh00)
 {
@@ -360,7 +353,7 @@ static int misses_imbalance(const ehl_solver *s, const ehl_step *step, const ehl
     return most_left > MOST_IMBALANCE_LEFT * most && w->unbalanced > IMBALANCE_NOTICED;
 }
 
-/* The right-hand side of rows 1 ... last - 1: of those that ehl_is_solved tells. */
+/* Fills the right-hand side of rows 1 ... last - 1 at the nodes where ehl_is_solved holds. */
 FF_SIMD
 static void negate_solved(size_t last, int all, const unsigned char *restrict full,
                           const double *restrict residual, double *restrict product)
@@ -381,7 +374,7 @@ ff_status ehl_linear_solve(ehl_solver *s, const ehl_step *step, const ehl_film *
                       w->product);
         ff_status status = gmres(s, film, step->loaded, missing, dh00);
         if (status != FF_OK) {
-            w->factored = 0; /* factors that are no numbers would look as if they still held */
+            w->factored = 0; /* overflowed factors would pass for valid ones */
             return status;
         }
         w->unbalanced = 0;

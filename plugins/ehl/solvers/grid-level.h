@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Steady films between smooth flanks: of one grid, and of nested grids. */
+/* Steady films between smooth flanks, on one grid and on nested grids. */
 #ifndef EHL_GRID_LEVEL_H
 #define EHL_GRID_LEVEL_H
 
 #include "../equations/solver.h"
 
-/* Fills `film` with a first guess of the steady film under `at` whose least thickness is
-   `thinnest`. */
+/* Fills `film` with a first guess of the steady film under `at`, whose least thickness is
+ * `thinnest`. */
 void ehl_first_guess(ehl_solver *s, const ehl_instant *at, double modulus, double thinnest,
                      ehl_film *film);
 
-/* One grid with all that a steady film on it needs. */
+/* A grid with everything that a steady film on it needs. */
 typedef struct ehl_grid_level {
     ehl_grid grid;
     ehl_reynolds reynolds;
@@ -20,23 +20,23 @@ typedef struct ehl_grid_level {
     unsigned char *flags;
 } ehl_grid_level;
 
-/* The domain of `s` with that many cells; of its equations what a steady smooth film
-   needs: laws, oil, wedge, limits of the film. The film on it is as good as 1e-3 at best. */
+/* Makes a level on the domain of `s` with that many cells and with the equations of a steady smooth
+ * film: laws, oil, wedge, limits of the film. Its film is accurate to 1e-3 at best. */
 ff_status ehl_grid_level_create(ehl_grid_level *l, const ehl_solver *s, size_t cells,
                                 double modulus);
 void ehl_grid_level_destroy(ehl_grid_level *l);
 
-/* `film` of the solver `s`: linear between the nodes of a coarser film on the same domain. */
+/* Interpolates `film` of the solver `s` linearly from a coarser film on the same domain. */
 void ehl_grid_level_refine(const ehl_grid_level *from, ehl_solver *s, ehl_film *film);
 
-/* The film of the level, from that of the level before or, with NULL, from a first guess that is
-   `thinnest` at its thinnest. FF_OK or FF_NOCONV. */
+/* Solves the film of the level from that of the level before, or from a first guess with the least
+ * thickness `thinnest` if that is NULL. Returns FF_OK or FF_NOCONV. */
 ff_status ehl_grid_level_solve(ehl_grid_level *l, const ehl_grid_level *before,
                                const ehl_step *step, const ehl_instant *at, double modulus,
                                double thinnest);
 
-/* Fills `film` with the steady film of half the cells of `s`, by nested grids. FF_NOCONV: the grid
-   is coarse itself, or none of the coarser ones has a solution. */
+/* Fills `film` with the steady film on half the cells of `s`, by nested grids. FF_NOCONV: the grid
+ * is coarse itself, or no coarser one has a solution. */
 ff_status ehl_nested_film(ehl_solver *s, const ehl_step *step, const ehl_instant *at,
                           double modulus, double thinnest, ehl_film *film);
 

@@ -1,25 +1,26 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Compiled with -ffast-math: sums of products in any order. Nothing here may test for NaN. */
+/* Compiled with -ffast-math, which reorders sums of products. So nothing here may test for NaN. */
 #include "line.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 struct ehl_line_matrix {
-    size_t nodes, rows, reach; /* reach: nodes on either side whose deflection counts */
-    size_t lower, width;       /* entries in front of the diagonal, and of a row */
+    size_t nodes, rows, reach; /* reach: number of nodes on either side whose deflection counts */
+    size_t lower, width;       /* entries before the diagonal, and entries of a row */
     int loaded;
-    double shift;    /* the kernel behind the reach */
+    double shift;    /* value of the kernel just after the reach */
     double *cut;     /* the shifted kernel at -(reach + margin) ... reach + margin */
     double *matrix;  /* row i: columns i - lower ... */
-    double *inverse; /* of the pivots */
-    double *carries; /* 1: the unknown is a pressure and deflects, 0: it is not */
+    double *inverse; /* inverse pivots */
+    double *carries; /* 1: the unknown is a pressure and deflects; 0: it is not */
     double *border;  /* matrix^-1 times the effect of h00 */
     double border_sum;
 };
 
 enum { LEAST = 8, MOST = 64, SHARE = 16, AFTER = EHL_STENCIL - 1 - EHL_ASYMMETRIC_BEFORE };
-/* Zeros of `cut` on either side: a row reaches this far beyond the reach from its outer node. */
+/* Zeros of `cut` on either side, since a row reaches this far beyond the reach from its outer node.
+ */
 enum { MARGIN = EHL_STENCIL };
 
 static size_t reach_of(size_t nodes)
@@ -64,7 +65,7 @@ void ehl_line_destroy(ehl_line_matrix *m)
     free(m);
 }
 
-/* by_p + by_h * cut kernel; row i of the matrix is node i + 1. */
+/* Fills by_p + by_h * cut kernel; row i of the matrix is node i + 1. */
 static void fill_line(ehl_line_matrix *m, const ehl_reynolds *r, const ehl_film *film)
 {
     for (size_t i = 0; i < m->rows; i++)
@@ -76,8 +77,8 @@ static void fill_line(ehl_line_matrix *m, const ehl_reynolds *r, const ehl_film 
             row[m->lower] = 1;
             continue;
         }
-        /* column k is k - lower from the diagonal, and k - lower + BEFORE - s from stencil node
-           s */
+        /* column k lies k - lower after the diagonal, and k - lower + BEFORE - s after stencil node
+         * s */
         const double *d = m->cut + m->reach + MARGIN - m->lower + EHL_ASYMMETRIC_BEFORE;
         double h0 = r->by_h[0][i + 1], h1 = r->by_h[1][i + 1], h2 = r->by_h[2][i + 1],
                h3 = r->by_h[3][i + 1];
@@ -147,7 +148,7 @@ void ehl_line_solve(ehl_line_matrix *m, const double *residual, double sum, doub
                     double *dh00)
 {
     double *x = dp + 1, total = 0,
-           h00_change; /* lift: of all nodes, in place of the kernel's shift */
+           h00_change; /* lift: change of all nodes that stands for the kernel's shift */
     memset(dp, 0, m->nodes * sizeof *dp);
     memcpy(x, residual + 1, m->rows * sizeof *x);
     substitute_line(m, x);

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Newton's method for one instant. Cavitation, contact and yield are primal-dual active sets
- * (Hintermueller, Ito & Kunisch 2002); the linear systems are those of gmres.h.
- */
+/* Newton's method for one instant. Cavitation, contact and yield are primal-dual active sets
+ * (Hintermueller, Ito & Kunisch 2002). gmres.h solves the linear systems. */
 #include "../contact/lanes.h"
 #include "../equations/asperities.h"
 #include "../equations/cavitation.h"
@@ -30,8 +28,8 @@ static void destroy(ehl_solver *s)
     s->self = NULL;
 }
 
-/* Fills h with the change of the film and `share` with the same over the film where it is full, and
-   returns the largest of these. */
+/* Fills h with the change of the film and `share` with its ratio to the film where it is full.
+ * Returns the largest ratio. */
 FF_SIMD
 static double measure_film(size_t last, double dh00, const double *restrict v,
                            const unsigned char *restrict full, const double *restrict thick,
@@ -45,7 +43,7 @@ static double measure_film(size_t last, double dh00, const double *restrict v,
 }
 
 /* Fills h_step, the change of the film, and finds the largest changes: *dp of the pressure (Pa),
- *and dh of the full film as a share of it. A cavitated node's change of mass counts in *dh. */
+ * and *dh of the full film, relative. The change of a cavitated node's mass counts in *dh. */
 static void measure_step(const ehl_solver *s, const ehl_film *film, double dh00, double *dp,
                          double *dh)
 {
@@ -72,7 +70,7 @@ static void measure_step(const ehl_solver *s, const ehl_film *film, double dh00,
     }
 }
 
-/* Rescales the pressures below the hardness alone, whose deflection then takes a convolution. */
+/* Rescales only the pressures below the hardness; their deflection then takes a convolution. */
 static int rescale_elastic_part(ehl_solver *s, const ehl_step *step, ehl_film *film)
 {
     newton *w = s->self;
@@ -93,8 +91,8 @@ static int rescale_to_load(ehl_solver *s, const ehl_step *step, ehl_film *film)
                                               : ehl_rescale_to_load(s, step, film);
 }
 
-/* 1: the first steps tell little of the last ones. A steady film begins far from its solution, and
-   a light load hardly shows in the pressure. */
+/* Returns 1 if the first steps say little about the last ones: a steady film starts far from its
+ * solution, and a light load hardly shows in the pressure. */
 static int is_far(const ehl_solver *s, const ehl_step *step)
 {
     const newton *w = s->self;
@@ -110,7 +108,7 @@ static ff_status newton_step(ehl_solver *s, const ehl_step *step, ehl_film *film
     ehl_reynolds_evaluate(r, step, film);
     int moved = r->conserving ? ehl_cavitation_fill(&w->cavitation, r, film, step->rate > 0)
                               : ehl_cavitation_grow_film(&w->cavitation, r, film);
-    if (w->cavitation.grown && is_far(s, step)) /* its end may move on */
+    if (w->cavitation.grown && is_far(s, step)) /* the film's end may still move */
         w->cavitation.moved = 1;
     if (r->rough)
         moved |= ehl_contact_choose(r, step, film);
@@ -126,7 +124,7 @@ static ff_status newton_step(ehl_solver *s, const ehl_step *step, ehl_film *film
     if (ehl_linear_solve(s, step, film, dh00) != FF_OK)
         return FF_NOCONV;
     s->counters.newton +=
-        w->linear.krylov > 0; /* without, so little was left that no step is due */
+        w->linear.krylov > 0; /* without iterations so little was left that no step is due */
     measure_step(s, film, *dh00, dp, dh);
     return isfinite(*dp) && isfinite(*dh) && isfinite(*dh00) ? FF_OK : FF_NOCONV;
 }
@@ -144,16 +142,18 @@ static void take_step(const ehl_solver *s, ehl_film *film, double share, double 
     film->h00 += share * dh00;
 }
 
-/* A node may alternate between contact and film, caught between its two equations. Damping ends
-   that: a smaller share of the Newton step is taken while the steps do not shrink. */
+/* Damping of the Newton steps. A node caught between its two equations may alternate between
+ * contact and film. A smaller share of each step is taken while the steps do not shrink, which ends
+ * that. */
 typedef struct damping {
-    double share;        /* of a Newton step that is taken */
-    double last, before; /* sizes of the last step and of the one before it, Pa */
+    double share;        /* share of a Newton step that is taken */
+    double last, before; /* sizes of the last step and of the one before, Pa */
 } damping;
 
 static double damped_share(damping *d, int k, double size)
 {
-    const double least_share = 0.25, shrinking = 0.6; /* over two steps */
+    const double least_share = 0.25,
+                 shrinking = 0.6; /* shrinking: least reduction over two steps */
     int stuck = k > 2 && size > shrinking * d->before;
     d->share = stuck ? fmax(least_share, d->share / 2) : fmin(1, 2 * d->share);
     d->before = d->last;
@@ -161,12 +161,13 @@ static double damped_share(damping *d, int k, double size)
     return d->share;
 }
 
-/* A node that the end of the film gains after the last step changes the traction by so much. */
+/* Relative change of the traction if the film's end gains a node after the last step. */
 static const double END_OF_FILM = 2e-5;
 
-/* Whether so little is left after a step that changed the pressure and the film by these shares.
-   What is left is predicted where the film kept its ends. Where they moved or must be found, and on
-   rough flanks, whose contacts may turn in the next step, the step itself must be small. */
+/* Returns whether the error after a step is small enough; the step changed the pressure and the
+ * film by these shares. If the film kept its ends, the error is predicted. If they moved or must
+ * still be found, or if the flanks are rough and contacts may turn in the next step, the step
+ * itself must be small. */
 static int is_small(const ehl_solver *s, double dp, double dh)
 {
     const newton *w = s->self;
@@ -177,12 +178,12 @@ static int is_small(const ehl_solver *s, double dp, double dh)
     return small && (whole || ehl_linear_balances(s));
 }
 
-/* The last Newton step of a smooth film that kept its ends, by which the next one is judged. */
+/* The last Newton step of a smooth film that kept its ends, from which the next one learns. */
 typedef struct judged {
-    double size, reached; /* relative change of the pressure; 0: none */
+    double size, reached; /* size: relative change of the pressure, 0: none */
 } judged;
 
-/* Learns from the step before what is left after one, and keeps this one. */
+/* Learns from the step before how much a step leaves, and keeps this one. */
 static void learn(ehl_solver *s, const ehl_step *step, judged *last, double size, int whole)
 {
     const newton *w = s->self;

@@ -1,20 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One instant by the discretisation of another stage (film.h), in the place of a solver of ours. */
+/* One instant by the discretisation of another stage (film.h), in place of a solver of this plugin.
+ */
 #include "../equations/deflection.h"
 #include "../equations/solver.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* So many instants without a film, and so large a share of those asked for, are no accident: the
-   steps would be cut for ever. */
+/* The march gives up after this many instants without a film, if they are this share of those asked
+ * for. Otherwise steps would be cut for ever. */
 enum { MOST_FAILURES = 200, FAILING_SHARE = 5 };
 
 typedef struct outside {
     ehl_fft *fft;
     ff_film_contact contact;
     void *solver;
-    size_t asked, failed; /* instants */
+    size_t asked, failed; /* counts of instants */
 } outside;
 
 static void deflect(ehl_solver *s, const double *p, double *v)
@@ -36,7 +37,7 @@ static void destroy(ehl_solver *s)
     s->self = NULL;
 }
 
-/* Returns 1 when the film consists of numbers, and 0 Pa at its ends. */
+/* Returns 1 if the film consists of finite numbers and is at 0 Pa at its ends. */
 static int is_film(const ff_film_state *film, size_t nodes)
 {
     double sum = film->h00;
@@ -83,7 +84,8 @@ static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int 
         return FF_NOCONV;
     film->h00 = state.h00;
     film->full[0] = film->full[s->grid->nodes - 1] = 0;
-    ehl_reynolds_evaluate(s->reynolds, step, film); /* what the losses take from the last step */
+    ehl_reynolds_evaluate(s->reynolds, step,
+                          film); /* quantities that the losses take from the last step */
     return FF_OK;
 }
 

@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * One instant by line relaxation in semi-system form. The coefficients are those of the last film.
- * In a sweep the pressures of the whole line change at once, by what a banded matrix makes of the
- * residuals: through the pressure flow, and through the wedge and the squeeze by the deflection of
- * the nodes near each other (Ai 1993; Zhu & Hu 2001: where the pressure flow vanishes the wedge
- * keeps the diagonal large). What all nodes deflect follows by FFT, and the next sweep takes it up.
- * Their relaxation factors are replaced by Anderson's acceleration, and their search for h00 by a
- * border of the matrix that keeps the load.
- */
+/* One instant by line relaxation in semi-system form, with the coefficients of the last film. A
+ * sweep changes the pressures of the whole line at once: a banded matrix solves the residuals
+ * through the pressure flow, and through wedge and squeeze by the deflection of near nodes (Ai
+ * 1993; Zhu & Hu 2001: where the pressure flow vanishes the wedge keeps the diagonal large). The
+ * deflection by all nodes follows by FFT and enters the next sweep. Anderson acceleration replaces
+ * the relaxation factors of these authors, and a border of the matrix that keeps the load replaces
+ * their search for h00. */
 #include "../equations/cavitation.h"
 #include "../equations/deflection.h"
 #include "../equations/reynolds.h"
@@ -19,18 +17,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* SWEEPS: most sweeps with one set of coefficients. A matrix is made anew when it takes
-   STALE_SWEEPS more of them than it did when it was new. */
+/* SWEEPS: most sweeps with one set of coefficients. A matrix is renewed if it takes STALE_SWEEPS
+ * more of them than when it was new. */
 enum { SWEEPS = 60, STALE_SWEEPS = 2 };
 
-/*
- * The flow that is extrapolated to a node reaches two nodes upstream, with the wrong sign: the
- * balances behind the highest pressure are not those of an M-matrix, and at places no film boundary
- * suits both the last full node, which must not have p < 0, and the cavitated one downstream, which
- * must not gain mass. A boundary that alternates between two nodes this often in a row stays at the
- * first; the mass that the other gains is in the complementarity of the quality record. With the
- * first order there always is a boundary that suits both.
- */
+/* Most consecutive alternations of the film boundary between two nodes. The second-order flow at a
+ * node depends on two nodes upstream, with the wrong sign, so that the balances behind the pressure
+ * maximum are not those of an M-matrix. In places no film boundary suits both the last full node,
+ * which must not have p < 0, and the cavitated one downstream, which must not gain mass. After
+ * MOST_FLIPS alternations the boundary stays at the first node. The mass that the other one gains
+ * appears in the quality line `complementarity`. The first-order flow always has a boundary that
+ * suits both. */
 enum { MOST_FLIPS = 4 };
 
 typedef struct relaxation {
@@ -39,13 +36,13 @@ typedef struct relaxation {
     ehl_anderson anderson;
     ehl_cavitation cavitation;
     double *memory;
-    double *product; /* residual of the balances that is left */
+    double *product; /* remaining residual of the balances */
     double *sweep, *change, *pressure, *deflection, *total;
     double *p_step, *v_step, *h_step;
-    double missing;           /* of the load, over dx */
-    int whole;                /* the last sweeps converged */
-    int sweeps, sweeps_fresh; /* of the last film; with a matrix that was new */
-    unsigned char *made_full; /* the film that the matrix was made for */
+    double missing;           /* missing load over dx */
+    int whole;                /* 1: the last sweeps converged */
+    int sweeps, sweeps_fresh; /* of the last film, and with a new matrix */
+    unsigned char *made_full; /* film boundary that the matrix was made for */
     int made, made_loaded;
     int flips;              /* consecutive alternations of the film boundary in this solution */
     size_t end, end_before; /* last full node after the last two steps */
@@ -74,15 +71,16 @@ static void destroy(ehl_solver *s)
     s->self = NULL;
 }
 
-/* Returns the weight of h00 among pressures, Pa/m: a pressure all over the contact over its
-   deflection. */
+/* Returns the weight of h00 among pressures, Pa/m: a pressure over the whole contact, divided by
+ * its deflection. */
 static double h00_weight(const ehl_solver *s)
 {
     const ehl_grid *g = s->grid;
     return g->dx / (g->half_width * (s->kernel[0] - s->kernel[g->nodes - 1]));
 }
 
-/* product -= Jacobian (dp, dh) in rows 1 ... last - 1; dp holds the masses of cavitated nodes */
+/* Subtracts the Jacobian times (dp, dh) from `product` in rows 1 ... last - 1; dp holds the masses
+ * of cavitated nodes. */
 static void subtract_jacobian(const ehl_reynolds *r, const double *dp, const double *dh,
                               double *product)
 {
@@ -97,8 +95,8 @@ static void subtract_jacobian(const ehl_reynolds *r, const double *dp, const dou
 }
 
 /* Solves the matrix for the residual of the balances: pressures, masses of cavitated nodes in
-   multiples of `unit`, and in place 0 the change of h00, weighted like a pressure. Returns the
-   largest entry. */
+ * multiples of `unit`, and in place 0 the change of h00, weighted like a pressure. Returns the
+ * largest entry. */
 static double sweep(ehl_solver *s, const ehl_step *step)
 {
     relaxation *w = s->self;
@@ -110,7 +108,7 @@ static double sweep(ehl_solver *s, const ehl_step *step)
     return most;
 }
 
-/* Adds the change of one sweep to p_step and v_step, and updates the residual of the balances. */
+/* Adds the change of one sweep to p_step and v_step and updates the residual of the balances. */
 static void apply_sweep(ehl_solver *s, const ehl_film *film)
 {
     relaxation *w = s->self;
@@ -151,8 +149,8 @@ static ff_status relax(ehl_solver *s, const ehl_step *step, const ehl_film *film
     return isfinite(now) ? FF_OK : FF_NOCONV;
 }
 
-/* Makes a new matrix when the film boundary or the length of the step has changed, or the old one
-   takes too many sweeps. */
+/* Renews the matrix if the film boundary or the length of the step has changed, or if the old one
+ * takes too many sweeps. */
 static void update_matrix(ehl_solver *s, const ehl_step *step, const ehl_film *film)
 {
     relaxation *w = s->self;
@@ -172,7 +170,7 @@ static void update_matrix(ehl_solver *s, const ehl_step *step, const ehl_film *f
     s->counters.factorisations++;
 }
 
-/* Solves the linearised balances by relaxation: p_step, v_step, and the change of h00 in *dh00. */
+/* Solves the linearised balances by relaxation, for p_step, v_step and the change *dh00 of h00. */
 static ff_status linear_step(ehl_solver *s, const ehl_step *step, ehl_film *film, double *dh00)
 {
     relaxation *w = s->self;
@@ -196,7 +194,7 @@ static ff_status linear_step(ehl_solver *s, const ehl_step *step, ehl_film *film
     return FF_OK;
 }
 
-/* Largest change of the pressure, and of the film against itself. */
+/* Finds the largest change of the pressure, and of the film relative to itself. */
 typedef struct size {
     double dp, dh;
 } size;
