@@ -122,26 +122,27 @@ def run(program, folder, text, cells):
     other = 'inlet_heating'  # no error of cells or ends
     lines = [n for n, line in quality.items() if line.get('of') == 'numbers' and n != other]
     bad = [o for o, v in values.items() if not (v and math.isfinite(v) and v > 0)]
-    return (values, quality), lines, f'{bad} is no number' if bad else None
+    below = [n for n, output in answer['outputs'].items() if output.get('at_least')]
+    return (values, quality, below), lines, f'{bad} is no number' if bad else None
 
 
 def judge(program, folder, text):
-    """(verdict, text) of a scene."""
+    """(verdict, text, outputs of which a bound alone is known) of a scene."""
     here, lines, wrong = run(program, folder, text, CELLS)
     if wrong:
-        return 'wrong', wrong
+        return 'wrong', wrong, []
     if not here:
-        return 'refused', lines[0]
+        return 'refused', lines[0], []
     fine, _, wrong = run(program, folder, text, FINER * CELLS)
     if wrong:
-        return 'wrong', f'on {FINER} times the cells: {wrong}'
+        return 'wrong', f'on {FINER} times the cells: {wrong}', here[2]
     if not fine:
-        return 'open', 'no film on more cells'
+        return 'open', 'no film on more cells', here[2]
     off = {o: abs(fine[0][o] / v - 1) for o, v in here[0].items()}
     beyond = {o: f'{100 * v:.2g} %' for o, v in off.items() if v > LIMITS[o]}
     if not beyond:
-        return 'held', ''
-    return ('said' if lines else 'silent'), f'{beyond}; {lines}'
+        return 'held', '', here[2]
+    return ('said' if lines else 'silent'), f'{beyond}; {lines}', here[2]
 
 
 def main():
@@ -153,16 +154,19 @@ def main():
     parser.add_argument('--first', type=int, default=0)
     args = parser.parse_args()
     program, source, counts = os.path.abspath(args.program), os.path.abspath(args.source), {}
+    bounds = []
     with tempfile.TemporaryDirectory() as folder:
         count = args.count or (34 if args.gears else 108)
         for k in range(args.first, args.first + count):
             drawn = gears(k) if args.gears else scene(k)
-            verdict, text = judge(program, folder, gear_case(drawn, source) if args.gears else case(drawn))
+            verdict, text, below = judge(program, folder, gear_case(drawn, source) if args.gears else case(drawn))
             counts[verdict] = counts.get(verdict, 0) + 1
+            bounds += [k] if below else []
             if verdict != 'held':
                 words = ' '.join(f'{n} {v:.3g}' for n, v in drawn.items())
                 print(f'{k}: {verdict}: {text} ({words})', flush=True)
     print(', '.join(f'{n} {verdict}' for verdict, n in sorted(counts.items())))
+    print(f'known from below alone: {len(bounds)} of {count}', *bounds)
     sys.exit(1 if counts.get('wrong') or counts.get('silent') else 0)
 
 
