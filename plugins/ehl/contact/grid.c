@@ -30,10 +30,8 @@ double ehl_inlet_buildup(double a, double radius, double h)
     return fmin(ehl_hertz_gap_distance(a, radius, h), sqrt(2 * radius * h));
 }
 
-/*
- * M = W (2U)^-1/2, L = G (2U)^1/4 and H = (h/R)(2U)^-1/2 (Moes 2000, Lubrication and beyond).
- * Without load or entrainment there is no such film: 0.
- */
+/* Returns the film of a line contact from M = W (2U)^-1/2, L = G (2U)^1/4 and H = (h/R)(2U)^-1/2
+ * (Moes 2000, Lubrication and beyond). 0: no load or no entrainment, hence no such film. */
 double ehl_moes_film(const ehl_instant *at, double modulus, const ehl_oil *oil)
 {
     double two_u = 2 * oil->viscosity * at->entrainment / (modulus * at->radius);
@@ -57,11 +55,9 @@ double ehl_row_film(const ehl_history *h, size_t row, const ehl_oil *oil)
     return ehl_moes_film(&at, h->modulus, oil);
 }
 
-/*
- * The pressure is low there, so that the gap is that of the Hertzian contact, held apart by h, and
- * the oil as at ambient pressure:
- *   p = 12 eta0 u int (gap - h)/gap^3 dx,   x = -end/t,   0 < t < 1
- */
+/* Returns the pressure upstream of x = -end for a Hertzian gap held apart by h. The pressure is low
+ * there, so that the oil is taken at ambient pressure: p = 12 eta0 u int (gap - h)/gap^3 dx, x =
+ * -end/t, 0 < t < 1. */
 FF_SIMD
 ehl_lost ehl_pressure_upstream(const ehl_oil *oil, const ehl_instant *at, double a, double h,
                                double end)
@@ -100,24 +96,20 @@ void ehl_inlet_ahead(const ehl_oil *oil, const ehl_instant *at, double modulus, 
     *load = share * l.load;
 }
 
-/*
- * Returns the share of the film that is missing where the domain begins at a distance of `lengths`
- * S. The pressure of the inlet falls off over S, and the missing film with the square of the
- * distance: dp/dx ~ x^-4 far from the contact, and the film is lower in the ratio of the missing
- * pressure. The factor is 2.4 for a rigid cylinder, where all of the pressure is made there, and
- * 0.08 where a is long against S; between them it is fitted to solutions with L from 0 to 8.
- */
+/* Returns the share of the film that is missing if the domain begins at a distance of `lengths` S.
+ * The pressure of the inlet rises over S. Far from the contact dp/dx ~ x^-4, and the film is lower
+ * in the ratio of the missing pressure, so that the share falls with the square of the distance.
+ * The factor is 2.4 for a rigid cylinder, whose whole pressure arises there, and 0.08 if a is long
+ * against S. In between it is fitted to solutions with L from 0 to 8. */
 static double inlet_shortfall(double a, double s, double lengths)
 {
     return (0.08 + 2.45 / (1 + pow(0.65 * (a + s) / s, 7))) / (lengths * lengths);
 }
 
-/*
- * Extends the domain. For the largest loads less than 0.1 % of the film is missing; the others get
- * what `supplied` says in ehl_grid_fit. The film ruptures before a + 0.5 S. Loads below 2 % of the
- * largest would need a domain whose cells are too coarse for the others; they use the domain of the
- * others.
- */
+/* Extends the domain for one instant. Under the largest loads less than 0.1 % of the film is
+ * missing; the others get `supplied` (ehl_grid_fit). The film ruptures before a + 0.5 S. Loads
+ * below 2 % of the largest use the domain of the others: one of their own would make the cells too
+ * coarse for these. */
 static void reach(ehl_grid *g, const ehl_instant *at, double modulus, double film, int largest)
 {
     const double missing = 7.5e-4;
@@ -128,14 +120,15 @@ static void reach(ehl_grid *g, const ehl_instant *at, double modulus, double fil
     g->outlet = fmax(g->outlet, a + 2 * s);
 }
 
-/* At rest a gap is squeezed: ten lengths sqrt(2 R gap) hold 99.9 % of the force of a cylinder. */
+/* Extends the inlet for a gap that is squeezed at rest: ten lengths sqrt(2 R gap) hold 99.9 % of
+ * the force of a cylinder. */
 static void fit_squeezed_gap(ehl_grid *g, const ehl_instant *at, double half_width)
 {
     g->inlet = fmax(g->inlet, half_width + 10 * sqrt(2 * at->radius * at->gap));
 }
 
-/* Rough flanks: at the ends of the domain the gap of the rigid bodies has grown by 4 Rq, which the
-   highest asperities hardly reach. */
+/* Extends the domain for rough flanks: at its ends the gap of the rigid bodies has grown by 4 Rq, a
+ * height that asperities hardly reach. */
 static void fit_roughness(ehl_grid *g, const ehl_instant *at, double modulus, double rq)
 {
     double end = ehl_hertz_half_width(at->load, at->radius, modulus) + sqrt(8 * at->radius * rq);

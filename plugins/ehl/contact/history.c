@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-/* A number whose powers in the formulas of the film stay numbers. */
+/* Bound on numbers, so that powers of them in the film formulas stay finite. */
 static int is_usable(double value)
 {
     return fabs(value) <= 1e30;
@@ -49,7 +49,8 @@ static double entrainment(const ehl_history *h, size_t i)
     return (h->speed_1[i] + h->speed_2[i]) / 2;
 }
 
-/* The first row that moves, the direction there, and, from rest, when a creep is reached. */
+/* Finds the first row that moves, its direction and, from rest, the time at which the creep speed
+ * is reached. */
 static size_t find_start(ehl_history *h)
 {
     double least = EHL_CREEP * h->speed_max;
@@ -67,8 +68,8 @@ static size_t find_start(ehl_history *h)
     return i;
 }
 
-/* Where the film may begin: with a speed, from rest when it moves later, or at a gap without
-   load. */
+/* Returns whether the film may begin in the first row: it has a speed, or it moves later, or a gap
+ * is given without load. */
 static ff_status check_motion(ehl_history *h, const ff_host *host)
 {
     int apart = h->count > 1 && ehl_is_lost(h, h->load[0]) && h->gap && h->gap[0] > 0;
@@ -122,7 +123,7 @@ size_t ehl_history_engagement(const ehl_history *h, size_t row, ehl_history *one
     return end;
 }
 
-/* Each engagement takes some time, and so does what a jump leads to. */
+/* Checks that each engagement takes time, and so does the stretch after a jump. */
 static ff_status check_durations(const ehl_history *h, const ff_host *host)
 {
     ehl_history one;
@@ -202,7 +203,7 @@ ehl_instant ehl_history_row(const ehl_history *h, size_t row)
     return instant(h, (between){row, row, 0});
 }
 
-/* Number of rows with a time below `time`, or not above it when `upto`. */
+/* Returns the number of rows with a time below `time`, or not above it if `upto`. */
 static size_t rows_before(const ehl_history *h, double time, int upto)
 {
     size_t low = 0, high = h->count;
@@ -221,7 +222,7 @@ size_t ehl_history_rows_before(const ehl_history *h, double time)
     return rows_before(h, time, 1);
 }
 
-/* Between row `next` - 1 and row `next`. */
+/* Interpolates between row `next` - 1 and row `next`. */
 static ehl_instant interpolate(const ehl_history *h, size_t next, double time)
 {
     size_t low = next > 0 ? next - 1 : 0, high = next < h->count ? next : h->count - 1;
@@ -242,11 +243,13 @@ ehl_instant ehl_history_before(const ehl_history *h, double time)
     return interpolate(h, rows_before(h, time, 0), time);
 }
 
-/* How far `at` is off the point of that time on the line from a to b, over what is allowed. */
+/* Returns the deviation of `at` from the line from a to b at that time, over the allowed deviation.
+ */
 static double deviation_from_line(const ehl_history *h, const ehl_instant *a, const ehl_instant *b,
                                   const ehl_instant *at, double within, double film)
 {
-    const double none = 1e-2; /* of the largest: loads and speeds below count as much as that */
+    const double none =
+        1e-2; /* of the largest value: smaller loads and speeds are judged against this */
     double share = (at->time - a->time) / (b->time - a->time), rest = 1 - share;
     double load = fabs(at->load - rest * a->load - share * b->load),
            speed = fabs(at->entrainment - rest * a->entrainment - share * b->entrainment),

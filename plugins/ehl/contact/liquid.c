@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* Of FF_OK and FF_DOMAIN the latter, of others the first. */
+/* Combines two statuses: FF_DOMAIN wins over FF_OK, and any other status wins over both. */
 static ff_status worse(ff_status a, ff_status b)
 {
     return a == FF_OK || (a == FF_DOMAIN && b != FF_OK) ? b : a;
@@ -33,7 +33,7 @@ static int are_numbers(size_t n, const double *ln_eta, const double *h, double u
     return good;
 }
 
-/* Notes an answer that is no number, where the points were numbers. */
+/* Notes an answer that is not finite although the points were. */
 static ff_status hold_flow(const ehl_rheology_at *at, ff_status status, size_t n,
                            const double *ln_eta, const double *h, double u_s,
                            const double *const value[4])
@@ -195,7 +195,7 @@ ff_status ehl_fluid_shear(const ehl_laws *laws, size_t n, const double *p, const
     if (laws->rheology)
         return worse(status,
                      laws->rheology->shear(laws->rheology->self, n, p, T, ln_eta, h, sliding, tau));
-    for (size_t i = 0; i < n; i++) /* bounded so that the sum stays finite */
+    for (size_t i = 0; i < n; i++) /* bounded, so that the sum stays finite */
         tau[i] = exp(fmin(ln_eta[i], 230)) * sliding / h[i];
     return status;
 }
@@ -207,8 +207,8 @@ double ehl_fluidity_integral(double step, double left, double right)
     return step * exp(-left) * mean;
 }
 
-/* Of an integration by steps of a twentieth in ln(eta) up to a rise of 40, which would go on for
-   ever where the values of a law do not follow its slopes. */
+/* Bound on the steps of an integration, each a twentieth in ln(eta), up to a rise of 40. It would
+ * never end for a law whose values do not follow its slopes. */
 enum { MOST_STEPS = 100000 };
 
 static void blame_slope(numerics_answers *answers, const char *wire, const char *value,
@@ -223,7 +223,7 @@ static void blame_slope(numerics_answers *answers, const char *wire, const char 
              unit, 1e-9 * p);
 }
 
-/* False when there were too many steps, which is noted as a fault of the law. */
+/* Returns false after too many steps and notes that as a fault of the law. */
 static bool is_bounded(const ehl_laws *laws, size_t steps, double p, double slope)
 {
     if (steps < MOST_STEPS)
@@ -232,13 +232,13 @@ static bool is_bounded(const ehl_laws *laws, size_t steps, double p, double slop
     return false;
 }
 
-/* A law as it is asked: ln_eta or rho over pressure. */
+/* A law as it is called: ln_eta or rho over pressure. */
 typedef ff_status over_pressure(const void *self, size_t n, const double *p, const double *T,
                                 double *value, double *by_p, double *by_T);
 
-/* Returns a pressure up to `highest` at which the slope is ten times that of the values, or less
-   than a tenth of it, and that slope; 0 where there is none. What no film would feel is left out.
- */
+/* Returns a pressure up to `highest` at which the stated slope is ten times that of the values, or
+ * less than a tenth of it, and gives that slope. 0: there is none. Differences too small for a film
+ * to feel are ignored. */
 static double find_false_slope(over_pressure *eval, const void *self, double highest, double *slope)
 {
     enum { PLACES = 64 };
@@ -269,16 +269,17 @@ void ehl_laws_hold_slopes(const ehl_laws *laws, double highest)
         blame_slope(laws->answers, "density", "rho", slope, "kg/m3", p);
 }
 
-/* The integral of eta0/eta by whole steps and by halves. */
+/* The integral of eta0/eta, by whole steps and by half steps. */
 typedef struct fluidity {
-    double p, slope; /* Pa and 1/Pa, where it has got to */
+    double p, slope; /* where the integration has got to: Pa, and the slope there, 1/Pa */
     double rise;     /* of ln(eta) up to there */
     double coarse, fine;
 } fluidity;
 
-enum { BLOCK = 8 }; /* steps that the law answers in one call */
+enum { BLOCK = 8 }; /* steps per call of the law */
 
-/* Goes on by a block of equal steps, of a twentieth in ln(eta) by the slope at its beginning. */
+/* Adds a block of equal steps, each a twentieth in ln(eta) by the slope at the beginning of the
+ * block. */
 static void integrate_block(fluidity *sum, const ff_viscosity *v, double ln_eta0, double highest)
 {
     double at[2 * BLOCK], ln_eta[2 * BLOCK], slopes[2 * BLOCK];
@@ -300,8 +301,9 @@ static void integrate_block(fluidity *sum, const ff_viscosity *v, double ln_eta0
     sum->slope = slopes[2 * BLOCK - 1];
 }
 
-/* Steps are exact where ln(eta) is linear: a third of the difference of wholes and halves, the
-   error of the halves, is taken off. Beyond a rise of 40 less than 1e-17 is left. */
+/* Integrates eta0/eta to alpha*. Steps are exact where ln(eta) is linear. The error of the half
+ * steps, a third of the difference between whole and half steps, is subtracted. Beyond a rise of 40
+ * less than 1e-17 is left. */
 ehl_film_coefficient ehl_alpha_star(const ehl_laws *laws)
 {
     const ff_viscosity *v = laws->viscosity;

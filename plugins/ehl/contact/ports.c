@@ -5,8 +5,8 @@
 
 #include <math.h>
 
-/* The contact and the oil, which all models have. `another`: what another engagement begins with.
- */
+/* The rows of contact and oil, which all models have. `another` says what another engagement begins
+ * with. */
 #define CONTACT_AND_OIL(another)                                                                   \
     [EHL_IN_TIME] = {.name = "contact.time",                                                       \
                      .unit = "s",                                                                  \
@@ -80,8 +80,8 @@
                        .flags = FF_OPTIONAL,                                                       \
                        .from = "lubricant"}
 
-/* What films of both sorts know of the flanks: how hard they are, what their asperities carry, and
-   how warm they are with `thermal` as it is said. */
+/* Rows of the flanks, for films of both sorts: hardness, load of the asperities, and temperature
+ * with `thermal`. */
 #define HARDNESS_ROW                                                                               \
     {                                                                                              \
         .name = "gear.hardness", .unit = "Pa",                                                     \
@@ -171,7 +171,7 @@ const ff_port ehl_inputs[EHL_INPUTS] = {
                                .flags = FF_OPTIONAL},
 };
 
-/* The outputs that all models give alike; `k`: what their ranks begin with. */
+/* The outputs that all models give alike; `k` is the prefix of their ranks. */
 #define COMMON_OUTPUTS(k)                                                                          \
     [k##_ROLL_ANGLE] = {.name = "roll_angle",                                                      \
                         .unit = "rad",                                                             \

@@ -9,9 +9,8 @@
 
 #include <flankfilm/plugin.h>
 
-/* Inputs of every model up to the rows of the oil, then those of the models that solve for
- * the pressure.
- */
+/* Inputs of every model up to the rows of the oil, then those of the models that solve for the
+ * pressure. */
 enum {
     EHL_IN_TIME,
     EHL_IN_RADIUS,
@@ -36,7 +35,7 @@ enum {
     EHL_IN_PERIOD,
     EHL_IN_ORIGIN,
     EHL_IN_ROUGHNESS,
-    EHL_IN_HEAT, /* of the gears: three rows */
+    EHL_IN_HEAT, /* of the gears, three rows */
     EHL_IN_HARDNESS = EHL_IN_HEAT + NUMERICS_HEAT_INPUTS,
     EHL_IN_SHEAR_RATE,
     EHL_IN_ASPERITIES, /* of statistical flanks */
@@ -46,19 +45,19 @@ enum {
     EHL_INPUTS
 };
 
-/* What the estimates have after the oil. */
+/* Inputs of the estimates after the oil. */
 enum {
     EHL_ESTIMATE_IN_RQ_1 = EHL_IN_LIQUID + 1,
     EHL_ESTIMATE_IN_RQ_2,
     EHL_ESTIMATE_IN_ROUGHNESS,
-    EHL_ESTIMATE_IN_HEAT, /* of the gears: three rows */
+    EHL_ESTIMATE_IN_HEAT, /* of the gears, three rows */
     EHL_ESTIMATE_IN_HARDNESS = EHL_ESTIMATE_IN_HEAT + NUMERICS_HEAT_INPUTS,
     EHL_ESTIMATE_IN_ASPERITIES,
     EHL_ESTIMATE_IN_BULK,
     EHL_ESTIMATE_INPUTS
 };
 
-/* Outputs of the models that solve for the pressure. The series over time come first. */
+/* Outputs of the models that solve for the pressure; the series over time come first. */
 enum {
     EHL_TIME,
     EHL_ROLL_ANGLE,
@@ -122,7 +121,7 @@ enum {
     EHL_OUTPUTS
 };
 
-/* Outputs of the estimates, likewise. */
+/* Outputs of the estimates; the series over time come first. */
 enum {
     EHL_ESTIMATE_TIME,
     EHL_ESTIMATE_ROLL_ANGLE,
@@ -163,7 +162,7 @@ extern const ff_port ehl_outputs[EHL_OUTPUTS];
 extern const ff_port ehl_estimate_inputs[EHL_ESTIMATE_INPUTS];
 extern const ff_port ehl_estimate_outputs[EHL_ESTIMATE_OUTPUTS];
 
-/* Reads and checks the contact; loads below `light_load` count as that, NaN: none. */
+/* Reads and checks the contact. Loads below `light_load` count as that load; NaN: no such bound. */
 ff_status ehl_read_history(const ff_host *host, const ff_array *in, double light_load,
                            ehl_history *h);
 

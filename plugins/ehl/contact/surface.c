@@ -42,7 +42,7 @@ static void integrate(ehl_roughness *r)
     const ehl_history *h = r->history;
     for (int g = 0; g < 2; g++) {
         const double *z = r->height[g], *u = g ? h->speed_2 : h->speed_1;
-        for (size_t i = 0; i < r->count; i++) /* the point behind the last is the first again */
+        for (size_t i = 0; i < r->count; i++) /* the point after the last is the first again */
             r->sum[g][i + 1] =
                 r->sum[g][i] + r->spacing * (z[i] + z[i + 1 < r->count ? i + 1 : 0]) / 2;
         for (size_t i = 1; i < h->count; i++)
@@ -91,7 +91,7 @@ void ehl_roughness_destroy(ehl_roughness *r)
     r->memory = r->smooth = NULL;
 }
 
-/* Root mean square about the mean. */
+/* Returns the root mean square about the mean. */
 static double rms(size_t n, const double *z)
 {
     double mean = 0, square = 0;
@@ -102,8 +102,8 @@ static double rms(size_t n, const double *z)
     return sqrt(square);
 }
 
-/* Makes room for `beyond` points of height 0 on either side of a record with flat ends, into which
-   the filter spreads what is near them, and copies both flanks there. */
+/* Copies both flanks, with `beyond` points of height 0 on either side of a record with flat ends.
+ * The filter spreads heights near the ends into these points. */
 static ff_status make_smooth(ehl_roughness *r, size_t beyond)
 {
     size_t n = r->count + 2 * beyond, each = n + 1;
@@ -123,7 +123,7 @@ static ff_status make_smooth(ehl_roughness *r, size_t beyond)
 
 ff_status ehl_roughness_cut(ehl_roughness *r, double cutoff, const ff_host *host)
 {
-    const double most = 1 << 21; /* more points than any record has */
+    const double most = 1 << 21; /* larger than any real record */
     const double reach = cutoff / r->spacing, beyond = r->period > 0 ? 0 : ceil(reach) + 1;
     double square = 0, whole = 0;
     if (beyond > most)
@@ -174,7 +174,7 @@ double ehl_roughness_inlet(const ehl_roughness *r, double film)
     return r->curvature > 0 ? sqrt(2 * film / r->curvature) : HUGE_VAL;
 }
 
-/* Mean square of the k-th harmonic of n values. */
+/* Returns the mean square of the k-th harmonic of n values. */
 static double harmonic(const double *z, size_t n, size_t k)
 {
     const double turn = 2 * 3.14159265358979323846 * (double)k / (double)n;
@@ -221,7 +221,7 @@ double ehl_roughness_rq(const ehl_roughness *r)
     return hypot(r->rq[0], r->rq[1]);
 }
 
-/* Integral of u_i from the first time, exact for speeds that are linear between the rows. */
+/* Integrates u_i from the first time; exact for speeds that are linear between rows. */
 static double travelled(const ehl_roughness *r, int g, double time)
 {
     const ehl_history *h = r->history;
@@ -239,8 +239,8 @@ double ehl_roughness_travel(const ehl_roughness *r, double time)
            (time < r->history->time[0] ? -1 : 1);
 }
 
-/* Integral of the height from 0 to `place`, in spacings, of the record alone; the height is linear
-   between the samples. */
+/* Integrates the height of the record alone from 0 to `place` (in spacings); the height is linear
+ * between samples. */
 static inline double integral(const ehl_roughness *r, int g, double place)
 {
     const double *z = r->height[g], *sum = r->sum[g];
@@ -254,8 +254,8 @@ static inline double integral(const ehl_roughness *r, int g, double place)
     return sum[i] + r->spacing * part * (z[i] + part * (next - z[i]) / 2);
 }
 
-/* Adds the mean heights of a flank over cells that follow one another from the arc coordinate s on;
-   cells of a width below 0 follow towards smaller ones. */
+/* Adds the mean heights of a flank over consecutive cells from the arc coordinate s on. A negative
+ * width runs towards smaller coordinates. */
 static void add_flank(const ehl_roughness *r, int g, double s, double width, size_t nodes,
                       double *sum)
 {
@@ -276,7 +276,7 @@ static void add_flank(const ehl_roughness *r, int g, double s, double width, siz
     }
 }
 
-/* Share of the height that has run in `beyond` the front: 1 to 0 with level ends. */
+/* Returns the share of the height that has run in at `beyond` the front: 1 to 0 for level ends. */
 static double run_in(const ehl_roughness *r, double beyond)
 {
     double share = fmin(fmax(1 - beyond / r->ramp, 0), 1);

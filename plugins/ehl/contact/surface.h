@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * The heights of both flanks, that pass through the contact: at the time t the point s of flank i
- * stands at x = s - origin + integral of u_i dt. A cell takes the mean height over its width, from
- * the difference of the integral of the height, so that no metal is lost as the flank moves on by
- * parts of a cell.
- */
+/* The heights of both flanks as they pass through the contact. At time t the point s of flank i is
+ * at x = s - origin + integral of u_i dt. A cell takes the mean height over its width, as a
+ * difference of integrals of the height, so that no metal is lost while a flank moves by parts of a
+ * cell. */
 #ifndef EHL_SURFACE_H
 #define EHL_SURFACE_H
 
@@ -12,85 +10,88 @@
 
 #include <flankfilm/plugin.h>
 
-/* Cells over the shortest waves of flanks, which keep half of their amplitude. */
+/* Cells per shortest wave of the flanks, which keeps half of its amplitude. */
 #define EHL_CELLS_PER_WAVE 16.
 
 typedef struct ehl_roughness {
     size_t count; /* of samples; 0: smooth */
     double spacing, period, origin, rq[2];
     const double *height[2];
-    double cutoff;           /* m, shorter waves are taken off; 0: none */
-    double given, left_out;  /* m, root mean square heights of both flanks: all, and what was taken
-                                off */
-    double *sum[2];          /* integral of the height up to each sample */
+    double cutoff; /* m, shorter waves are removed; 0: none */
+    double given,
+        left_out;   /* m, root mean square heights of both flanks: as given, and the removed part */
+    double *sum[2]; /* integral of the height up to each sample */
     double *travel[2];       /* integral of u_i up to each row of the history */
     double curvature;        /* root mean square of the gap between the flanks, 1/m */
-    double *memory, *smooth; /* `smooth`: the heights without what was taken off */
+    double *memory, *smooth; /* `smooth`: heights without the removed waves */
     const ehl_history *history;
-    /* m: at the first row of the history the flanks are rough up to x = `front`, `ramp` further on
-       they are smooth, and the oil carries that on; with ramp 0 they are rough all over */
+    /* m. In the first row of the history the flanks are rough up to x = `front` and smooth from
+     * `front` + `ramp` on, and this transition moves with the oil. With ramp 0 they are rough
+     * everywhere. */
     double ramp, front;
 } ehl_roughness;
 
-/* Checks position[0 .. count-1], the heights, rq, period and origin, which are set; FF_NOMEM. */
+/* Checks position[0 .. count-1], heights, rq, period and origin, which are set. Returns FF_NOMEM if
+ * memory runs out. */
 ff_status ehl_roughness_create(ehl_roughness *r, const double *position, const ehl_history *h,
                                const ff_host *host);
 void ehl_roughness_destroy(ehl_roughness *r);
 
-/* Takes waves shorter than `cutoff` (m, above 0) off both flanks, by the Gaussian filter of ISO
-   16610-21. FF_NOMEM; FF_INVALID: flat ends with points too close for it. */
+/* Removes waves shorter than `cutoff` (m, above 0) from both flanks by the Gaussian filter of ISO
+ * 16610-21. FF_NOMEM; FF_INVALID: flat ends with points too close for it. */
 ff_status ehl_roughness_cut(ehl_roughness *r, double cutoff, const ff_host *host);
 
-/* R1 + R2 at the nodes of the grid. */
+/* Gives R1 + R2 at the nodes of the grid. */
 void ehl_roughness_heights(const ehl_roughness *r, const ehl_grid *g, double time, double *sum);
 
-/* What the oil is carried from the first time to `time`, in the direction of the entrainment, m. */
+/* Returns the way of the oil from the first time to `time`, in the direction of the entrainment, m.
+ */
 double ehl_roughness_travel(const ehl_roughness *r, double time);
 
-/* Mean distance of the peaks of the finer flank. */
+/* Returns the mean distance of the peaks of the finer flank. */
 double ehl_roughness_wavelength(const ehl_roughness *r);
 
-/* Length over which an asperity draws in a film of that thickness. */
+/* Returns the length over which an asperity draws in oil in a film of that thickness. */
 double ehl_roughness_inlet(const ehl_roughness *r, double film);
 
-/* Share of the variance of both flanks in waves longer than that, by the harmonics of the record.
- */
+/* Returns the share of the variance of both flanks in waves longer than that, by the harmonics of
+ * the record. */
 double ehl_roughness_longer(const ehl_roughness *r, double length);
 
-/* Share of the way of the flanks in which what passes x = 0 lies beyond a record that does not
-   repeat; 0 for flanks without Rq, such as a dent's. */
+/* Returns the share of the flanks' way in which the heights at x = 0 lie beyond a record that does
+ * not repeat; 0 for flanks without Rq, such as a dent. */
 double ehl_roughness_beyond(const ehl_roughness *r);
 
-/* sqrt(Rq1^2 + Rq2^2) */
+/* Returns sqrt(Rq1^2 + Rq2^2). */
 double ehl_roughness_rq(const ehl_roughness *r);
 
-/* Of ground and run-in steel, 0.065 +- 0.015: 0.065 is the largest mean friction of FZG gears at
-   0.5 m/s (Ziegltrum 2017, quoted by Arana, Larranaga & Ulacia 2019), 0.08 to 0.135 that of rollers
-   and pins. */
+/* Friction coefficient of ground and run-in steel, 0.065 +- 0.015. 0.065 is the largest mean
+ * friction of FZG gears at 0.5 m/s (Ziegltrum 2017, quoted by Arana, Larranaga & Ulacia 2019).
+ * Rollers and pins have 0.08 to 0.135. */
 #define EHL_BOUNDARY_FRICTION "0.065"
 
 /* Below this film parameter lambda, film over the combined roughness of both flanks, asperities are
  * in contact (mixed lubrication). */
 #define EHL_MIXED_BELOW 3.
 
-/* sqrt(Rq1^2 + Rq2^2), m: of the surface where there is one, else of the gears; 0: unknown. The
-   arrays are gear.roughness, surface.rq_1 and surface.rq_2. FF_INVALID. */
+/* Gives sqrt(Rq1^2 + Rq2^2), m, of the surface if there is one, else of the gears; 0: unknown. The
+ * arrays are gear.roughness, surface.rq_1 and surface.rq_2. FF_INVALID. */
 ff_status ehl_combined_roughness(const ff_host *host, const ff_array *gear, const ff_array *rq_1,
                                  const ff_array *rq_2, double *rq);
 
-/* FF_UNSUPPORTED when this output is wanted without a roughness. */
+/* Returns FF_UNSUPPORTED if this output is wanted without a roughness. */
 ff_status ehl_lambda_check(const ff_host *host, uint64_t wanted, uint32_t output, const char *name,
                            double rq);
 
-/* The hardness of rough flanks: of the softer gear, or `otherwise` where no gear is wired; a gear
-   that does not tell is refused. */
+/* Gives the hardness of the softer gear, or `otherwise` if no gear is wired. A gear that states
+ * none is refused. */
 ff_status ehl_read_hardness(const ff_host *host, const ff_array *gears, double otherwise,
                             double *hardness);
 
-/* Quality of a film whose asperities carry a share of the load. */
+/* Writes the quality lines of a film whose asperities carry a share of the load. */
 void ehl_lambda_carried(const ff_host *host, double lowest);
 
-/* Quality of a smooth film between flanks of known roughness. */
+/* Writes the quality lines of a smooth film between flanks of known roughness. */
 void ehl_lambda_report(const ff_host *host, double lowest);
 
 #endif

@@ -11,7 +11,7 @@ typedef struct columns {
     double by[3][N + 1];
 } columns;
 
-/* Source g = (a + b y)^2 exp(theta) of node i with its derivatives by theta, a and b. */
+/* Gives the source g = (a + b y)^2 exp(theta) of node i and its derivatives by theta, a and b. */
 typedef struct source {
     double g, by_a, by_b;
 } source;
@@ -22,8 +22,8 @@ static source source_at(const ehl_channel *c, int i)
     return (source){s * s * hot, 2 * s * hot, 2 * s * y * hot};
 }
 
-/* Solves the linear equations of the inner nodes, theta(i-1) - 2 theta(i) + theta(i+1) +
-   (g(i-1) + 10 g(i) + g(i+1))/(12 N^2) = 0, by elimination. */
+/* Solves the linear equations of the inner nodes by elimination: theta(i-1) - 2 theta(i) +
+ * theta(i+1) + (g(i-1) + 10 g(i) + g(i+1))/(12 N^2) = 0. */
 static void sweep(const ehl_channel *c, columns *d)
 {
     const double w = 1. / (12. * N * N);
@@ -48,7 +48,7 @@ static void sweep(const ehl_channel *c, columns *d)
             d->by[k][i] -= upper[i] * d->by[k][i + 1];
 }
 
-/* The two integrals with their derivatives along the columns, a and b included. */
+/* Computes the two integrals and their derivatives along the columns, a and b included. */
 typedef struct integrals {
     double flow, flow_by[3], speed, speed_by[3];
 } integrals;
@@ -75,7 +75,7 @@ static integrals integrate(const ehl_channel *c, const columns *d)
 double ehl_channel_solve(ehl_channel *c, double F, double S)
 {
     enum { LIMIT = 40 };
-    const double within = 1e-8; /* of the last change; rounding leaves 1e-9 where F is 1e-6 */
+    const double within = 1e-8; /* of the last change; rounding leaves 1e-9 at F = 1e-6 */
     const double flow = sqrt(F), speed = sqrt(S);
     if (!(c->b > 0)) {
         c->b = 12 * flow;

@@ -20,7 +20,7 @@
 enum { EHL_HEAT_TABLE = 93 };
 #define EHL_HEAT_STEP 0.1
 
-/* Intervals across. */
+/* Number of intervals across the film. */
 enum { EHL_CHANNEL_CELLS = 128, EHL_CHANNEL_NODES = EHL_CHANNEL_CELLS + 1 };
 
 /* A solution, from which the next one starts. All 0: the cold channel, F = S = 0. */
@@ -28,9 +28,9 @@ typedef struct ehl_channel {
     double theta[EHL_CHANNEL_NODES], a, b;
 } ehl_channel;
 
-/* Solves by Newton's method, with the difference formula of Numerov and Simpson's rule, which are
-   of fourth order. Returns R, or NaN where it does not converge: then F and S are too far from
-   those of *c. F > 0. */
+/* Solves by Newton's method with Numerov's difference formula and Simpson's rule, both of fourth
+ * order. F > 0. Returns R, or NaN if it does not converge because F and S are too far from those of
+ * *c. */
 double ehl_channel_solve(ehl_channel *c, double F, double S);
 
 #endif

@@ -90,8 +90,8 @@ static int own_times(const ehl_estimate *e, const ehl_history *one)
     return e->steps < 0 || one->count == 1;
 }
 
-/* Lists the moments of one engagement and returns their number. Without `to` it only counts
-   them. */
+/* Lists the moments of one engagement and returns their number. If `to` is NULL it only counts
+ * them. */
 static size_t list_moments(const ehl_estimate *e, const ehl_history *one, ehl_moment *to)
 {
     const int own = own_times(e, one);
@@ -133,7 +133,7 @@ static ff_status fill_moments(ehl_estimate *e)
     return FF_OK;
 }
 
-/* Sets the heat of the film, and takes its laws to the temperature of the teeth. */
+/* Sets the heat of the film and moves its laws to the temperature of the teeth. */
 static ff_status read_heat(ehl_estimate *e, const ff_array *in)
 {
     const double said[] = {e->flank_conductivity, e->flank_density, e->flank_heat_capacity};
@@ -192,7 +192,7 @@ static ff_status read_roughness(ehl_estimate *e, uint64_t wanted, const ff_array
     return status;
 }
 
-/* Sets what the asperities of statistical flanks carry. */
+/* Sets the load that the asperities of statistical flanks carry. */
 static ff_status read_asperities(ehl_estimate *e, const ff_array *in)
 {
     ehl_local *l = &e->local;
@@ -274,11 +274,9 @@ static uint64_t of_friction(void)
     return outputs;
 }
 
-/*
- * u_r int h dp/dx dx, twice the rolling force times u_r. The force over E' R is 1.4 (U W)^(1/2)
- * under light loads and 1.45 U^(3/4) under heavy ones, U = 2 eta0 u_r/(E' R), W = w/(E' R), M =
- * W U^-1/2, joined by Biboulet & Houpert (2010, Proc. IMechE J 224), (7.15).
- */
+/* Returns u_r int h dp/dx dx, which is 2 u_r times the rolling force. The force over E' R is 1.4 (U
+ * W)^(1/2) under light loads and 1.45 U^(3/4) under heavy ones, with U = 2 eta0 u_r/(E' R), W =
+ * w/(E' R), M = W U^-1/2, joined as in Biboulet & Houpert (2010, Proc. IMechE J 224), (7.15). */
 static double rolling_loss(const ehl_estimate *e, size_t k)
 {
     const ehl_moment *m = &e->moment[k];

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * What the models share that estimate the film without solving for the pressure: parameters,
- * times, and results on the Hertzian contact. A model adds the film alone.
- */
+/* Common part of the models that estimate the film without solving for the pressure: parameters,
+ * times, and results on the Hertzian contact. A model adds only the film. */
 #ifndef EHL_ESTIMATE_H
 #define EHL_ESTIMATE_H
 
@@ -15,7 +13,7 @@
 
 #include <flankfilm/plugin.h>
 
-/* Rows of the parameters of every such model. */
+/* Parameter rows of every such model. */
 #define EHL_ESTIMATE_PARAMS                                                                        \
     FF_COUNT("cells", ehl_estimate, cells, 0, "512", NULL, 4, 65536, 0, 0,                         \
              "cells from inlet to outlet of the fields film and pressure; nothing else depends "   \
@@ -62,15 +60,15 @@
 
 extern const ff_model ehl_film_formula_model; /* ehl/film-formula */
 
-/* One instant of the results. Loads below 1 % of the largest count as that for the film, which
-   would grow beyond all bounds, and as they are for the pressure. */
+/* One instant of the results. Loads below 1 % of the largest count as 1 % for the film, which would
+ * otherwise grow beyond all bounds. The pressure uses the load as it is. */
 typedef struct ehl_moment {
-    ehl_instant at;  /* load: for the film */
-    double load;     /* as it is */
-    double a, p_max; /* Hertz, of at.load and of the load as it is */
+    ehl_instant at;  /* its load is that for the film */
+    double load;     /* the load as it is */
+    double a, p_max; /* of Hertz: half-width for at.load, pressure for the load as it is */
     double moes_M, moes_L;
-    double engagement; /* its number */
-    int begins;        /* the first of an engagement */
+    double engagement; /* number of the engagement */
+    int begins;        /* 1: first instant of an engagement */
 } ehl_moment;
 
 /* A film at one instant. */
@@ -83,19 +81,19 @@ typedef struct ehl_estimate ehl_estimate;
 /* First member of a model's instance. */
 struct ehl_estimate {
     const ff_host *host;
-    /* Films of the moments in their order, after one call of `begin`. */
+    /* Gives the films of the moments in their order, after one call of `begin`. */
     ff_status (*begin)(ehl_estimate *e);
     void (*film)(ehl_estimate *e, size_t k, ehl_estimate_film *film);
-    /* h at n places with |x| <= a of the moment whose film was asked for last. */
+    /* Gives h at n places with |x| <= a, of the moment whose film was asked for last. */
     void (*profile)(const ehl_estimate *e, size_t k, size_t n, const double *x, double *h);
-    void (*report)(const ehl_estimate *e); /* its lines of the quality record */
+    void (*report)(const ehl_estimate *e); /* writes the model's quality lines */
     void (*end)(ehl_estimate *e);
 
-    int64_t cells, steps; /* steps -1: the times of the history */
+    int64_t cells, steps; /* steps -1: at the times of the history */
     double inlet, outlet, light_load;
-    int rough; /* a surface is wired */
+    int rough; /* 1: a surface is wired */
     int32_t thermal, share;
-    double bulk_temperature; /* K; NaN: that of the oil */
+    double bulk_temperature; /* K; NaN: the temperature of the oil */
     double flank_conductivity, flank_density, flank_heat_capacity;
     double boundary_friction, asperity_hardness;
     const ff_asperity *asperities; /* NULL: no statistical flanks */
@@ -111,12 +109,12 @@ struct ehl_estimate {
     double alpha;        /* its value, 1/Pa */
     double conductivity; /* of the oil, W/(m K), with heat; else 0 */
     ehl_local local;
-    double worst_rise; /* of the oil over the teeth, K */
-    double outside;    /* instants outside what the closure of the share is known for */
+    double worst_rise; /* largest rise of the oil over the teeth, K */
+    double outside;    /* instants outside the range of the closure for the share */
     ehl_grid grid;
     size_t count;
     ehl_moment *moment;
-    double roughness; /* of both flanks, 0: unknown */
+    double roughness; /* of both flanks; 0: unknown */
     ehl_law_answer answered;
 };
 
@@ -124,10 +122,11 @@ ff_status ehl_estimate_ready(void *self);
 ff_status ehl_estimate_wire(void *self, uint32_t input, const void *service);
 ff_status ehl_estimate_evaluate(void *self, uint64_t wanted, const ff_array *in);
 
-/* Gap of the dry Hertzian contact at |x|/a = s >= 1, over a^2/(2 R) (Johnson 1985, ch. 4.2). */
+/* Returns the gap of the dry Hertzian contact at |x|/a = s >= 1, over a^2/(2 R) (Johnson 1985,
+ * ch. 4.2). */
 double ehl_hertz_gap(double s);
 
-/* Central film of Moes 2000 with any coefficient alpha, incompressible. */
+/* Returns the central film of Moes 2000 for any coefficient alpha, incompressible. */
 double ehl_estimate_moes(const ehl_estimate *e, const ehl_instant *at);
 
 #endif

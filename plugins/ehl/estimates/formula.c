@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Computes the film by a formula for steady contacts, at every instant as if the contact were
-   steady. */
+ * steady. */
 #include "formula.h"
 
 #include "estimate.h"
@@ -21,9 +21,9 @@ static double law(power_law c, ehl_contact_numbers n)
     return c.factor * pow(n.G, c.G) * pow(n.U, c.U) * pow(n.W, c.W);
 }
 
-/* Dowson & Higginson 1977, Elasto-hydrodynamic Lubrication, from Dowson 1968, Proc. IMechE 182
-   3A: least film; Dowson & Toyoda 1978, Proc. 5th Leeds-Lyon Symp.: central film; Pan & Hamrock
-   1989, J. Tribol. 111: both. */
+/* Formulas: Dowson & Higginson 1977, Elasto-hydrodynamic Lubrication, from Dowson 1968, Proc.
+ * IMechE 182 3A, for the least film; Dowson & Toyoda 1978, Proc. 5th Leeds-Lyon Symp., for the
+ * central film; Pan & Hamrock 1989, J. Tribol. 111, for both. */
 static const power_law dowson_higginson = {2.65, 0.54, 0.7, -0.13};
 static const power_law dowson_toyoda = {3.06, 0.56, 0.69, -0.10};
 static const power_law pan_hamrock_least = {1.714, 0.568, 0.694, -0.128};
@@ -58,13 +58,13 @@ ehl_film_numbers ehl_film_formula(int formula, ehl_contact_numbers n)
 typedef struct film_formula {
     ehl_estimate e;
     int32_t formula, pressure_coefficient; /* ranks of the words */
-    double *density;  /* at p_max, over that at ambient pressure, of every moment */
-    double h_central; /* m, of the latest moment */
-    ehl_inlet *inlet; /* that heats itself; NULL: thermal is none */
+    double *density;  /* of every moment, at p_max, over that at ambient pressure */
+    double h_central; /* of the latest moment, m */
+    ehl_inlet *inlet; /* the heated inlet; NULL: thermal is none */
 } film_formula;
 
-/* Where the full solutions lie that the scatter was found from (Roelands' law with compression,
-   Barus' without), and the scatter of h_min and h_central. */
+/* Range of the full solutions behind the scatter (Roelands' law with compression, Barus' without),
+ * and the scatter of h_min and h_central. */
 typedef struct range {
     double M_low, M_high, L_low, L_high, least, central;
 } range;
@@ -83,7 +83,7 @@ static int inside(const film_formula *f, const ehl_moment *m)
            m->moes_L <= r->L_high;
 }
 
-/* Fills the tables of the inlet that heats itself. */
+/* Fills the tables of the heated inlet. */
 static ff_status begin_heat(film_formula *f)
 {
     ehl_estimate *e = &f->e;
@@ -102,7 +102,7 @@ static ff_status begin_heat(film_formula *f)
                       : FF_OK;
 }
 
-/* Film with the heat of its inlet over that without, both by the analysis of the inlet. */
+/* Returns the film with a heated inlet over that without heat, both by the inlet analysis. */
 static double heat_factor(const film_formula *f, const ehl_instant *at)
 {
     const ehl_estimate *e = &f->e;

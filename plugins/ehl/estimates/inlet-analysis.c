@@ -1,11 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Film by the analysis of the inlet alone. Inside the contact the pressure flow is negligible, so
- * that what enters there is carried through at the rolling speed,
- *   d(rho h)/dt + u d(rho h)/dx = 0,   rho h = m at x = -a,
- * with m of the steady inlet (inlet.h) seen from the inlet boundary x = -a, which moves: the oil
- * meets it at about u + da/dt.
- */
+/* Film by the analysis of the inlet alone. Pressure flow is negligible inside the contact, so that
+ * oil that enters is carried through at the rolling speed: d(rho h)/dt + u d(rho h)/dx = 0, with
+ * rho h = m at x = -a. m belongs to the steady inlet (inlet.h), seen from the moving boundary x =
+ * -a, which the oil meets at about u + da/dt. */
 #include "estimate.h"
 #include "inlet.h"
 #include "references.h"
@@ -17,18 +14,18 @@
 
 enum { DENSITIES = 65, PIECES = 8, SAMPLES = 16 };
 
-/* Share of da/dt at which the inlet moves: less than 1, since its own length shrinks as the load
-   grows. Fitted to transient solutions, like the next constant. */
+/* Share of da/dt at which the inlet boundary moves. It is below 1 because the inlet itself shortens
+ * as the load grows. This constant and the next one are fitted to transient solutions. */
 static const double BOUNDARY_SHARE = 0.85;
 
-/* The constriction of the exit follows the film that would enter at the speed of the oil relative
-   to the exit x = a, u - da/dt, with this power. */
+/* Exponent of the exit constriction, which follows the film that would enter at the speed of the
+ * oil relative to the exit x = a, u - da/dt. */
 static const double EXIT_EXPONENT = 0.3;
 
-/* Least speed of the oil relative to the boundary that counts, as a share of the first speed. */
+/* Least speed of the oil relative to the boundary, as a share of the first speed. */
 static const double LEAST_SPEED = 1e-3;
 
-/* The oil at x = place + travel, and its rho h. */
+/* The oil now at x = place + travel, and its rho h. */
 typedef struct mark {
     double place, mass;
 } mark;
@@ -36,14 +33,15 @@ typedef struct mark {
 typedef struct inlet_analysis {
     ehl_estimate e;
     ehl_inlet inlet;
-    double density[DENSITIES], density_step; /* over pressure */
-    double *speed;  /* m/s, of the oil relative to the inlet boundary; 0: the boundary recedes */
+    double density[DENSITIES], density_step; /* table over pressure */
+    double
+        *speed; /* speed of the oil relative to the inlet boundary, m/s; 0: the boundary recedes */
     double *factor; /* ln(rho h of the inlet) - law() */
     mark *mark;     /* from the oil that entered first to the last */
     size_t marks;
-    double steady;         /* rho h of the steady inlet of the latest moment */
-    double travel;         /* m, distance that the surfaces have moved */
-    double solved, jumped; /* counts: solved inlets; jumps of the boundary */
+    double steady;         /* rho h of the steady inlet at the latest moment */
+    double travel;         /* way of the surfaces so far, m */
+    double solved, jumped; /* counts: inlets solved, jumps of the boundary */
     double worst_off;      /* largest residual of the inlets */
 } inlet_analysis;
 
@@ -88,7 +86,8 @@ static void fill_speeds(inlet_analysis *c)
     }
 }
 
-/* ln of a power law near those of Dowson & Toyoda 1978 and others: h ~ u^0.7 w^-0.1 R^0.4. */
+/* Returns ln of a power law close to those of Dowson & Toyoda 1978 and others: h ~ u^0.7 w^-0.1
+ * R^0.4. */
 static const double SPEED_EXPONENT = 0.7;
 
 static double law(const ehl_instant *at, double speed)
@@ -101,7 +100,7 @@ static double entry_speed(const inlet_analysis *c, size_t k)
     return fmax(c->speed[k], LEAST_SPEED * c->speed[0]);
 }
 
-/* Solves the inlet for the factor of one moment; guess: the factor of another moment, or 0. */
+/* Solves the inlet for the factor of one moment; `guess` is the factor of another moment, or 0. */
 static double solve(inlet_analysis *c, size_t k, double guess)
 {
     ehl_instant at = c->e.moment[k].at;
@@ -116,11 +115,8 @@ static double solve(inlet_analysis *c, size_t k, double guess)
     return log(mass) - power;
 }
 
-/*
- * Fills the factors of the moments between two. The factor changes slowly, whatever the contact
- * does: it is solved for at some moments and linear between them, and the interval is halved until
- * its middle agrees.
- */
+/* Fills the factors of the moments between two. The factor varies slowly. It is solved at some
+ * moments and linear in between; an interval is halved until its middle agrees. */
 static void fill_between(inlet_analysis *c, size_t first, size_t last)
 {
     const double close = 2e-3;
@@ -181,7 +177,7 @@ static ff_status begin(ehl_estimate *e)
     return FF_OK;
 }
 
-/* Returns rho h at x; beyond the first and the last mark it is theirs. */
+/* Returns rho h at x; outside the marks it is that of the nearest mark. */
 static double mass_at(const inlet_analysis *c, double x)
 {
     double place = x - c->travel;
@@ -205,11 +201,9 @@ static void push(inlet_analysis *c, double x, double mass)
     c->mark[c->marks++] = (mark){x - c->travel, mass};
 }
 
-/*
- * Returns the film that enters: it goes from the film that entered last to that of the steady inlet
- * as the oil that the inlet stores is replaced. A boundary that jumps over more than its inlet
- * traps no more oil than the gap held there.
- */
+/* Returns the film that enters. It moves from the film that entered last to that of the steady
+ * inlet, as the oil stored in the inlet is replaced. A boundary that jumps over more than its inlet
+ * traps no more oil than the gap held there. */
 static double entering(inlet_analysis *c, size_t k, double mass)
 {
     const ehl_moment *m = &c->e.moment[k], *b = m - 1;

@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-/* Lagrange's factors of four equidistant points, of which the second is at t = 0. */
+/* Gives Lagrange's factors of four equidistant points, the second of which is at t = 0. */
 static void cubic(double t, double c[4])
 {
     double a = t + 1, b = t - 1, d = t - 2;
@@ -17,7 +17,8 @@ static void cubic(double t, double c[4])
     c[3] = a * t * b / 6;
 }
 
-/* Returns the first of the four points around `place`, and how far it is from the second. */
+/* Returns the first of the four points around `place`, and the distance of `place` from the second.
+ */
 static int first_of_four(double place, double *t)
 {
     double inside = fmin(place, EHL_HEAT_TABLE - 1);
@@ -42,7 +43,7 @@ double ehl_heat_ratio(double F, double S)
     return exp(sum);
 }
 
-/* Whether the oil flows as a Newtonian one at all n places, to 1 %, so that tau = eta u_s/h. */
+/* Returns whether the oil is Newtonian to 1 % at all n places, so that tau = eta u_s/h. */
 static int is_newtonian(size_t n, const double *ln_eta, const double *psi)
 {
     const double thinned = 1.01;
@@ -52,7 +53,8 @@ static int is_newtonian(size_t n, const double *ln_eta, const double *psi)
     return plain;
 }
 
-/* A law that answers the same at T and T + 10 K makes a film that no heat changes. */
+/* Checks that the laws depend on temperature: a law that answers the same at T and T + 10 K gives a
+ * film that no heat changes. */
 static void hold_temperature(const ff_host *host, const ehl_laws *laws)
 {
     const double T[] = {laws->temperature, laws->temperature + 10}, p[] = {0, 0};

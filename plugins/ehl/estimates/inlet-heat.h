@@ -18,30 +18,30 @@
 enum { EHL_THERMAL_NONE, EHL_THERMAL_INLET, EHL_THERMAL_FULL };
 enum { EHL_THERMAL_LOCAL = EHL_THERMAL_FULL }; /* of the estimates */
 
-/* The conductivity of the oil at the temperature that its laws are called with, W/(m K), and
-   whether they know temperature, which a quality line says; FF_INVALID. */
+/* Gives the conductivity of the oil at the temperature of its laws, W/(m K), and writes a quality
+ * line that says whether the laws depend on temperature. FF_INVALID. */
 ff_status ehl_heat_conductivity(const ff_host *host, const ff_liquid *liquid, const ehl_laws *laws,
                                 double *conductivity);
 
-/* How the conductivity rises with pressure, 1 + rise p/(1 + bend p), in 1/Pa; 0: it does not. */
+/* Rise of the conductivity with pressure, 1 + rise p/(1 + bend p), both in 1/Pa; 0: none. */
 typedef struct ehl_conductivity_rise {
     double rise, bend;
 } ehl_conductivity_rise;
 
-/* That of the oil, which need not tell. */
+/* Gives the rise stated by the oil, 0 if it states none. */
 ehl_conductivity_rise ehl_heat_conductivity_rise(const ff_liquid *liquid, double T);
 
-/* R(F, S). Beyond the table it is that of its edge. */
+/* Returns R(F, S); outside the table, its value at the edge. */
 double ehl_heat_ratio(double F, double S);
 
-/* The film that heats itself. */
+/* A film with a heated inlet. */
 typedef struct ehl_heated {
     double entrainment, sliding, conductivity;
     double middle; /* rho h at the highest pressure, kg/m2 */
 } ehl_heated;
 
-/* R at n places of the film at the oil's temperature: of p, h and rho h. FF_DOMAIN: a law was
-   continued. *most: the largest of F and S. `room`: 5 n numbers. */
+/* Gives R at n places from p, h and rho h of the film at the oil's temperature. *most is the
+ * largest of F and S; `room` holds 5 n numbers. FF_DOMAIN: a law was continued. */
 ff_status ehl_inlet_ratio(const ehl_laws *laws, const ehl_heated *film, size_t n, const double *p,
                           const double *h, const double *mass, double *room, double *ratio,
                           double *most);

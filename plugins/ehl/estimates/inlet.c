@@ -71,7 +71,8 @@ static place at_pressure(const ehl_inlet *n, double p)
     return (place){row, rows - (double)row};
 }
 
-/* Finds the row with that q. q grows along the inlet, so the search goes on from the last row. */
+/* Finds the row with that q. q grows along the inlet, so that the search continues from the last
+ * row. */
 static place at_reduced(const ehl_inlet *n, double q, size_t row)
 {
     while (row < EHL_INLET_TABLE - 2 && n->q[row + 1] <= q)
@@ -80,7 +81,7 @@ static place at_reduced(const ehl_inlet *n, double q, size_t row)
     return (place){row, fmin(share, 1)};
 }
 
-/* R of the heated channel at that place (inlet-heat.h). */
+/* Returns R of the heated channel at that place (inlet-heat.h). */
 static double heated_share(const ehl_inlet *n, place at, double h, double mass, double speed,
                            double sliding)
 {
@@ -99,7 +100,7 @@ static double heated_share(const ehl_inlet *n, place at, double h, double mass, 
 
 typedef struct opening {
     double a, film, bend; /* bend: a^2/(2R) */
-    double scale;         /* of y = sqrt(s^2 - 1), where the gap has grown by the film */
+    double scale;         /* of y = sqrt(s^2 - 1), at which the gap has grown by the film */
 } opening;
 
 /* Returns q at the inlet boundary x = -a, where the oil arrives in the state `boundary`. */
@@ -157,8 +158,8 @@ double ehl_inlet_mass(const ehl_inlet *n, const ehl_instant *at, double speed, d
     enum { LIMIT = 40 };
     const double within = 1e-5; /* relative error of q at x = -a, about that of the film */
     place boundary;
-    /* q at x = -a falls about as h^-11/8, and the q that it must reach grows as h^1/3 at most:
-       there is one root, which the secant method seeks within the bracket of known films */
+    /* q at x = -a falls about as h^-11/8, and the q that it must reach grows at most as h^1/3. So
+     * there is one root; the secant method finds it within a bracket of known films. */
     double low = -HUGE_VAL, high = HUGE_VAL, x = log(guess), slope = -1.7;
     double now = mismatch(n, at, speed, modulus, exp(x), &boundary);
     for (int k = 0; k < LIMIT && fabs(now) > within; k++) {
@@ -172,8 +173,8 @@ double ehl_inlet_mass(const ehl_inlet *n, const ehl_instant *at, double speed, d
         slope = fmin(fmax((now - last) / (x - from), -4), -0.2);
     }
     *off = now;
-    /* Where a vanishes the film is that of a rigid cylinder, H = 3/M (Martin 1916), joined as by
-       Moes. */
+    /* Where a vanishes, the film is that of a rigid cylinder, H = 3/M (Martin 1916), joined as in
+     * Moes. */
     double rigid = 6 * n->oil.viscosity * speed * at->radius / at->load;
     return n->oil.density *
            pow(pow(interpolate_column(n->rho, boundary) / n->oil.density * exp(x), 7. / 3) +
@@ -189,7 +190,7 @@ double ehl_exit_ratio(double alpha, double p_hertz)
 static const double usual_slope = 0.03; /* 1/K: gear oils 0.045 at 40 C, 0.02 at 100 C */
 static const double most_lost = 0.1;
 
-/* Gupta, Cheng, Zhu, Forster and Schrand 1992, a fit to thermal solutions. */
+/* Returns the factor of Gupta, Cheng, Zhu, Forster and Schrand 1992, a fit to thermal solutions. */
 double ehl_gupta_factor(double p_hertz, double modulus, double Q, double S)
 {
     double q = fmin(Q, 1e30), s = fmin(S, 1e30);
@@ -198,7 +199,7 @@ double ehl_gupta_factor(double p_hertz, double modulus, double Q, double S)
     return fmax(factor, 0);
 }
 
-/* -d ln eta/dT at p = 0. */
+/* Returns -d ln eta/dT at p = 0. */
 static double slope_of(const ehl_inlet_heating *heating, const ehl_laws *laws)
 {
     double p = 0, ln_eta = 0, ln_eta_T = 0;
@@ -224,7 +225,7 @@ void ehl_inlet_heating_report(const ff_host *host, const ehl_inlet_heating *heat
         double Q = oil->viscosity * slope * at.entrainment * at.entrainment / heating->conductivity;
         double S = fabs(at.sliding) / at.entrainment;
         if (p_hertz <= p_worst && Q <= Q_worst && S <= S_worst)
-            continue; /* the share grows with each of them */
+            continue; /* the share grows with each of these numbers */
         double here = 1 - ehl_gupta_factor(p_hertz, h->modulus, Q, S);
         if (here > lost) {
             lost = here;
@@ -242,13 +243,11 @@ void ehl_inlet_heating_report(const ff_host *host, const ehl_inlet_heating *heat
                   heated || lost <= most_lost ? FF_GOOD : FF_DOUBTFUL, text);
 }
 
-/*
- * A film without load on the oil in front of it follows from what the reduced pressure q =
- * int eta0/eta dp reaches at the edge of the contact (inlet.h): q falls as about film^-1.7. All of
- * the lost pressure is missing there where the oil has thickened, since q only adds up; in an oil
- * that has not, the elastic flanks give way to it over `length`, and it comes through as the root
- * of that over the distance.
- */
+/* Returns the share of a film without a load carried upstream, by what is missing from the reduced
+ * pressure q = int eta0/eta dp at the edge of the contact (inlet.h); q falls as about film^-1.7. In
+ * thickened oil all of the lost pressure is missing at the edge, since q only adds up. In oil that
+ * has not thickened the elastic flanks give way over `length`, and the loss arrives as the root of
+ * `length` over the distance. */
 static double share_by_pressure(const ehl_oil *oil, double p_hertz, double a, double length,
                                 double distance, double lost_pressure, double *thickened)
 {
