@@ -29,9 +29,12 @@ def solve(program, config, cells):
                         '-o', folder], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         with open(folder + '/result.json') as file:
             outputs = json.load(file)['outputs']
-        found = {name: np.array(outputs[name]['data']) for name in SERIES + ('film.x',)}
+
+        def array(name):
+            return np.load(f"{folder}/{outputs[name]['file']}")
+        found = {name: array(name) for name in SERIES + ('film.x',)}
         found.update({name: outputs[name]['value'] for name in SCALARS})
-        return found, np.load(folder + '/film.pressure.npy'), np.load(folder + '/film.film.npy')
+        return found, array('film.pressure'), array('film.film')
 
 
 def elastic(p, dx, modulus):

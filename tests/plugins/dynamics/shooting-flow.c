@@ -279,8 +279,52 @@ static void test_graze_of_motion(void)
     close_mesh(&f);
 }
 
+/* Follows the motion of large amplitude down in speed to its fold, to `step` of lambda. */
+static dynamics_orbit fold_of(const fixture *f, double step)
+{
+    dynamics_orbit o = {.period = 1, .lambda = log(0.8)}, next;
+    dynamics_state y = pass(f, dynamics_cycle_duration(o.lambda), 4, 0, 400);
+    o.x[0] = y.delta, o.x[1] = y.rate;
+    check_true("starts", dynamics_orbit_solve(&f->flow, dynamics_orbit_accuracy, &o));
+    check_true("on a motion that parts", hypot(o.x[0] - 1, o.x[1]) > 0.5);
+    for (double down = 0.01; down > step; down /= 2)
+        for (;;) {
+            next = o;
+            next.lambda -= down;
+            if (!dynamics_orbit_solve(&f->flow, dynamics_orbit_accuracy, &next) ||
+                !dynamics_orbit_is_stable(&next))
+                break;
+            o = next;
+        }
+    return o;
+}
+
+/* A motion that repeats itself after a shorter period to 1e-6 has that period. Its own start stays
+   where Newton's method finds no better one, as just beyond a fold, where there is no motion. */
+static void test_reduce(void)
+{
+    fixture f;
+    trapezoid(&f, 0.01, 0.14, DYNAMICS_DAMPING_ALWAYS);
+    dynamics_orbit o = fold_of(&f, 1e-10), twice = o, beyond = o, lost;
+    twice.period = beyond.period = 2;
+    twice.x[0] += 1e-9;
+    dynamics_orbit_reduce(&f.flow, &twice);
+    check_near("a shorter period", twice.period, 1, 0);
+    check_below("sharpened", dynamics_orbit_residual(&f.mesh, &twice), 1e-11);
+    beyond.lambda -= 1e-8;
+    lost = beyond;
+    lost.period = 1;
+    check_true("no motion there", !dynamics_orbit_solve(&f.flow, dynamics_orbit_accuracy, &lost));
+    check_true("Newton's method moves the start", fabs(lost.x[0] - beyond.x[0]) > 0);
+    dynamics_orbit_reduce(&f.flow, &beyond);
+    check_near("a shorter period beyond", beyond.period, 1, 0);
+    check_near("its own start", hypot(beyond.x[0] - o.x[0], beyond.x[1] - o.x[1]), 0, 0);
+    close_mesh(&f);
+}
+
 int main(void)
 {
+    test_reduce();
     test_mathieu();
     test_damped_tongue();
     test_affine();
