@@ -48,7 +48,7 @@ static ff_status read_scalars(const ff_host *host, const ff_array *in, losses_me
     if (status == FF_OK)
         status = read_scalar(host, in, IN_CONTACT_RATIO, 1e-6, &m->contact_ratio);
     if (status == FF_OK)
-        status = read_scalar(host, in, IN_TORQUE, 1e-12, &m->torque);
+        status = read_scalar(host, in, IN_TORQUE, 0, &m->torque);
     if (status == FF_OK)
         status = read_scalar(host, in, IN_SPEED, 1e-12, &speed);
     if (status == FF_OK)

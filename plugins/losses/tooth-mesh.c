@@ -294,9 +294,10 @@ static void report(const tooth_mesh *s, const losses_mesh *m, const scatter *of,
                       peclet >= least_peclet ? FF_GOOD : FF_RANGE,
                       "u a rho c/(2 k) of the slower flank where it is hottest; below 5 Blok's "
                       "formula says too much");
-    host->quality(host->ctx, "loss_share", 1 - efficiency, most_loss,
-                  fabs(1 - efficiency) <= most_loss ? FF_GOOD : FF_RANGE,
-                  "loss over the power that comes in");
+    if (m->torque > 0)
+        host->quality(host->ctx, "loss_share", 1 - efficiency, most_loss,
+                      fabs(1 - efficiency) <= most_loss ? FF_GOOD : FF_RANGE,
+                      "loss over the power that comes in");
     report_parts(s, m);
     report_engagements(s, m, of);
 }
@@ -335,6 +336,10 @@ static double bulk_of(const tooth_mesh *s, const losses_mesh *m, double loss)
     return m->oil_temperature + (s->thermal_conductance > 0 ? loss / s->thermal_conductance : 0);
 }
 
+/* Outputs that have no value if no power goes through the gears. */
+static const uint64_t of_transmission =
+    FF_BIT(OUT_EFFICIENCY) | FF_BIT(OUT_FRICTION_FORMULA) | FF_BIT(OUT_FRICTION_AGREEMENT);
+
 static ff_status write_outputs(const tooth_mesh *s, const losses_mesh *m, uint64_t wanted)
 {
     const scatter of = scatter_of(m, NULL);
@@ -342,6 +347,12 @@ static ff_status write_outputs(const tooth_mesh *s, const losses_mesh *m, uint64
     const double bulk = bulk_of(s, m, mean);
     const double hottest = m->flash[m->hottest];
     const losses_formula f = losses_formula_of(m, s->formula, s->oil_factor);
+    const double efficiency = input > 0 ? 1 - mean / input : 0;
+    for (uint32_t row = 0; row < LOSSES_OUTPUTS; row++)
+        if (wanted & FF_BIT(row) & of_transmission && !(input > 0))
+            return ff_failf(s->host, FF_UNSUPPORTED, losses_outputs[row].name,
+                            "the torque is 0, so that no power goes through the gears, and this "
+                            "output has no value");
     for (uint32_t row = OUT_FRICTION_FORMULA; row <= OUT_FRICTION_AGREEMENT; row++)
         if (wanted & FF_BIT(row) && !(f.coefficient > 0))
             return ff_failf(s->host, FF_UNSUPPORTED, losses_outputs[row].name,
@@ -356,7 +367,7 @@ static ff_status write_outputs(const tooth_mesh *s, const losses_mesh *m, uint64
     } scalars[] = {
         {OUT_POWER_LOSS_MEAN, mean},
         {OUT_POWER_INPUT, input},
-        {OUT_EFFICIENCY, 1 - mean / input},
+        {OUT_EFFICIENCY, efficiency},
         {OUT_FRICTION_MEAN, f.film},
         {OUT_FRICTION_FORMULA, f.coefficient > 0 ? f.coefficient : 0},
         {OUT_FRICTION_AGREEMENT, f.coefficient > 0 ? f.film / f.coefficient : 0},
@@ -382,7 +393,7 @@ static ff_status write_outputs(const tooth_mesh *s, const losses_mesh *m, uint64
             status = ff_put_scalar(s->host, scalars[i].row, scalars[i].value);
     }
     if (status == FF_OK)
-        report(s, m, &of, 1 - mean / input);
+        report(s, m, &of, efficiency);
     if (status == FF_OK)
         losses_report_friction(
             s->host, m, &f,

@@ -10,7 +10,7 @@
 
 typedef struct steady {
     const ff_host *host;
-    double torque, oil_temperature;
+    double torque, reference_torque, oil_temperature;
     double speed, mesh_frequency; /* rad/s, Hz; one of both is given */
 } steady;
 
@@ -18,7 +18,11 @@ static const ff_param params[] = {
     FF_QUANTITY(
         "torque", "N m", steady, torque, FF_REQUIRED, NULL, NULL, -1e12, 1e12, -1e7, 1e7,
         "torque on gear 1, constant; of a power: that over the speed; below 0: gear 2 drives "
-        "and the back flanks bear"),
+        "and the back flanks bear; 0: the gears float between their flanks"),
+    FF_QUANTITY("reference_torque", "N m", steady, reference_torque, FF_MIN_OPEN, NULL, NULL, 0,
+                1e12, 0, 0,
+                "torque at which stiffness, sharing of the load and damping are taken; default: "
+                "the torque without its sign"),
     FF_QUANTITY("speed", "rpm", steady, speed, FF_REQUIRED, NULL, "speed", 1e-3, 1e7, 0, 0,
                 "speed of gear 1"),
     FF_QUANTITY("mesh_frequency", "Hz", steady, mesh_frequency, FF_REQUIRED, NULL, "speed", 1e-4,
@@ -44,7 +48,14 @@ static const ff_port inputs[] = {
      .from = "gear"},
 };
 
-enum { OUT_TORQUE, OUT_SPEED, OUT_MESH_FREQUENCY, OUT_LINE_FORCE, OUT_OIL_TEMPERATURE };
+enum {
+    OUT_TORQUE,
+    OUT_SPEED,
+    OUT_MESH_FREQUENCY,
+    OUT_LINE_FORCE,
+    OUT_OIL_TEMPERATURE,
+    OUT_REFERENCE
+};
 
 static const ff_port outputs[] = {
     {.name = "torque", .unit = "N m", .doc = "torque on gear 1", .dims = ""},
@@ -56,6 +67,11 @@ static const ff_port outputs[] = {
             "needs a gear",
      .dims = ""},
     {.name = "oil_temperature", .unit = "K", .doc = "temperature of the oil", .dims = ""},
+    {.name = "reference_force",
+     .unit = "N",
+     .doc = "force along the line of action at which stiffness, sharing and damping are taken, 0: "
+            "the line force; needs a gear",
+     .dims = ""},
 };
 
 static const char no_gear[] = "this output needs a gear: wire `gear` to a stage that offers one";
@@ -67,6 +83,7 @@ static ff_status ready(void *self)
     const steady *s = self;
     const ff_serving rows[] = {
         {1, "torque", "torque|line_force", NULL, NULL},
+        {1, "reference_torque", "reference_force", NULL, NULL},
         {1, "speed", "speed|mesh_frequency", NULL, NULL},
         {1, "mesh_frequency", "speed|mesh_frequency", NULL, NULL},
         {1, "oil_temperature", "oil_temperature", NULL, NULL},
@@ -74,13 +91,9 @@ static ff_status ready(void *self)
     const ff_need needs[] = {
         {s->speed > 0, "gear.teeth", "mesh_frequency", no_gear},
         {!(s->speed > 0), "gear.teeth", "speed", no_gear},
-        {1, "gear.base_radius", "line_force", no_gear},
+        {1, "gear.base_radius", "line_force|reference_force", no_gear},
         {1, "oil_temperature", "oil_temperature", no_temperature},
     };
-    if (!(fabs(s->torque) > 0))
-        return ff_failf(s->host, FF_INVALID, "torque",
-                        "without a torque the gears float between their flanks: give one, which "
-                        "may be below 0");
     ff_serve(s->host, rows, sizeof rows / sizeof rows[0]);
     ff_tell_needs(s->host, needs, sizeof needs / sizeof needs[0]);
     if ((s->speed > 0) == (s->mesh_frequency > 0))
@@ -111,7 +124,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
                       [OUT_SPEED] = s->speed,
                       [OUT_MESH_FREQUENCY] = s->mesh_frequency,
                       [OUT_LINE_FORCE] = 0,
-                      [OUT_OIL_TEMPERATURE] = s->oil_temperature};
+                      [OUT_OIL_TEMPERATURE] = s->oil_temperature,
+                      [OUT_REFERENCE] = 0};
     double gear = 1;
     ff_status status = FF_OK;
     if (s->torque < 0)
@@ -129,15 +143,16 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         value[other] =
             s->speed > 0 ? s->speed * gear / (2 * M_PI) : s->mesh_frequency * 2 * M_PI / gear;
     }
-    if (wanted & FF_BIT(OUT_LINE_FORCE)) {
+    if (wanted & (FF_BIT(OUT_LINE_FORCE) | FF_BIT(OUT_REFERENCE))) {
         status = from_gear(s, &in[IN_BASE_RADIUS], "gear.base_radius", "line_force", &gear);
         if (status != FF_OK)
             return status;
         value[OUT_LINE_FORCE] = s->torque / gear;
+        value[OUT_REFERENCE] = s->reference_torque > 0 ? s->reference_torque / gear : 0;
     }
     if (wanted & FF_BIT(OUT_OIL_TEMPERATURE) && isnan(s->oil_temperature))
         return s->host->fail(s->host->ctx, FF_UNSUPPORTED, "oil_temperature", no_temperature);
-    for (uint32_t i = 0; i <= OUT_OIL_TEMPERATURE && status == FF_OK; i++)
+    for (uint32_t i = 0; i <= OUT_REFERENCE && status == FF_OK; i++)
         if (wanted & FF_BIT(i))
             status = ff_put_scalar(s->host, i, value[i]);
     return status;

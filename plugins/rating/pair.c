@@ -204,6 +204,10 @@ static ff_status read_pair(const ff_host *host, const char *standard, const ff_a
     ff_status status = FF_OK;
     for (size_t i = 0; i < sizeof twos / sizeof twos[0] && status == FF_OK; i++)
         status = read_two(host, &in[twos[i].row], twos[i].name, twos[i].to);
+    if (status == FF_OK && in[RATING_IN_FORCE].data && in[RATING_IN_FORCE].data[0] == 0)
+        return ff_failf(host, FF_UNSUPPORTED, "operating.line_force",
+                        "the torque is 0, and flanks without load neither scuff nor pit: there is "
+                        "nothing to rate");
     for (size_t i = 0; i < sizeof ones / sizeof ones[0] && status == FF_OK; i++)
         status = read_one(host, &in[ones[i].row], ones[i].name, ones[i].to);
     if (status == FF_OK && in[RATING_IN_DYNAMIC_FACTOR].data)

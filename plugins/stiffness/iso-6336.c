@@ -120,7 +120,8 @@ static ff_status set_single(const iso_model *m, const stiffness_gears *g, int pi
                         compliance, rack);
     if (!(load > 0))
         return ff_failf(m->host, FF_INVALID, "operating.line_force",
-                        "ISO 6336-1 lets the stiffness vanish with the load; a torque is needed");
+                        "ISO 6336-1 lets the stiffness vanish with the load; a torque, or a "
+                        "reference_torque of the duty, is needed");
     *single = per_micron / compliance * m->correction * m->blank * rack * 2 * e1 * e2 /
               ((e1 + e2) * steel) * fmin(load / full_load, 1) * g->width;
     int held =

@@ -95,7 +95,8 @@ static ff_status sample(const stiffness_source *s, samples *v)
         v->pairs[i] = 0;
         for (size_t k = 0; k < r.at.count; k++)
             v->pairs[i] += r.sharing.force[k] > 0;
-        v->residual = fmax(v->residual, r.sharing.residual);
+        if (s->conditions->path.line_force > 0) /* else the deflection is round-off of the gaps */
+            v->residual = fmax(v->residual, r.sharing.residual);
     }
     return FF_OK;
 }

@@ -197,7 +197,7 @@ static ff_status write_stations(const ff_host *host, uint64_t wanted, const stif
     for (size_t k = 0; k < count * path->stations && (forces || shares); k++) {
         double part = station_share(r, path, k / path->stations, k % path->stations);
         if (forces)
-            force[k] = path->line_force * part;
+            force[k] = path->load * part;
         if (shares)
             share[k] = part;
     }
@@ -222,16 +222,16 @@ static ff_status write_engagement(const ff_host *host, uint64_t wanted, const st
     for (size_t i = 0; i < early; i++, n++) {
         double age = -r->before * (1 - (double)i / MORE);
         roll[n] = path->roll_sap + age * path->pitch;
-        force[n] = path->line_force * share_above(r, age);
+        force[n] = path->load * share_above(r, age);
     }
     for (size_t i = 0; i < path->stations; i++, n++) {
         roll[n] = path->roll[i];
-        force[n] = path->line_force * station_share(r, path, 0, i);
+        force[n] = path->load * station_share(r, path, 0, i);
     }
     for (size_t i = 1; i <= late; i++, n++) {
         double age = path->contact_ratio + r->after * (double)i / MORE;
         roll[n] = path->roll_sap + age * path->pitch;
-        force[n] = path->line_force * share_above(r, age);
+        force[n] = path->load * share_above(r, age);
     }
     return FF_OK;
 }

@@ -41,7 +41,17 @@ ff_status stiffness_path_read(const ff_host *host, const ff_array *in, stiffness
     if (!(teeth >= 1))
         return ff_failf(host, FF_INVALID, "gear.teeth", "a gear of %g teeth does not mesh", teeth);
     /* back flanks meet where the roll angles of gear 1 are the same as driving ones do */
-    p->line_force = fabs(p->line_force);
+    p->line_force = p->load = fabs(p->line_force);
+    double reference = 0;
+    if (in[STIFFNESS_IN_REFERENCE_FORCE].data)
+        status = stiffness_input_read(host, in, STIFFNESS_IN_REFERENCE_FORCE, 0, &reference);
+    if (status != FF_OK)
+        return status;
+    if (!(reference >= 0))
+        return ff_failf(host, FF_INVALID, "operating.reference_force",
+                        "must not be negative, but is %g N", reference);
+    if (reference > 0)
+        p->line_force = reference;
     p->pitch = 2 * M_PI / teeth;
     p->contact_ratio = (tip - p->roll_sap) / p->pitch;
     if (!(p->contact_ratio >= 1 - STIFFNESS_PHASE_TOLERANCE &&

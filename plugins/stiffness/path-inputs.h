@@ -10,7 +10,8 @@ typedef struct stiffness_path {
     const double *roll;     /* roll angle of gear 1 at the stations, rad */
     double roll_sap, pitch; /* roll angle at SAP and of one mesh cycle, rad */
     double contact_ratio;   /* (tip - SAP)/pitch */
-    double line_force;      /* F, N, on the flanks that bear */
+    double line_force;      /* F, N, at which stiffness and sharing are taken */
+    double load;            /* N, of both signs of the torque, which the pairs share */
 } stiffness_path;
 
 /* Reads and checks the input rows of the path of contact. */

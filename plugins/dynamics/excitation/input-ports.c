@@ -87,7 +87,13 @@
                                        .unit = "N",                                                \
                                        .doc = "tooth force of one pair under each of them",        \
                                        .dims = "level gear.station",                               \
-                                       .flags = FF_OPTIONAL}
+                                       .flags = FF_OPTIONAL},                                      \
+    [DYNAMICS_IN_REFERENCE_FORCE] = {.name = "operating.reference_force",                          \
+                                     .unit = "N",                                                  \
+                                     .doc = "force at which stiffness and sharing are those of "   \
+                                            "the stiffness; none or 0: the line force",            \
+                                     .dims = "",                                                   \
+                                     .flags = FF_OPTIONAL}
 
 const ff_port dynamics_input_ports[DYNAMICS_COUPLED_INPUT_COUNT] = {
     COMMON_ROWS,

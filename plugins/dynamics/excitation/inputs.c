@@ -133,7 +133,8 @@ static ff_status check_levels(const ff_host *host, const ff_array *in,
                         "under a torque; take force: frozen");
     if (!(force > 0))
         return ff_failf(host, FF_INVALID, "force",
-                        "shared needs a line force above 0, but it is %g N; take force: frozen",
+                        "shared needs a line force or a reference force above 0, but it is %g N; "
+                        "give reference_torque of the duty, or take force: frozen",
                         force);
     if (l->count > DYNAMICS_LINES)
         return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_FORCE_LEVEL),
@@ -184,10 +185,10 @@ static ff_status check_scalars(const ff_host *host, const ff_array *in)
     static const bound bounds[] = {
         {DYNAMICS_IN_TEETH, 0, 0},          {DYNAMICS_IN_BACKLASH, 0, 1},
         {DYNAMICS_IN_MESH_FREQUENCY, 0, 0}, {DYNAMICS_IN_STIFFNESS_MEAN, 0, 0},
-        {DYNAMICS_IN_LINE_FORCE, 0, 1},
+        {DYNAMICS_IN_LINE_FORCE, 0, 1},     {DYNAMICS_IN_REFERENCE_FORCE, 0, 1},
     };
     for (size_t i = 0; i < sizeof bounds / sizeof bounds[0]; i++) {
-        double value = in[bounds[i].input].data[0];
+        double value = in[bounds[i].input].data ? in[bounds[i].input].data[0] : 1;
         if (!(bounds[i].or_equal ? value >= bounds[i].above : value > bounds[i].above))
             return ff_failf(host, FF_INVALID, name_of(bounds[i].input), "must %s, but is %g %s",
                             bounds[i].or_equal ? "not be negative" : "be above 0", value,
@@ -370,7 +371,7 @@ static void report_shared(const ff_host *host, const dynamics_force_levels *l, d
 static ff_status make_spring(const ff_host *host, const ff_array *in, const dynamics_inputs *inputs,
                              const dynamics_excitation *excitation, dynamics_spring_nodes *spring)
 {
-    double force = inputs->line_force, convex;
+    double force = inputs->reference, convex;
     if (!excitation->shared)
         return dynamics_spring_nodes_make(&inputs->curves, inputs->loaded_error, force,
                                           excitation->on_chord, spring)
@@ -400,6 +401,25 @@ static ff_status build_excitation(const ff_host *host, const ff_array *in,
     if (built)
         report_representation(host, excitation);
     return built ? FF_OK : FF_NOMEM;
+}
+
+int dynamics_floats(const dynamics_inputs *inputs, const dynamics_excitation *excitation)
+{
+    const dynamics_mesh_curves *c = &inputs->curves;
+    double highest = 0;
+    for (size_t i = 0; c->error && i < c->count; i++)
+        highest = fmax(highest, fabs(c->error[i]));
+    return inputs->line_force == 0 && highest < excitation->half_gap * excitation->length;
+}
+
+void dynamics_floating_line(const ff_host *host)
+{
+    static const char text[] =
+        "without a torque nothing presses the flanks together: the gears float, and every place in "
+        "the backlash is an equilibrium; shown is the middle, without forces. A drag torque, or a "
+        "fluctuation of torque or speed, makes a motion";
+    host->log(host->ctx, FF_LOG_INFO, text);
+    host->quality(host->ctx, "floating", 0, 0, FF_GOOD, text);
 }
 
 ff_status dynamics_evaluate(const ff_host *host, const ff_port *ports, size_t count, size_t force,
@@ -447,6 +467,9 @@ ff_status dynamics_inputs_read(const ff_host *host, const ff_array *in,
     inputs->loaded_error = in[DYNAMICS_IN_LOADED_ERROR].data;
     double stiffness = in[DYNAMICS_IN_STIFFNESS_MEAN].data[0];
     inputs->line_force = in[DYNAMICS_IN_LINE_FORCE].data[0];
+    inputs->reference = inputs->line_force;
+    if (in[DYNAMICS_IN_REFERENCE_FORCE].data && in[DYNAMICS_IN_REFERENCE_FORCE].data[0] > 0)
+        inputs->reference = in[DYNAMICS_IN_REFERENCE_FORCE].data[0];
     inputs->mesh_frequency = in[DYNAMICS_IN_MESH_FREQUENCY].data[0];
     status = check_stations(host, inputs);
     if (status == FF_OK)

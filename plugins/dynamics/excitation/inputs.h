@@ -27,6 +27,7 @@ enum {
     DYNAMICS_IN_LEVEL_ERROR,
     DYNAMICS_IN_LEVEL_STIFFNESS,
     DYNAMICS_IN_LEVEL_TOOTH_FORCE,
+    DYNAMICS_IN_REFERENCE_FORCE,
     DYNAMICS_INPUT_COUNT,
     /* read only by a model whose gears move on their bearings */
     DYNAMICS_IN_BASE_RADIUS = DYNAMICS_INPUT_COUNT,
@@ -89,6 +90,7 @@ typedef struct dynamics_inertia {
 
 typedef struct dynamics_inputs {
     double line_force, mesh_frequency, natural_frequency; /* N, Hz, Hz */
+    double reference; /* N, at which curves and shares of the mesh are taken */
     size_t stations;
     const double *roll_angle, *tooth_force, *load_share; /* load_share may be NULL */
     dynamics_mesh_curves curves;
@@ -115,6 +117,10 @@ void dynamics_put_stations(double *x, size_t stations, size_t total, int back);
 ff_status dynamics_inputs_read(const ff_host *host, const ff_array *in,
                                const dynamics_inertia *inertia, dynamics_inputs *inputs,
                                dynamics_excitation *excitation);
+
+/* Whether nothing presses the flanks together: every place in the backlash is an equilibrium. */
+int dynamics_floats(const dynamics_inputs *inputs, const dynamics_excitation *excitation);
+void dynamics_floating_line(const ff_host *host);
 
 /* A parameter that is a number or `auto`: -1, which becomes 0. */
 static inline size_t dynamics_count_or_auto(int64_t value)

@@ -112,4 +112,8 @@ ff_status dynamics_motion_put_powers(const dynamics_motion *motion,
 ff_status dynamics_motion_put(const dynamics_motion *motion, const dynamics_inputs *inputs,
                               const ff_host *host);
 
+/* The outputs of gears that float in the middle of the backlash: no motion, and no force. */
+ff_status dynamics_motion_put_floating(const dynamics_inputs *inputs,
+                                       const dynamics_excitation *excitation, const ff_host *host);
+
 #endif

@@ -47,25 +47,39 @@ static double force_of(const dynamics_spring_nodes *nodes, size_t i, double g)
     return force;
 }
 
-/* The spring of all levels and of every second one. */
-typedef struct spring_pair {
-    dynamics_spring_nodes of[2];
-    size_t kept[2][DYNAMICS_LINES], count[2];
-} spring_pair;
+/* The spring of all levels, of every second one, and of the others. */
+enum { SPRINGS = 3 };
+typedef struct springs {
+    dynamics_spring_nodes of[SPRINGS];
+    size_t kept[SPRINGS][DYNAMICS_LINES], count[SPRINGS];
+} springs;
 
-static double largest_change(const dynamics_force_levels *l, const spring_pair *s, double force)
+/* The largest change by either half: a motion that stays near one level sees nothing of the half
+   that keeps it. */
+static double largest_change(const dynamics_force_levels *l, const springs *s, double force)
 {
+    const dynamics_chosen_levels all = {l, s->kept[0], s->count[0]};
     double worst = 0;
-    for (size_t i = 0; i < l->phases; i++) {
-        double g = deflection_of(&s->of[0], i, force);
-        worst = fmax(worst, fabs(force_of(&s->of[1], i, g) - force));
+    for (int k = 1; k < SPRINGS; k++) {
+        const dynamics_chosen_levels half = {l, s->kept[k], s->count[k]};
+        for (size_t i = 0; i < l->phases; i++) {
+            double g = deflection_of(&s->of[0], i, force);
+            worst = fmax(worst, fabs(force_of(&s->of[k], i, g) - force));
+        }
+        for (size_t i = 0; l->tooth_force && i < l->stations; i++)
+            worst = fmax(worst, fabs(dynamics_tooth_force(&all, force, i) -
+                                     dynamics_tooth_force(&half, force, i)));
     }
-    const dynamics_chosen_levels all = {l, s->kept[0], s->count[0]},
-                                 half = {l, s->kept[1], s->count[1]};
-    for (size_t i = 0; l->tooth_force && i < l->stations; i++)
-        worst = fmax(worst, fabs(dynamics_tooth_force(&all, force, i) -
-                                 dynamics_tooth_force(&half, force, i)));
     return worst;
+}
+
+/* The force of a level beside that of the mean force. */
+static double neighbour_of(const dynamics_force_levels *l, double mean)
+{
+    size_t i = 0;
+    while (i + 1 < l->count && l->force[i] < mean * (1 - 1e-6))
+        i++;
+    return i + 1 < l->count ? l->force[i + 1] : l->force[i - 1];
 }
 
 /* How much mesh and tooth forces at a force beyond the last level change, N, where that level is
@@ -81,8 +95,8 @@ static double change_beyond(const dynamics_inputs *inputs, double force)
     if (last < 2)
         return force;
     fewer.count--;
-    if (dynamics_spring_nodes_share(l, inputs->line_force, 1, &s[0], &convex) &&
-        dynamics_spring_nodes_share(&fewer, inputs->line_force, 1, &s[1], &convex)) {
+    if (dynamics_spring_nodes_share(l, inputs->reference, 1, &s[0], &convex) &&
+        dynamics_spring_nodes_share(&fewer, inputs->reference, 1, &s[1], &convex)) {
         worst = 0;
         for (size_t i = 0; i < l->phases; i++)
             worst = fmax(worst, fabs(force_of(&s[1], i, deflection_of(&s[0], i, force)) - force));
@@ -101,23 +115,25 @@ double dynamics_level_error(const dynamics_inputs *inputs, double least, double 
 {
     enum { FORCES = 32 };
     const dynamics_force_levels *l = &inputs->levels;
-    spring_pair s = {0};
-    double convex, worst = -1;
+    springs s = {0};
+    double convex, worst = -1, from[SPRINGS] = {inputs->reference, inputs->reference};
     double end = l->force[l->count - 1], beyond = 0;
     if (largest > end)
         beyond = change_beyond(inputs, largest);
     least = fmax(least, 0);
     largest = fmin(largest, end);
     int made = beyond >= 0;
-    for (int i = 0; i < 2 && made; i++) {
-        s.count[i] = dynamics_spring_levels(l, inputs->line_force, i + 1, s.kept[i]);
-        made = dynamics_spring_nodes_share(l, inputs->line_force, i + 1, &s.of[i], &convex);
+    from[2] = neighbour_of(l, inputs->reference);
+    for (int i = 0; i < SPRINGS && made; i++) {
+        const int every = i ? 2 : 1;
+        s.count[i] = dynamics_spring_levels(l, from[i], every, s.kept[i]);
+        made = dynamics_spring_nodes_share(l, from[i], every, &s.of[i], &convex);
     }
     for (int i = 0; made && i <= FORCES; i++)
         worst = fmax(worst, largest_change(l, &s, least + (largest - least) * i / FORCES));
-    for (int i = 0; i < 2; i++)
+    for (int i = 0; i < SPRINGS; i++)
         dynamics_spring_nodes_free(&s.of[i]);
-    return worst < 0 ? -1 : fmax(worst, beyond) / inputs->line_force;
+    return worst < 0 ? -1 : fmax(worst, beyond) / inputs->reference;
 }
 
 static void report_levels(const dynamics_inputs *inputs, double least, double largest,
@@ -125,7 +141,7 @@ static void report_levels(const dynamics_inputs *inputs, double least, double la
 {
     static const double limit = 0.05;
     const dynamics_force_levels *l = &inputs->levels;
-    double mean = inputs->line_force, error = dynamics_level_error(inputs, least, largest);
+    double mean = inputs->reference, error = dynamics_level_error(inputs, least, largest);
     int known = largest <= l->force[l->count - 1];
     char text[320];
     snprintf(text, sizeof text,
@@ -184,7 +200,7 @@ double dynamics_slope_change(const dynamics_inputs *inputs, int on_chord, double
 {
     const dynamics_force_levels *l = &inputs->levels;
     dynamics_spring_nodes mesh, frozen = {0};
-    double convex, mean = inputs->line_force, of_mesh = 0, of_frozen = 0;
+    double convex, mean = inputs->reference, of_mesh = 0, of_frozen = 0;
     int made =
         dynamics_spring_nodes_share(l, mean, 1, &mesh, &convex) &&
         dynamics_spring_nodes_make(&inputs->curves, inputs->loaded_error, mean, on_chord, &frozen);
@@ -224,7 +240,7 @@ void dynamics_sharing_report(const dynamics_inputs *inputs, int on_chord, double
 {
     static const double limit = 0.02;
     const dynamics_force_levels *l = &inputs->levels;
-    double mean = inputs->line_force;
+    double mean = inputs->reference;
     char text[320];
     if (inputs->shared) {
         report_levels(inputs, least, largest, host);

@@ -280,9 +280,14 @@ static ff_status evaluate_driving(void *self, uint64_t wanted, const ff_array *i
     ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &inputs, &excitation);
     inputs.wanted = wanted;
     inputs.back = back;
-    if (status == FF_OK && (wanted & motion_outputs || !wanted))
+    const int floats = status == FF_OK && dynamics_floats(&inputs, &excitation);
+    if (floats)
+        status = dynamics_motion_put_floating(&inputs, &excitation, m->host);
+    else if (status == FF_OK && (wanted & motion_outputs || !wanted))
         status = output_motion(m, &excitation, &inputs);
-    if (status == FF_OK && wanted & FF_BIT(DYNAMICS_OUT_STABLE_MOTIONS))
+    if (status == FF_OK && floats)
+        status = ff_put_scalar(m->host, DYNAMICS_OUT_STABLE_MOTIONS, 0);
+    else if (status == FF_OK && wanted & FF_BIT(DYNAMICS_OUT_STABLE_MOTIONS))
         status = dynamics_stable_motions_put(
             &excitation, inputs.mesh_frequency / inputs.natural_frequency, m->host);
     m->from.harmonics = 0;

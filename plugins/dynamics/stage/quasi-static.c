@@ -35,7 +35,8 @@ enum {
     I_ERROR,
     I_STIFFNESS_MEAN,
     I_TOOTH_FORCE,
-    I_MESH_FREQUENCY
+    I_MESH_FREQUENCY,
+    I_REFERENCE
 };
 
 static const ff_port inputs[] = {
@@ -69,6 +70,11 @@ static const ff_port inputs[] = {
     {.name = "operating.mesh_frequency",
      .unit = "Hz",
      .doc = "to say how far the motion is from the static one",
+     .dims = "",
+     .flags = FF_OPTIONAL},
+    {.name = "operating.reference_force",
+     .unit = "N",
+     .doc = "force under which the loaded transmission error is given; none or 0: the line force",
      .dims = "",
      .flags = FF_OPTIONAL},
 };
@@ -196,7 +202,9 @@ static statistics statistics_of(size_t count, const double *phase, const double 
     return st;
 }
 
-static ff_status put_series(const ff_host *host, const ff_array *in, const double *s, int back)
+/* `apart`: separation of the flanks that would bear. */
+static ff_status put_series(const ff_host *host, const ff_array *in, const double *s, int back,
+                            double apart)
 {
     const ff_array *force = &in[I_TOOTH_FORCE];
     size_t count = in[I_PHASE].shape[0], stations = 1;
@@ -215,13 +223,13 @@ static ff_status put_series(const ff_host *host, const ff_array *in, const doubl
     }
     for (size_t i = 0; i < stations; i++) {
         tooth[i] = force->data[i];
-        gap[i] = 0;
+        gap[i] = apart;
     }
     dynamics_put_stations(tooth, force->shape[force->rank - 1], stations, back);
     return FF_OK;
 }
 
-static ff_status put_scalars(const ff_host *host, const statistics *st, double period)
+static ff_status put_scalars(const ff_host *host, const statistics *st, double period, int floats)
 {
     const struct {
         uint32_t output;
@@ -230,9 +238,9 @@ static ff_status put_scalars(const ff_host *host, const statistics *st, double p
         {O_DTE_RMS, st->rms},
         {O_DTE_MEAN, st->mean},
         {O_DTE_PEAK_TO_PEAK, st->high - st->low},
-        {O_DYNAMIC_FACTOR_TOOTH, 1},
-        {O_DYNAMIC_FACTOR_MESH, 1},
-        {O_CONTACT_LOSS, 0},
+        {O_DYNAMIC_FACTOR_TOOTH, !floats},
+        {O_DYNAMIC_FACTOR_MESH, !floats},
+        {O_CONTACT_LOSS, floats},
         {O_BACK_CONTACT, 0},
         {O_PERIOD, period},
     };
@@ -268,16 +276,27 @@ static ff_status evaluate_driving(void *self, uint64_t wanted, const ff_array *i
         return status;
     size_t count = in[I_PHASE].shape[0];
     double half_gap = in[I_BACKLASH].data ? in[I_BACKLASH].data[0] / 2 : 0;
+    const double force = in[I_LINE_FORCE].data[0];
+    const int floats = force == 0;
+    if (!floats && in[I_REFERENCE].data && in[I_REFERENCE].data[0] > 0 &&
+        fabs(in[I_REFERENCE].data[0] - force) > 1e-9 * force)
+        return ff_failf(m->host, FF_UNSUPPORTED, "operating.reference_force",
+                        "the loaded transmission error is that of %g N, and the line force is %g "
+                        "N: leave reference_torque of the duty out",
+                        in[I_REFERENCE].data[0], force);
+    if (floats)
+        dynamics_floating_line(m->host);
     double *s = calloc(count, sizeof *s);
     if (!s)
         return FF_NOMEM;
     for (size_t i = 0; i < count; i++)
-        s[i] = (back ? -1 : 1) * (in[I_ERROR].data[i] + half_gap);
+        s[i] = floats ? 0 : (back ? -1 : 1) * (in[I_ERROR].data[i] + half_gap);
     statistics st = statistics_of(count, in[I_PHASE].data, s);
-    status = put_series(m->host, in, s, back);
+    status = put_series(m->host, in, s, back, floats ? half_gap : 0);
     if (status == FF_OK)
         status = put_scalars(m->host, &st,
-                             in[I_TOOTH_FORCE].rank > 1 ? (double)in[I_TOOTH_FORCE].shape[0] : 1);
+                             in[I_TOOTH_FORCE].rank > 1 ? (double)in[I_TOOTH_FORCE].shape[0] : 1,
+                             floats);
     if (status == FF_OK)
         status = put_natural_frequency(m, wanted, in);
     free(s);

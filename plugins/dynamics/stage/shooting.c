@@ -370,6 +370,21 @@ static ff_status put_known(job *j)
     return FF_OK;
 }
 
+/* Gears that float have no isolated motion: nothing to count, and no branches. */
+static ff_status put_floating(const job *j)
+{
+    const model *m = j->m;
+    const dynamics_motion none = {.excitation = &j->excitation, .cycles = 1, .T = 1};
+    if ((j->wanted & ~power_bits) >> DYNAMICS_SPEED_OUTPUT_COUNT || m->by_name)
+        return ff_failf(m->host, FF_UNSUPPORTED, m->by_name ? "branch" : "operating.line_force",
+                        "without a torque the gears float, and there is no branch of motions: give "
+                        "a torque, or leave the atlas out");
+    ff_status status = dynamics_motion_put_floating(&j->inputs, &j->excitation, m->host);
+    if (status == FF_OK)
+        status = dynamics_motion_put_powers(&none, &(dynamics_film_powers){0, 0}, m->host);
+    return status == FF_OK ? ff_put_scalar(m->host, DYNAMICS_OUT_STABLE_MOTIONS, 0) : status;
+}
+
 static ff_status evaluate_job(job *j)
 {
     const model *m = j->m;
@@ -382,6 +397,8 @@ static ff_status evaluate_job(job *j)
     j->lambda = log(j->inputs.mesh_frequency / j->inputs.natural_frequency);
     if (needs_motion && dynamics_cycle_duration(j->lambda) > dynamics_longest_cycle)
         return fail_too_slow(j);
+    if (dynamics_floats(&j->inputs, &j->excitation))
+        return put_floating(j);
     if (!dynamics_flow_init(&j->flow, &j->excitation))
         return FF_NOMEM;
     if (needs_atlas || knows_atlas || (needs_motion && m->by_name))

@@ -244,6 +244,10 @@ static ff_status evaluate_job(job *j, uint64_t wanted)
     dynamics_settled settled;
     dynamics_follower follower;
     m->to.mesh_frequency = 0;
+    if (dynamics_floats(inputs, &j->excitation)) {
+        ff_status put = dynamics_motion_put_floating(inputs, &j->excitation, m->host);
+        return put == FF_OK ? ff_put_scalar(m->host, DYNAMICS_OUT_STABLE_MOTIONS, 0) : put;
+    }
     if (m->from.mesh_frequency > 0) {
         how.from = m->from.mesh_frequency / inputs->natural_frequency;
         dynamics_warm_start_state(&m->from, &j->excitation, how.start);

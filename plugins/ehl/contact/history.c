@@ -160,10 +160,13 @@ ff_status ehl_history_check(ehl_history *h, const ff_host *host)
     ff_status status = check_durations(h, host);
     if (status != FF_OK)
         return status;
-    if (!(h->load_max > 0))
-        return ff_failf(
-            host, FF_INVALID, "contact.load_per_width",
-            "the contact is never loaded: at least one load per width must be positive");
+    int apart = h->gap != NULL;
+    for (size_t i = 0; i < h->count && apart; i++)
+        apart = h->gap[i] > 0;
+    if (!(h->load_max > 0) && !apart)
+        return ff_failf(host, FF_INVALID, "contact.load_per_width",
+                        "the contact is never loaded: at least one load per width must be "
+                        "positive, or all gaps, of flanks that never touch");
     return check_motion(h, host);
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "estimate.h"
 
+#include "../contact/parted.h"
 #include "../contact/surface.h"
 #include "inlet-heat.h"
 #include "inlet.h"
@@ -213,7 +214,7 @@ static ff_status begin(ehl_estimate *e, uint64_t wanted, const ff_array *in)
     ff_status status = read_scene(e, in);
     if (status == FF_OK)
         status = read_roughness(e, wanted, in);
-    if (status != FF_OK)
+    if (status != FF_OK || ehl_is_parted(&e->history))
         return status;
     e->alpha_star = ehl_alpha_star(&e->laws);
     e->alpha = e->alpha_star.value;
@@ -436,6 +437,9 @@ static ff_status evaluate(ehl_estimate *e, uint64_t wanted, const ff_array *in)
         status = ff_failf(e->host, FF_UNSUPPORTED,
                           ehl_estimate_outputs[EHL_ESTIMATE_BULK_TEMPERATURE].name,
                           "this output needs a stage of the oil, which has a temperature");
+    if (status == FF_OK && ehl_is_parted(&e->history))
+        return ehl_put_parted(e->host, ehl_estimate_outputs, EHL_ESTIMATE_OUTPUTS, wanted,
+                              &e->history, e->roughness, e->laws.temperature);
     if (status == FF_OK)
         status = claim(&r, e);
     if (status == FF_OK)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "stage.h"
 
+#include "../contact/parted.h"
 #include "../estimates/inlet-heat.h"
 #include "../time/start.h"
 #include "landings.h"
@@ -292,6 +293,9 @@ static ff_status evaluate(ehl_model *m, uint64_t wanted, const ff_array *in)
                         "this output needs a stage of the oil, which has a temperature");
     double roughness;
     status = read_roughness(m, wanted, in, &roughness);
+    if (status == FF_OK && ehl_is_parted(&r.history))
+        return ehl_put_parted(m->host, ehl_outputs, EHL_OUTPUTS, wanted, &r.history, roughness,
+                              bulk);
     if (status != FF_OK)
         return status;
     status = ehl_run_create(m, in, &r);

@@ -8,6 +8,7 @@
 #include "../../../plugins/dynamics/orbits/orbit.h"
 #include "../../../plugins/dynamics/orbits/trajectory.h"
 #include "../../../plugins/dynamics/oscillator/oscillator.h"
+#include "../../../plugins/dynamics/oscillator/sharing.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -430,8 +431,32 @@ static void test_useless_levels(void)
     }
 }
 
+/* A motion that stays near the mean force, which is a level itself, has an error, too: the mesh
+   G = g^1.5 of ten levels is off by what its tangent at the mean force is. */
+static void test_near_a_level(void)
+{
+    enum { COUNT = 10 };
+    double force[COUNT], error[2 * COUNT], stiffness[2 * COUNT];
+    for (int k = 0; k < COUNT; k++) {
+        force[k] = k * k / 9.0;
+        error[2 * k] = error[2 * k + 1] = pow(force[k], 2 / 3.0);
+        stiffness[2 * k] = stiffness[2 * k + 1] = fmax(1.5 * cbrt(force[k]), 1e-3);
+    }
+    dynamics_inputs inputs = {
+        .reference = 1,
+        .levels = {
+            .count = COUNT, .phases = 2, .force = force, .error = error, .stiffness = stiffness}};
+    for (double high = 1.05; high < 1.3; high += 0.1) {
+        double off = high - (1 + 1.5 * (pow(high, 2 / 3.0) - 1));
+        double stated = dynamics_level_error(&inputs, 2 - high, high);
+        check_below("is known to have one", off, stated);
+        check_below("that of the lines beside it", stated, 0.08);
+    }
+}
+
 int main(void)
 {
+    test_near_a_level();
     test_law();
     test_flight();
     test_variation();

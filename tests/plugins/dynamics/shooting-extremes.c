@@ -143,8 +143,12 @@ static void test_torque(void)
         }
     pair p = pair_trapezoid(2000);
     set_force(&p, 0);
-    scene c = {"no torque", 0.01, "always"};
-    check_scene(&p, &c);
+    stage *s = pair_open("dynamics/shooting", &p);
+    check_true("no torque", stage_run_wanted(s, "dte_rms mesh_force stable_motions") == FF_OK);
+    check_near("floats", stage_quality(s, "floating"), 0, 0);
+    check_near("rests", stage_scalar(s, "dte_rms") + stage_get(s, "mesh_force", NULL)[0], 0, 0);
+    check_near("no motion is isolated", stage_scalar(s, "stable_motions"), 0, 0);
+    stage_close(s);
 }
 
 /* Pairs in mesh: never two, hardly two, two or three; with jumps instead of ramps. */

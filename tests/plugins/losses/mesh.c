@@ -237,7 +237,7 @@ static void test_refusals(void)
     stage_give_series(s, "ehl.roll_angle", 1, e.roll);
     refuse(s, "ehl.power_loss");
     s = engagement_open(&e);
-    stage_give_scalar(s, "operating.torque", 0);
+    stage_give_scalar(s, "operating.torque", NAN);
     refuse(s, "operating.torque");
     s = engagement_open(&e);
     stage_give_scalar(s, "gear.face_width", NAN);

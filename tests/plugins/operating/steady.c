@@ -103,10 +103,16 @@ static void check_back(void)
     check_near("line force, N", stage_scalar(duty, "line_force"), -3547.26, 0.005 / 3547);
     check_near("mesh frequency", stage_scalar(duty, "mesh_frequency"), 1250, 1e-14);
     check_near("torque", stage_scalar(duty, "torque"), -250, 0);
+    check_near("no other reference", stage_scalar(duty, "reference_force"), 0, 0);
     stage_close(duty);
-    duty = open_duty("speed", "1500 rpm");
+    duty = open_duty("reference_torque", "30 N m");
+    stage_set_text(duty, "speed", "1500 rpm");
     stage_set_text(duty, "torque", "0 N m");
-    check_true("none", stage_ready(duty) == FF_INVALID && !strcmp(stage_why_item(duty), "torque"));
+    give_gear(duty);
+    check_true("none", stage_run(duty) == FF_OK);
+    check_near("no line force", stage_scalar(duty, "line_force"), 0, 0);
+    check_near("that of the reference", stage_scalar(duty, "reference_force"), 30 / base_radius[0],
+               1e-14);
     stage_close(duty);
 }
 

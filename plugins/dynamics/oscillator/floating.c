@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "motion.h"
+
+#include <math.h>
+
+/* Any place in the backlash is at rest, so that a place that is disturbed stays where it is put:
+   one multiplier is 1, the other that of the damper. */
+ff_status dynamics_motion_put_floating(const dynamics_inputs *inputs,
+                                       const dynamics_excitation *excitation, const ff_host *host)
+{
+    dynamics_excitation still = *excitation;
+    dynamics_motion motion = {.excitation = &still,
+                              .period = 1,
+                              .cycles = 1,
+                              .T = 2 * M_PI * inputs->natural_frequency / inputs->mesh_frequency};
+    const size_t cycles = 1 + dynamics_mesh_cycles_of_engagement(inputs);
+    const int damped = excitation->damping == DYNAMICS_DAMPING_ALWAYS;
+    if (!dynamics_record_init(&motion.record, &still, 1, cycles))
+        return FF_NOMEM;
+    for (size_t i = 0; i <= cycles; i++)
+        motion.record.samples[i] = (dynamics_sample){.phase = (double)i};
+    motion.record.count = cycles + 1;
+    motion.monodromy[0] = 1;
+    motion.monodromy[3] = damped ? exp(-2 * excitation->zeta * motion.T) : 1;
+    motion.clocks.parted = motion.T;
+    still.zeta = 0; /* the damper would follow the transmission error of flanks that do not touch */
+    still.film = NULL;
+    dynamics_floating_line(host);
+    ff_status status = dynamics_motion_put(&motion, inputs, host);
+    dynamics_record_free(&motion.record);
+    return status;
+}
