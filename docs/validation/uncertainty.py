@@ -29,7 +29,6 @@ SETTINGS = """    samples: 100
     ladder:
       inlet: {%s}
     pilot: 16
-    sensitivity: 128
 """
 INLET = "film.use: ehl/inlet-analysis, mesh.points: 30"
 LAWS = {"heat": ["film.thermal=full"], "Doolittle": ["viscosity.use=viscosity/doolittle-tait"], "Carreau": ["flow.use=rheology/carreau"]}
@@ -193,7 +192,7 @@ def judge_inputs(of, conditions, limits, columns, y):
     n, mean, deviation, ordered = len(y), statistics.mean(y), statistics.stdev(y), sorted(y)
     kurtosis = statistics.mean((one - mean) ** 4 for one in y) / deviation ** 4
     own = deviation * math.sqrt((kurtosis - 1) / 4 / n)  # delta method
-    row("inputs", f"±{100 * limits['input']:.2g} %", f"±{100 * deviation / mean:.3g} %", holds(of["deviation"], deviation, own))
+    row("inputs", f"±{100 * limits['input']:.2g} %", f"±{196 * deviation / mean:.3g} %", holds(of["deviation"], deviation, own))
     row("standard deviation (nm)", interval(of["deviation"], 1e9, ".3g"), f"{deviation * 1e9:.3g} ± {own * 1e9:.1g}",
         holds(of["deviation"], deviation, own))
     error = deviation / math.sqrt(n)

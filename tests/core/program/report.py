@@ -218,7 +218,6 @@ study:
     outputs: [wave.total]
     inputs: {wave.amplitude: {normal: [2 mm, 5 %]}}
     samples: 40
-    sensitivity: 10
     models: {longer: {wave.count: 12}}
 """)
         self.assertEqual(figures, 6)  # and the three of its samples

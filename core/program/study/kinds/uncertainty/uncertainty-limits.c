@@ -83,7 +83,11 @@ static void add_part(study_line *line, double part, double kelvin, const char *w
         study_line_add(line, "%s", missing);
 }
 
-/* Relative spread by the inputs with its 95 % interval; NaN if an end is not bounded. */
+/* Deviations on either side of the middle 95 % of a normal variate: the bar of the inputs is as
+   sure as that of the numbers. */
+static const double z95 = 1.959963984540054;
+
+/* Relative bar by the inputs with its 95 % interval; NaN if an end is not bounded. */
 typedef struct input_bar {
     double value, low, high;
 } input_bar;
@@ -91,10 +95,10 @@ typedef struct input_bar {
 static input_bar input_bar_of(const json_t *of)
 {
     const json_t *deviation = json_object_get(of, "deviation");
-    double mean = fabs(study_number_of(json_object_get(of, "mean"), "value"));
-    return (input_bar){study_number_of(deviation, "value") / mean,
-                       study_number_of(deviation, "low") / mean,
-                       study_number_of(deviation, "high") / mean};
+    double by = z95 / fabs(study_number_of(json_object_get(of, "mean"), "value"));
+    return (input_bar){study_number_of(deviation, "value") * by,
+                       study_number_of(deviation, "low") * by,
+                       study_number_of(deviation, "high") * by};
 }
 
 /* True if the samples leave open whether the spread by the inputs or another bar is larger. */

@@ -150,7 +150,7 @@ static bool read_patches(study_uncertainty *u, const ff_node *map, const char *k
 /* Level by level, so that a worker goes on with the models that it has. */
 static void submit_pilot(study_uncertainty *u)
 {
-    double *numbers = variates_draw(&u->inputs, u->seed, VARIATES_MAIN, u->pilot);
+    double *numbers = variates_draw(&u->inputs, u->seed, u->pilot);
     u->first_pilot = u->context->list.count;
     for (size_t k = 0; k < u->level_count; k++)
         for (size_t i = 0; i < u->pilot; i++)
@@ -160,39 +160,14 @@ static void submit_pilot(study_uncertainty *u)
     free(numbers);
 }
 
-/* Two samples A and B of the cheapest level, and for each group of inputs one of A with those of B:
-   Saltelli et al. 2010, Comput. Phys. Commun. 181, 259. */
-static void submit_sensitivity(study_uncertainty *u)
-{
-    const variates *v = &u->inputs;
-    double *a = variates_draw(v, u->seed, VARIATES_FIRST, u->sensitivity);
-    double *b = variates_draw(v, u->seed, VARIATES_SECOND, u->sensitivity);
-    double mixed[VARIATE_MOST];
-    u->first_sensitivity = u->context->list.count;
-    for (size_t block = 0; u->sensitivity && block < v->groups + 2; block++)
-        for (size_t i = 0; i < u->sensitivity; i++) {
-            for (size_t k = 0; k < v->count; k++) {
-                bool second = block == 1 || (block > 1 && v->all[k].group == block - 2);
-                mixed[k] = (second ? b : a)[i * v->count + k];
-            }
-            study_uncertainty_submit(u,
-                                     study_context_format(u->context, "share %zu, %s",
-                                                          block * u->sensitivity + i + 1,
-                                                          u->levels[u->level_count - 1].name),
-                                     mixed, &u->levels[u->level_count - 1], false);
-        }
-    free(a);
-    free(b);
-}
-
 /* Refuses too many cases before any is made; those that a ladder chooses are not known yet. */
 static bool check_count(const study_uncertainty *u)
 {
     size_t samples = u->level_count > 1 ? u->level_count * u->pilot : u->samples;
-    size_t count = 2 + u->model_count + samples + u->sensitivity * (u->inputs.groups + 2);
+    size_t count = 2 + u->model_count + (samples > u->sensitivity ? samples : u->sensitivity);
     return count <= STUDY_MOST_SUBMITTED ||
            refuse(u, ff_node_get(ff_node_get(u->context->root, "study"), u->context->name), NULL,
-                  "more than 1000000 cases: fewer samples, or a smaller sensitivity");
+                  "more than 1000000 cases: fewer samples");
 }
 
 static void submit_planned(study_uncertainty *u)
@@ -207,7 +182,6 @@ static void submit_planned(study_uncertainty *u)
     if (u->level_count == 1)
         u->pilot = 0;
     submit_pilot(u);
-    submit_sensitivity(u);
     u->first_main = u->context->list.count;
 }
 
@@ -235,6 +209,7 @@ void *study_uncertainty_read(study_context *context, const study_key_value *valu
         !read_percentiles(u, values[UNCERTAINTY_PERCENTILES].node) ||
         !read_conditions(u, values[UNCERTAINTY_CONDITIONS].node))
         return NULL;
+    study_uncertainty_shapes(u);
     find_path(paths, "sample");
     for (size_t i = 0; i < u->inputs.count; i++)
         for (size_t k = 0; k < u->inputs.all[i].path_count; k++)
@@ -252,9 +227,11 @@ void *study_uncertainty_read(study_context *context, const study_key_value *valu
     find_path(paths, "accuracy");
     context->paths = paths->names;
     context->path_count = paths->count;
-    context->further = u->level_count > 1
-                           ? "then the samples that the pilot shows to be worth their cost"
-                           : study_context_format(context, "then %zu samples", u->samples);
+    context->further =
+        u->level_count > 1
+            ? "then the samples that the pilot shows to be worth their cost"
+            : study_context_format(context, "then %zu samples",
+                                   u->samples > u->sensitivity ? u->samples : u->sensitivity);
     submit_planned(u);
     context->opened = 1; /* a sample may be one that cannot be, but not the medians */
     context->first_compared = u->first_model;

@@ -26,6 +26,7 @@ static estimate_samples samples_of(const study_uncertainty *u, size_t output)
     memory_arena *arena = &u->context->arena;
     estimate_samples s = {.levels = u->plan.levels,
                           .inputs = u->aim == ESTIMATE_MEAN ? u->inputs.count : 0,
+                          .input = u->shapes,
                           .numbers = u->numbers};
     for (size_t slot = 0; slot < s.levels; slot++) {
         double *values = memory_arena_alloc(arena, u->plan.count[slot] * sizeof *values);
@@ -71,30 +72,31 @@ static const char *name_of_group(const study_uncertainty *u, size_t group)
     return text;
 }
 
-/*
- * Shares of the inputs, from the last level. If r is the last level's correlation with the file's
- * model, this model is a multiple of it plus a rest. The roots of the inputs' parts of a variance
- * obey the triangle inequality, so a share of the file's model lies between (r sqrt(S) - e)^2 and
- * (r sqrt(S) + e)^2 with e = sqrt(1 - r^2).
- */
-static json_t *shares_of(const study_uncertainty *u, size_t output)
+static size_t last_level(const study_uncertainty *u)
 {
-    size_t groups = u->inputs.groups, n = u->sensitivity;
-    double *values = memory_alloc((groups + 2) * n * sizeof *values);
+    return u->plan.level[u->plan.levels - 1];
+}
+
+/*
+ * Shares of the inputs, from the level with the most samples. If r is its correlation with the
+ * file's model, this model is a multiple of it plus a rest. The roots of the inputs' parts of a
+ * variance obey the triangle inequality, so a share of the file's model lies between
+ * (r sqrt(S) - e)^2 and (r sqrt(S) + e)^2 with e = sqrt(1 - r^2).
+ */
+static json_t *shares_of(const study_uncertainty *u, const estimate_samples *s)
+{
     estimate first[VARIATE_MOST], total[VARIATE_MOST];
+    size_t last = s->levels - 1;
     json_t *shares = json_object();
-    for (size_t i = 0; i < (groups + 2) * n; i++)
-        values[i] = study_uncertainty_value(u, u->first_sensitivity + i, output);
-    n = estimate_sobol(values, values + n, values + 2 * n, n, groups, u->seed, first, total);
-    estimate_tell_shares(first, total, groups, n);
-    for (size_t g = 0; g < groups; g++) {
+    size_t n = estimate_shares(s->values[last], u->numbers, s->count[last], u->shapes,
+                               u->inputs.count, u->inputs.groups, first, total);
+    for (size_t g = 0; g < u->inputs.groups; g++) {
         json_t *share =
             json_pack("{s:o, s:o}", "first", describe(first[g]), "total", describe(total[g]));
         if (!isfinite(first[g].value))
             json_object_set_new(share, "untold", json_sprintf("%zu samples do not tell", n));
         json_object_set_new(shares, name_of_group(u, g), share);
     }
-    free(values);
     return shares;
 }
 
@@ -181,8 +183,7 @@ static json_t *output_of(const study_uncertainty *u, size_t output)
                   "percentiles", percentiles, "histogram", histogram_of(&s), "failed",
                   (json_int_t)failed, "correlations", correlations_of(u, output));
     json_object_set_new(of, "words", words_of(u, &s));
-    if (u->sensitivity)
-        json_object_set_new(of, "shares", shares_of(u, output));
+    json_object_set_new(of, "shares", shares_of(u, &s));
     json_object_set_new(of, "limits", study_uncertainty_limits(u, output, of));
     return of;
 }
@@ -240,11 +241,10 @@ static json_t *gain_of(const study_uncertainty *u, const json_t *outputs)
             used = used || u->plan.level[slot] == k;
         unused += used ? 0 : (double)u->pilot * u->cost[k];
     }
-    for (size_t i = u->first_pilot; i < u->context->list.count; i++)
-        if (i < u->first_sensitivity || i >= u->first_main) {
-            double processor = study_outcome_of(u->context, i)->processor;
-            spent += isfinite(processor) ? processor : 0;
-        }
+    for (size_t i = u->first_pilot; i < u->context->list.count; i++) {
+        double processor = study_outcome_of(u->context, i)->processor;
+        spent += isfinite(processor) ? processor : 0;
+    }
     return json_pack("{s:f, s:o, s:o, s:f}", "predicted",
                      (double)u->samples / (u->plan.cost + unused), "found",
                      study_json_real(plain * u->seconds[0] / spent), "plain",
@@ -266,12 +266,11 @@ json_t *study_uncertainty_result(const study_uncertainty *u)
     json_t *outputs = json_object();
     for (size_t i = 0; i < u->context->output_count; i++)
         json_object_set_new(outputs, u->context->outputs[i]->text, output_of(u, i));
-    json_t *result = json_pack("{s:I, s:o, s:o, s:o, s:o}", "seed", (json_int_t)u->seed, "inputs",
-                               inputs_of(u), "levels", levels_of(u), "outputs", outputs,
-                               "conditions", conditions_of(u, outputs));
+    json_t *result =
+        json_pack("{s:I, s:o, s:o, s:o, s:o, s:s}", "seed", (json_int_t)u->seed, "inputs",
+                  inputs_of(u), "levels", levels_of(u), "outputs", outputs, "conditions",
+                  conditions_of(u, outputs), "shares_by", u->levels[last_level(u)].name);
     if (u->level_count > 1)
         json_object_set_new(result, "gain", gain_of(u, outputs));
-    if (u->sensitivity)
-        json_object_set_new(result, "shares_by", json_string(u->levels[u->level_count - 1].name));
     return result;
 }

@@ -24,6 +24,35 @@ size_t study_uncertainty_words(const variate *v, const char *words[UNCERTAINTY_M
     return count;
 }
 
+/* How an input follows from its number. One that is correlated with others follows from theirs,
+   too. */
+static estimate_input shape_of(const study_uncertainty *u, size_t input)
+{
+    const variate *v = &u->inputs.all[input];
+    const char *words[UNCERTAINTY_MOST_WORDS];
+    estimate_input shape = {.group = v->group, .steps = v->sample_count};
+    size_t members = 0, count = study_uncertainty_words(v, words);
+    for (size_t k = 0; k < u->inputs.count; k++)
+        members += u->inputs.all[k].group == v->group;
+    if (members > 1 || (v->kind == VARIATE_SAMPLES && count == 0))
+        return shape;
+    shape.shape = v->kind == VARIATE_UNIFORM   ? ESTIMATE_EVEN
+                  : v->kind == VARIATE_SAMPLES ? ESTIMATE_STEPS
+                                               : ESTIMATE_NORMAL;
+    size_t *step = memory_arena_alloc(&u->context->arena, (v->sample_count + 1) * sizeof *step);
+    for (size_t i = 0; i < v->sample_count; i++)
+        while (step[i] < count && strcmp(words[step[i]], v->samples[i]) != 0)
+            step[i]++;
+    shape.step = step;
+    return shape;
+}
+
+void study_uncertainty_shapes(study_uncertainty *u)
+{
+    for (size_t k = 0; k < u->inputs.count; k++)
+        u->shapes[k] = shape_of(u, k);
+}
+
 size_t study_uncertainty_of_word(const study_uncertainty *u, const estimate_samples *all,
                                  size_t input, const char *word, estimate_samples *own)
 {

@@ -66,8 +66,9 @@ static const ff_param keys[STUDY_UNCERTAINTY_KEYS] = {
                                  .preset = "0",
                                  .min = 0,
                                  .max = 100000,
-                                 .doc = "n: Sobol indices of the inputs from n (inputs + 2) cases "
-                                        "of the last level"},
+                                 .doc = "at least so many samples of the cheapest level that "
+                                        "is used: a surface through them tells what each input "
+                                        "makes of the variance"},
     [UNCERTAINTY_MODELS] = {.name = "models",
                             .doc = "map from names to other models or settings, tried at the "
                                    "medians: {thermal: {film.thermal: full}}"},
@@ -124,9 +125,12 @@ static void find_costs(study_uncertainty *u)
 static void plan_samples(study_uncertainty *u)
 {
     double *values = memory_alloc(u->level_count * u->pilot * sizeof *values);
-    double *numbers = variates_draw(&u->inputs, u->seed, VARIATES_MAIN, u->pilot);
-    estimate_pilot pilot = {
-        .levels = u->level_count, .count = u->pilot, .inputs = u->inputs.count, .numbers = numbers};
+    double *numbers = variates_draw(&u->inputs, u->seed, u->pilot);
+    estimate_pilot pilot = {.levels = u->level_count,
+                            .count = u->pilot,
+                            .inputs = u->inputs.count,
+                            .input = u->shapes,
+                            .numbers = numbers};
     for (size_t k = 0; k < u->level_count; k++) {
         pilot.values[k] = values + k * u->pilot;
         for (size_t i = 0; i < u->pilot; i++)
@@ -139,10 +143,19 @@ static void plan_samples(study_uncertainty *u)
     free(numbers);
 }
 
+static void add_for_shares(study_uncertainty *u)
+{
+    size_t last = u->plan.levels - 1, *count = &u->plan.count[last];
+    if (*count >= u->sensitivity)
+        return;
+    u->plan.cost += (double)(u->sensitivity - *count) * u->cost[u->plan.level[last]];
+    *count = u->sensitivity;
+}
+
 static void submit_main(study_uncertainty *u)
 {
     size_t last = u->plan.count[u->plan.levels - 1];
-    double *numbers = variates_draw(&u->inputs, u->seed, VARIATES_MAIN, last);
+    double *numbers = variates_draw(&u->inputs, u->seed, last);
     u->numbers =
         memory_arena_alloc(&u->context->arena, (last * u->inputs.count + 1) * sizeof *numbers);
     memcpy(u->numbers, numbers, last * u->inputs.count * sizeof *numbers);
@@ -183,6 +196,7 @@ static bool run_cases(void *study)
         return false;
     if (u->level_count > 1)
         plan_samples(u);
+    add_for_shares(u);
     submit_main(u);
     return study_run_submitted(context, u->first_main, context->list.count);
 }

@@ -3,7 +3,7 @@
  * Effect of uncertain inputs on the outputs, beside that of the grid and the choice of models.
  * First the answer at the medians, with its error bar and by other models; then a pilot of samples
  * on all levels of a ladder of cheaper models; then as many more samples of each level as the pilot
- * shows to be worth their cost; and samples of the cheapest level for the share of each input.
+ * shows to be worth their cost. A surface through the samples tells the share of each input.
  */
 #ifndef STUDY_UNCERTAINTY_H
 #define STUDY_UNCERTAINTY_H
@@ -13,6 +13,8 @@
 #include "variate.h"
 
 #include "estimates/estimate.h"
+
+_Static_assert((int)VARIATE_MOST <= (int)ESTIMATE_MOST_INPUTS, "a surface takes all inputs");
 
 enum { UNCERTAINTY_MOST_MODELS = 16, UNCERTAINTY_MOST_SHARES = 16, UNCERTAINTY_TEXT = 64 };
 
@@ -53,8 +55,9 @@ typedef struct uncertainty_condition {
 typedef struct study_uncertainty {
     study_context *context;
     variates inputs;
-    size_t samples, sensitivity;
-    size_t pilot; /* number of pilot samples; 0 without a ladder */
+    size_t samples;
+    size_t sensitivity; /* least number of samples of the last level of the plan */
+    size_t pilot;       /* number of pilot samples; 0 without a ladder */
     uint64_t seed;
     estimate_aim aim;
     double shares[UNCERTAINTY_MOST_SHARES]; /* of the percentiles */
@@ -66,9 +69,10 @@ typedef struct study_uncertainty {
     size_t first_patch; /* the paths before it are those of the inputs */
 
     /* Numbers of the first cases: nominal, with its error bar, by each model; pilot sample i on
-       level k; the further samples of the plan; those of the cheapest level. */
-    size_t nominal, measured, first_model, first_pilot, first_sensitivity, first_main;
+       level k; the further samples of the plan. */
+    size_t nominal, measured, first_model, first_pilot, first_main;
     estimate_plan plan;
+    estimate_input shapes[VARIATE_MOST];
     double *numbers;                      /* standard normal numbers from which the samples are
                                              made */
     double cost[ESTIMATE_MOST_LEVELS];    /* relative to a case of level 0 */
@@ -95,6 +99,8 @@ json_t *study_uncertainty_result(const study_uncertainty *u);
 /* uncertainty-words.c: lists the words of an input; 0 if it has more than this number. */
 enum { UNCERTAINTY_MOST_WORDS = 8 };
 size_t study_uncertainty_words(const variate *v, const char *words[UNCERTAINTY_MOST_WORDS]);
+/* Fills how each input follows from its number. */
+void study_uncertainty_shapes(study_uncertainty *u);
 /* Sets *own to the samples in which the input is that word; of level 0 alone if the counts of the
    levels leave too few. Returns the number of samples of the file's model, or 0 if they are too few
    for a mean with its spread. */

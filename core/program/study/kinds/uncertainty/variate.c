@@ -389,13 +389,13 @@ bool variates_read(variates *v, study_context *context, const ff_node *inputs,
     return read_correlations(v, context, correlations);
 }
 
-double *variates_draw(const variates *v, uint64_t seed, int stream, size_t count)
+double *variates_draw(const variates *v, uint64_t seed, size_t count)
 {
     double *numbers = memory_alloc((count * v->count + 1) * sizeof *numbers);
     gsl_rng *rng = memory_require(gsl_rng_alloc(gsl_rng_mt19937));
     /* The generator takes a seed of 32 bits. Neighbouring seeds give sufficiently different first
        numbers, since a seed is spread over the whole state. */
-    gsl_rng_set(rng, (unsigned long)((8 * seed + (uint64_t)stream + 1) & 0xffffffff));
+    gsl_rng_set(rng, (unsigned long)((8 * seed + 2) & 0xffffffff));
     for (size_t i = 0; i < count * v->count; i++) {
         double u = gsl_rng_uniform_pos(rng);
         numbers[i] = gsl_cdf_ugaussian_Pinv(u);

@@ -39,12 +39,9 @@ typedef struct variates {
 bool variates_read(variates *v, study_context *context, const ff_node *inputs,
                    const ff_node *correlations);
 
-/* Streams of draws that are independent of each other. */
-enum { VARIATES_MAIN = 1, VARIATES_FIRST, VARIATES_SECOND };
-
 /* Draws `count` sets of one standard normal number for each input, independent of each other. A
    longer list begins with the same numbers. To be freed. */
-double *variates_draw(const variates *v, uint64_t seed, int stream, size_t count);
+double *variates_draw(const variates *v, uint64_t seed, size_t count);
 
 /* Value of input k in a file's notation, from such numbers; NULL stands for the medians. */
 const char *variates_value(const variates *v, study_context *context, size_t k,

@@ -14,7 +14,7 @@
    needs more samples for its variance to be known, or if the pilot has more, the other levels are
    allotted the variance that remains. False if there would be too many. */
 static bool count_samples(const double *d, const double *cost, size_t levels, double plain,
-                          double least, double *count)
+                          double least, double block, double *count)
 {
     double left = 1 / plain, sum = 0;
     for (size_t i = 0; i < levels; i++)
@@ -23,7 +23,7 @@ static bool count_samples(const double *d, const double *cost, size_t levels, do
     left -= d[0] / count[0];
     sum -= sqrt(d[0] * cost[0]);
     for (size_t i = 1; i < levels; i++) {
-        count[i] = fmax(ceil(sqrt(d[i] / cost[i]) * sum / left), count[i - 1] + ESTIMATE_LEAST);
+        count[i] = fmax(ceil(sqrt(d[i] / cost[i]) * sum / left), count[i - 1] + block);
         if (!(left > 0) || count[i] > 1e6)
             return false;
     }
@@ -38,17 +38,34 @@ static double cost_of(const double *count, const double *cost, size_t levels)
     return sum;
 }
 
-/* Shares of the variance by level. For a mean, by falling correlation, d_i = rho_i^2 - rho_(i+1)^2;
-   the last level has what the inputs do not explain. For a probability near 1/2 with one cheap
+/* The share of the variance of a level, less its line through the next one, that the inputs do not
+   explain. */
+static double unexplained(const estimate_pilot *pilot, size_t level, size_t next)
+{
+    double *rest = memory_alloc(2 * (pilot->count + 1) * sizeof *rest);
+    const double *y = pilot->values[level], *z = next ? pilot->values[next] : y;
+    estimate_moments m = estimate_pairs(y, z, pilot->count, NULL, 0);
+    for (size_t i = 0; i < pilot->count; i++)
+        rest[i] = y[i] - (next && m.bb > 0 ? m.ab / m.bb * z[i] : 0);
+    double share = estimate_explained(rest, pilot->numbers, pilot->count, pilot->input,
+                                      pilot->inputs, rest + pilot->count)
+                       .left;
+    free(rest);
+    return share;
+}
+
+/* Shares of the variance by level. For a mean, by falling correlation, d_i = rho_i^2 - rho_(i+1)^2,
+   of which the inputs explain a part. For a probability near 1/2 with one cheap
    level: how often that level lies on the other side, acos(rho) / pi for normal variates, over p (1
    - p) = 1/4. */
-static void share_variance(const double *rho2, size_t levels, double unexplained, estimate_aim aim,
-                           double *d)
+static void share_variance(const estimate_pilot *pilot, const size_t *used, const double *rho2,
+                           size_t levels, estimate_aim aim, double *d)
 {
-    for (size_t i = 0; i < levels; i++)
+    for (size_t i = 0; i < levels; i++) {
         d[i] = fmax(rho2[i] - (i + 1 < levels ? rho2[i + 1] : 0), 0);
-    if (aim == ESTIMATE_MEAN)
-        d[levels - 1] *= unexplained;
+        if (aim == ESTIMATE_MEAN)
+            d[i] *= unexplained(pilot, used[i], i + 1 < levels ? used[i + 1] : 0);
+    }
     if (aim == ESTIMATE_DISTRIBUTION && levels == 2) {
         d[0] = 4 * acos(sqrt(rho2[1])) / acos(-1);
         d[1] = 1;
@@ -57,12 +74,15 @@ static void share_variance(const double *rho2, size_t levels, double unexplained
 
 /* Tries the levels that the bits of `set` name. */
 static void try_levels(estimate_plan *best, unsigned set, const estimate_pilot *pilot,
-                       const double *cost, const double *unexplained, double plain,
-                       estimate_aim aim)
+                       const double *cost, double plain, estimate_aim aim)
 {
     double rho2[ESTIMATE_MOST_LEVELS] = {1}, w[ESTIMATE_MOST_LEVELS] = {1};
     double count[ESTIMATE_MOST_LEVELS], d[ESTIMATE_MOST_LEVELS] = {0};
     size_t used[ESTIMATE_MOST_LEVELS] = {0}, n = 1;
+    /* samples that are on fewer levels have a surface of their own */
+    double block =
+        fmax(ESTIMATE_LEAST,
+             aim == ESTIMATE_MEAN ? ESTIMATE_SAMPLES_EACH * (double)(pilot->inputs + 1) : 0);
     for (size_t k = 1; k < pilot->levels; k++) {
         double r2 = best->correlation[k] * best->correlation[k];
         size_t at = n;
@@ -78,9 +98,9 @@ static void try_levels(estimate_plan *best, unsigned set, const estimate_pilot *
         used[at] = k;
         n++;
     }
-    share_variance(rho2, n, unexplained[used[n - 1]], aim, d);
+    share_variance(pilot, used, rho2, n, aim, d);
     if ((aim == ESTIMATE_DISTRIBUTION && n > 2) ||
-        !count_samples(d, w, n, plain, fmax(ESTIMATE_LEAST, (double)pilot->count), count) ||
+        !count_samples(d, w, n, plain, fmax(ESTIMATE_LEAST, (double)pilot->count), block, count) ||
         cost_of(count, w, n) >= best->cost)
         return;
     best->cost = cost_of(count, w, n);
@@ -96,18 +116,11 @@ estimate_plan estimate_allocate(const estimate_pilot *pilot, const double *cost,
 {
     size_t most = plain > pilot->count ? plain : pilot->count;
     estimate_plan best = {.levels = 1, .count = {most}, .correlation = {1}, .cost = (double)most};
-    double unexplained[ESTIMATE_MOST_LEVELS];
-    double *part = memory_alloc((pilot->count + 1) * sizeof *part);
-    for (size_t k = 0; k < pilot->levels; k++) {
-        unexplained[k] =
-            estimate_explained(pilot->values[k], pilot->numbers, pilot->count, pilot->inputs, part);
-        if (k > 0)
-            best.correlation[k] =
-                estimate_correlation(pilot->values[0], pilot->values[k], pilot->count);
-    }
+    for (size_t k = 1; k < pilot->levels; k++)
+        best.correlation[k] =
+            estimate_correlation(pilot->values[0], pilot->values[k], pilot->count);
     for (unsigned set = 0; set < 1u << pilot->levels; set += 2)
-        try_levels(&best, set, pilot, cost, unexplained, (double)plain, aim);
-    free(part);
+        try_levels(&best, set, pilot, cost, (double)plain, aim);
     return best;
 }
 
@@ -128,8 +141,7 @@ static size_t begin_of(const estimate_samples *s, size_t block)
 typedef struct parts {
     double weight[ESTIMATE_MOST_LEVELS]; /* of all samples but the first */
     double *own;                         /* weights of the first samples, level by level */
-    double *value, *explained;           /* g of the last level, and the part that the inputs
-                                            explain */
+    double *value;                       /* what each sample contributes */
 } parts;
 
 /*
@@ -160,62 +172,69 @@ static void find_weights(const estimate_samples *s, double (*g)(double, double),
 
 static parts find_parts(const estimate_samples *s, double (*g)(double, double), double about)
 {
-    size_t last = s->levels - 1, count = s->count[last];
+    size_t count = s->count[s->levels - 1];
     parts p = {.own = memory_alloc((s->levels * s->count[0] + 1) * sizeof *p.own),
-               .value = memory_alloc((count + 1) * sizeof *p.value),
-               .explained = memory_alloc((count + 1) * sizeof *p.explained)};
+               .value = memory_alloc((count + 1) * sizeof *p.value)};
     find_weights(s, g, about, &p);
-    for (size_t i = 0; i < count; i++) {
-        size_t block = 0;
-        while (i >= s->count[block])
-            block++;
-        p.value[i] = is_whole(s, block, i) ? g(s->values[last][i], about) : (double)NAN;
-    }
-    estimate_explained(p.value, s->numbers, count, s->inputs, p.explained);
     return p;
 }
 
 /* Degrees of freedom with which n samples tell their variance: 2 sigma^4 / var(s^2), with var(s^2)
-   = sigma^4 (2 / (n - 1) + excess / n) for their kurtosis. */
-static double freedom_of(double n, double squares, double fourths)
+   = sigma^4 (2 / (n - 1) + excess / n) for their kurtosis. The terms of a surface take theirs. */
+static double freedom_of(double n, double terms, double squares, double fourths)
 {
     double excess = squares > 0 ? n * fourths / (squares * squares) - 3 : 0;
-    return 1 / (1 / (n - 1) + fmax(excess, 0) / (2 * n));
+    return 1 / (1 / (n - 1 - terms) + fmax(excess, 0) / (2 * n));
 }
 
 /* Mean of a block's contributions, NaN for failed samples, with its variance and the degrees of
    freedom of this variance. */
-static double block_sum(const double *of, size_t count, double *variance, double *freedom)
+static double block_sum(const double *of, size_t count, size_t terms, double *variance,
+                        double *freedom)
 {
     estimate_moments m = estimate_pairs(of, of, count, NULL, 0);
     double fourths = 0;
     for (size_t i = 0; i < count; i++)
         fourths += isfinite(of[i]) ? pow(of[i] - m.mean_a, 4) : 0;
     *variance = m.count * m.aa / (m.count - 1);
-    *freedom = freedom_of(m.count, m.aa, fourths);
+    *freedom = freedom_of(m.count, (double)terms, m.aa, fourths);
     return m.count * m.mean_a;
 }
 
-/* Overwrites the values of the last level by each sample's contribution. */
+/* Fills each sample's contribution; NaN where a level of it failed. */
 static void contribute(const estimate_samples *s, double (*g)(double, double), double about,
                        parts *p, const double *m)
 {
-    size_t last = s->levels - 1;
     for (size_t block = 0; block < s->levels; block++)
         for (size_t i = begin_of(s, block); i < s->count[block]; i++) {
-            double part = 0, weight = 0;
+            double part = is_whole(s, block, i) ? 0 : (double)NAN;
             for (size_t k = block; k < s->levels; k++) {
                 double share = 1 / m[k] - (k > block ? 1 / m[k - 1] : 0);
-                weight = block ? p->weight[k] : p->own[k * s->count[0] + i];
+                double weight = block ? p->weight[k] : p->own[k * s->count[0] + i];
                 part += weight * share * g(s->values[k][i], about);
             }
-            p->value[i] = part - weight * p->explained[i] / m[last];
+            p->value[i] = part;
         }
+}
+
+/* Takes away what a surface over the inputs explains of a block's contributions, whose mean is 0.
+ */
+static estimate_explanation explain(const estimate_samples *s, double *value, size_t begin,
+                                    size_t count)
+{
+    double *part = memory_alloc((count + 1) * sizeof *part);
+    estimate_explanation found =
+        estimate_explained(value + begin, s->numbers + (s->inputs ? begin * s->inputs : 0), count,
+                           s->input, s->inputs, part);
+    for (size_t i = 0; i < count; i++)
+        value[begin + i] -= part[i];
+    free(part);
+    return found;
 }
 
 /*
  * Estimates the mean of g. It is a sum over samples, each of which contributes what it has of
- *   mean_0(m_0) + sum_k weight_k (mean_k(m_k) - mean_k(m_(k-1))) - weight_last mean(explained).
+ *   mean_0(m_0) + sum_k weight_k (mean_k(m_k) - mean_k(m_(k-1))).
  * Samples of a block, which are on the same levels, contribute alike and independently, so that
  * the variance of the sum is found from the spread within the blocks, with the degrees of freedom
  * of Welch and Satterthwaite.
@@ -230,17 +249,17 @@ static estimate mean_of(const estimate_samples *s, double (*g)(double, double), 
                 m[k]++;
     contribute(s, g, about, &p, m);
     for (size_t block = 0; block < s->levels; block++) {
-        size_t begin = begin_of(s, block);
+        size_t begin = begin_of(s, block), count = s->count[block] - begin;
+        estimate_explanation by = explain(s, p.value, begin, count);
         double own, freedom;
-        sum += block_sum(p.value + begin, s->count[block] - begin, &own, &freedom);
+        sum += block_sum(p.value + begin, count, by.terms, &own, &freedom);
         if (!isfinite(own))
             continue; /* a single sample tells no spread */
-        variance += own;
-        fourth += own * own / freedom;
+        variance += own * by.growth;
+        fourth += pow(own * by.growth, 2) / freedom;
     }
     free(p.own);
     free(p.value);
-    free(p.explained);
     double t = fourth > 0 ? gsl_cdf_tdist_Pinv(0.975, fmax(variance * variance / fourth, 1)) : 0;
     double error = m[0] > 1 ? sqrt(variance) : (double)NAN;
     double value = m[0] > 0 ? sum : (double)NAN;

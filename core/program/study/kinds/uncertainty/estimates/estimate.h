@@ -12,12 +12,30 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { ESTIMATE_MOST_LEVELS = 6, ESTIMATE_LEAST = 8 /* samples that a variance is taken from */ };
+enum {
+    ESTIMATE_MOST_LEVELS = 6,
+    ESTIMATE_MOST_INPUTS = 32,
+    ESTIMATE_SAMPLES_EACH = 3, /* for each term of a surface: with fewer, the errors of the terms
+                                  outweigh their gain */
+    ESTIMATE_LEAST = 8         /* samples that a variance is taken from */
+};
 
 typedef struct estimate {
     double value, low, high; /* an infinite end is not bounded by the samples; NaN: not known */
     double error;            /* standard error of a mean */
 } estimate;
+
+/* What a standard normal number becomes in an input: normal or nearly so, evenly spread, or one of
+   a few values. */
+typedef enum { ESTIMATE_NORMAL, ESTIMATE_EVEN, ESTIMATE_STEPS } estimate_shape;
+
+/* An input for a surface. Groups of inputs are independent of each other. */
+typedef struct estimate_input {
+    size_t group;
+    estimate_shape shape;
+    size_t steps;       /* equal shares of probability, each with one value */
+    const size_t *step; /* the number of that value; unused by other shapes */
+} estimate_input;
 
 /* Answers of each level for the same inputs. Level k has samples 0 to count[k] - 1, and the counts
    rise from level to level. NaN marks a failed case; its sample is left out on all levels. */
@@ -28,6 +46,7 @@ typedef struct estimate_samples {
     /* Independent standard normal numbers from which the samples of the last level were made: this
        many for each sample. The mean uses them as control variates; 0: it does not. */
     size_t inputs;
+    const estimate_input *input;
     const double *numbers;
 } estimate_samples;
 
@@ -36,6 +55,7 @@ typedef struct estimate_pilot {
     size_t levels, count;
     const double *values[ESTIMATE_MOST_LEVELS];
     size_t inputs;
+    const estimate_input *input;
     const double *numbers;
 } estimate_pilot;
 
@@ -72,13 +92,20 @@ typedef enum { ESTIMATE_MEAN, ESTIMATE_DISTRIBUTION } estimate_aim;
 estimate_plan estimate_allocate(const estimate_pilot *pilot, const double *cost, size_t plain,
                                 estimate_aim aim);
 
-/* estimate-inputs.c: regression of values on the numbers from which they were made, and on their
-   squares if there are enough samples. Writes to `part` the part of each value that its numbers
-   explain, by a regression on the other values; its mean is 0. It is 0 if there are too few
-   samples, and NaN where the value is. Returns the share of the variance that the numbers do not
-   explain. */
-double estimate_explained(const double *values, const double *numbers, size_t count, size_t inputs,
-                          double *part);
+/* What a surface does for a mean of values from which their parts are taken away. */
+typedef struct estimate_explanation {
+    double left; /* share of the variance of the mean that is left */
+    double
+        growth; /* variance of the mean over that of independent rests, as the surface errs, too */
+    size_t terms; /* degrees of freedom that it takes; 0: there is none */
+} estimate_explanation;
+
+/* estimate-surface.c: writes to `part` the part of each value that a surface over the numbers from
+   which they were made explains. Its mean is 0. It is 0 if there are too few samples, and NaN where
+   the value is. */
+estimate_explanation estimate_explained(const double *values, const double *numbers, size_t count,
+                                        const estimate_input *inputs, size_t input_count,
+                                        double *part);
 
 estimate estimate_mean(const estimate_samples *s);
 estimate estimate_deviation(const estimate_samples *s); /* the standard deviation */
@@ -90,16 +117,12 @@ size_t estimate_values(const estimate_samples *s, double *values);
 /* The value that a given share (0 to 1) of the values does not exceed. */
 estimate estimate_percentile(const estimate_samples *s, double share);
 
-/* First and total Sobol index of each group of inputs; groups are independent of each other. `a`
-   and `b` hold values for independent inputs. c[g * count + i] is the value for the inputs of a[i]
-   with those of group g from b[i]. `seed` is for the resampling that gives the intervals. Rows with
-   a NaN are left out. Returns the number of rows used. */
-size_t estimate_sobol(const double *a, const double *b, const double *c, size_t count,
-                      size_t groups, uint64_t seed, estimate *first, estimate *total);
-/* Clips indices from `count` rows to their possible range: a total index to 0 and 1, a first index
-   to 0 and its total. A first index below 1.96 / sqrt(count) becomes NaN, that is, not told: the
-   correlation of independent rows, with variance 1 / count, exceeds this one time in 20. All become
-   NaN if their sum exceeds 1 by as much. A first index with total 0 is 0. */
-void estimate_tell_shares(estimate *first, estimate *total, size_t groups, size_t count);
+/* First and total index of each group of inputs (Sobol), from a surface through
+   values and the standard normal numbers from which they were made, `input_count` for each. Their
+   intervals hold what the surface lacks. All are NaN if the samples tell no surface. Returns the
+   number of samples used. */
+size_t estimate_shares(const double *values, const double *numbers, size_t count,
+                       const estimate_input *inputs, size_t input_count, size_t groups,
+                       estimate *first, estimate *total);
 
 #endif
