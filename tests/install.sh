@@ -105,8 +105,8 @@ cat doc/flankfilm/reference/*/*.md | sed 's/\\|//g' | awk '
     /^\|/ { n = gsub(/\|/, "|"); if (cells && n != cells) { print; bad = 1 } cells = n; next }
     { cells = 0 }
     END { exit bad }'
-# each file that the page for authors names is there
-grep -oE '`(plugins|tests|docs|include|flankfilm)/[a-z0-9/_-]*\.?[a-z]*`' doc/flankfilm/plugins.md | tr -d '`' | sort -u >"$lab/named"
+# each file that the pages for authors name is there
+grep -ohE '`(plugins|tests|docs|include|flankfilm)/[a-z0-9/_-]*\.?[a-z0-9]*`' doc/flankfilm/plugins.md doc/flankfilm/first-plugin.md | tr -d '`' | sort -u >"$lab/named"
 [ "$(wc -l <"$lab/named")" -ge 20 ]
 while read -r named; do
     case $named in
@@ -115,6 +115,6 @@ while read -r named; do
     flankfilm/*) [ -e "../include/$named" ] ;;
     plugins/toy/wide.so) ;; # made there by a command
     *) [ -e "doc/flankfilm/source/$named" ] ;;
-    esac || { echo "plugins.md names $named, which is not installed" && exit 1; }
+    esac || { echo "a page for authors names $named, which is not installed" && exit 1; }
 done <"$lab/named"
 say "examples, schema and pages" "$count examples"

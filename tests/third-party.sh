@@ -1,7 +1,7 @@
 #!/bin/sh
 # People who have only the installed program: what `flankfilm new` writes for a law and for a stage (for every
-# kind: tests/core/program/new-models.sh), and plugins in C, C++, Fortran and Rust, are built by meson, pass
-# `verify` and serve a pipeline.
+# kind: tests/core/program/new-models.sh), and an example of every kind, in C, C++, Fortran and Rust, are built
+# by meson, pass `verify` and serve a pipeline.
 # third-party.sh BUILD_DIRECTORY SOURCE_ROOT PREFIX
 set -eu
 build=$1 source=$2 prefix=$3
@@ -41,25 +41,32 @@ works() {
     done
 }
 
-mkdir -p "$lab/own/subprojects" "$lab/labs/subprojects"
+mkdir -p "$lab/own/subprojects"
 for kind in density stiffness; do
     flankfilm new "$kind/own-$kind" -o "$lab/own/subprojects/$kind" >/dev/null
 done
 works "$lab/own"
 
-cp -r "$source/tests/third-party/yasutomi" "$lab/labs/subprojects/viscosity"
-cp -r "$source/tests/third-party/kuang-yang" "$lab/labs/subprojects/stiffness"
-cp -r "$source/tests/third-party/penalty" "$lab/labs/subprojects/discretisation"
+# a folder is called as its kind, so that a second example of a kind goes into a second project
+for example in "$source"/tests/third-party/*; do
+    kind=$(sed -n "s|.*plugindir') / '\(.*\)').*|\1|p" "$example/meson.build")
+    project=$lab/labs
+    [ ! -e "$project/subprojects/$kind" ] || project=$lab/more
+    mkdir -p "$project/subprojects"
+    cp -r "$example" "$project/subprojects/$kind"
+done
 works "$lab/labs"
-mkdir -p "$lab/more/subprojects" # further laws of the same kinds, and a loss
-cp -r "$source/tests/third-party/sliding" "$lab/more/subprojects/losses"
-cp -r "$source/tests/third-party/mcewen" "$lab/more/subprojects/viscosity"
-cp -r "$source/tests/third-party/murnaghan" "$lab/more/subprojects/density"
 works "$lab/more"
+
+# there is one of each kind that has a template
+for template in "$(pkg-config --variable=plugindir flankfilm)"/*.template.c; do
+    kind=$(basename "$template" .template.c)
+    [ -e "$lab/labs/subprojects/$kind" ] || { echo "tests/third-party has no $kind"; exit 1; }
+done
 
 # 5P4E is the same oil by the law from outside and by the card, whose laws share eta0 and alpha*
 moes() {
-    flankfilm run "$lab/labs/subprojects/viscosity/yasutomi.yaml" --plugin-path "$lab/labs/build/subprojects" \
+    flankfilm run "$lab/more/subprojects/viscosity/yasutomi.yaml" --plugin-path "$lab/more/build/subprojects" \
         --set 'outputs=[discs.moes_M, discs.moes_L]' --json "$@" | grep -o '"data":\[[^]]*\]' | tr -dc '0-9.\n'
 }
 card="$root/share/flankfilm/configs/lubricants/5p4e.yaml"
@@ -71,7 +78,7 @@ paste "$lab/yasutomi" "$lab/barus" | awk '{ d = $1/$2 - 1; bad += d*d > 1e-6 } E
 
 # a law from outside takes part in a choice, and stands as the reference where the file says so
 barus=$(echo "$constants" | sed 's|viscosity\.|viscosity.with.viscosity/barus.|')
-flankfilm run "$lab/labs/subprojects/viscosity/yasutomi.yaml" --plugin-path "$lab/labs/build/subprojects" --json \
+flankfilm run "$lab/more/subprojects/viscosity/yasutomi.yaml" --plugin-path "$lab/more/build/subprojects" --json \
     --set viscosity.use=viscosity/auto --set viscosity.reference=viscosity/yasutomi --set accuracy='20 %' \
     --set "$barus" --set "viscosity.with.viscosity/barus.eta0=16.4 mPa s" --set 'outputs=[film.h_min]' >"$lab/choice"
 grep -q '"model":"viscosity/barus","taken":true' "$lab/choice"

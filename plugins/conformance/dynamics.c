@@ -34,6 +34,7 @@ static void give_pair(const ff_fixture *fixture, const test_pair *s)
     double phase[PHASES], k[PHASES], e[PHASES], loaded[PHASES], roll[STATIONS], force[STATIONS],
         share[STATIONS];
     const double teeth[] = {50, 50}, masses[] = {2, 2}, radius[] = {0.0704769, 0.0704769};
+    const double inertia = 2 * s->mass * radius[0] * radius[0]; /* of each gear */
     for (int i = 0; i < PHASES; i++) {
         phase[i] = (double)i / (PHASES - 1);
         k[i] = s->stiffness;
@@ -51,6 +52,7 @@ static void give_pair(const ff_fixture *fixture, const test_pair *s)
     conformance_give_series(fixture, "gear.base_radius", 2, radius);
     conformance_give_scalar(fixture, "gear.centre_distance", 0.15);
     conformance_give_series(fixture, "gear.mass", 2, masses);
+    conformance_give_series(fixture, "gear.inertia", 2, (const double[]){inertia, inertia});
     conformance_give_series(fixture, "gear.roll_angle", STATIONS, roll);
     conformance_give_scalar(fixture, "gear.roll_sap", roll[0]);
     conformance_give_series(fixture, "gear.teeth", 2, teeth);
