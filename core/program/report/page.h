@@ -190,24 +190,43 @@ double *report_sort(const double *values, size_t count, size_t *kept);
 double report_percentile(const double *list, size_t count, double percent);
 void report_write_sample(report_page *page, const report_scalar *scalar);
 
-/* section-best.c: whether the cases are a sweep of several axes. */
-bool report_is_sweep(const results_view *view);
-/* Reads "OUTPUT=least" and "OUTPUT=largest"; false with an error in the report. */
-bool report_read_sought(const results_view *view, const char *const *best, size_t count,
-                        report_sought *out, ff_report *report);
-/* Writes which of the values that are chosen are best for each condition; false: it had nothing. */
-bool report_write_best(report_page *page);
-/* Writes a scalar as small tables; false where they would be large. */
-bool report_write_grids(report_page *page, size_t variable, const report_scalar *scalar);
-/* The number that a limit of an output names, in SI; NaN: none does. */
+/* section-limits.c: the number that a limit of an output names, in SI; NaN: none does. */
 double report_limit_bound(const results_view *view, size_t variable);
 /* The limit itself, "> 0.2 um"; NULL: there is none. */
 const char *report_limit_asked(const results_view *view, size_t variable);
 /* How a case stands to the limits, the worst of them. */
 int32_t report_standing(const results_view *view, size_t index);
+
+/* section-best.c: whether the cases are a sweep of several axes. */
+bool report_is_sweep(const results_view *view);
+/* Paths of the stage that a sweep names first are what is chosen, such as a relief; the others are
+   the conditions that are met, such as torques. Marks the dimensions of either that have more than
+   one point. */
+typedef struct report_sides {
+    bool *chosen, *met;
+    size_t choices, conditions; /* numbers of their combinations */
+} report_sides;
+report_sides report_sides_of(const results_view *view);
+void report_sides_free(report_sides *sides);
+/* Which number of an output is best: -1 the least, 1 the largest, 0 where nothing says it. The
+   reader's own choice goes before a limit of the file. */
+int report_sense_of(const report_page *page, size_t variable);
+/* Finds the case with the least (-1) or largest (1) value among the combinations of some
+   dimensions, from the case `first`; SIZE_MAX: no value is known. With `met` cases that miss a
+   limit do not count. `same` counts other cases with that value. */
+size_t report_find_extreme(const results_view *view, const double *values, const bool *dims,
+                           size_t count, size_t first, int sense, bool met, size_t *same);
 /* The cell that is best of a map over dimensions x and y, whose first case is given; -1: none. */
 ptrdiff_t report_best_of(const report_page *page, size_t variable, const double *values,
                          size_t first, size_t x, size_t y);
+/* Reads "OUTPUT=least" and "OUTPUT=largest"; false with an error in the report. */
+bool report_read_sought(const results_view *view, const char *const *best, size_t count,
+                        report_sought *out, ff_report *report);
+/* Writes which of the values that are chosen are best for each condition; false: it had nothing. */
+bool report_write_best(report_page *page);
+
+/* section-grids.c writes a scalar as small tables; false where they would be large. */
+bool report_write_grids(report_page *page, size_t variable, const report_scalar *scalar);
 
 /* These write the sections of the page. */
 /* Writes how the answers stand to the limits of the file: of a study, in how many cases. */

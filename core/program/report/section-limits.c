@@ -1,9 +1,58 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How the answers stand to the limits of the file. */
+#include <flankfilm/engine.h>
+
 #include "page.h"
 
 #include <math.h>
 #include <string.h>
+
+/* The limit of an output in a case; NULL: there is none. */
+static const results_view_limit *limit_of(const results_view *view, size_t variable, size_t index)
+{
+    const results_view_case *c = view->cases[index];
+    for (size_t i = 0; i < c->limit_count; i++)
+        if (!strcmp(c->limits[i]->output, view->variables[variable]->name))
+            return c->limits[i];
+    return NULL;
+}
+
+/* The first limit of an output that any case has. */
+static const results_view_limit *any_limit(const results_view *view, size_t variable)
+{
+    const results_view_limit *limit = NULL;
+    for (size_t c = 0; c < view->case_count && !limit; c++)
+        limit = limit_of(view, variable, c);
+    return limit;
+}
+
+const char *report_limit_asked(const results_view *view, size_t variable)
+{
+    const results_view_limit *limit = any_limit(view, variable);
+    return limit ? limit->asked : NULL;
+}
+
+double report_limit_bound(const results_view *view, size_t variable)
+{
+    const results_view_limit *limit = any_limit(view, variable);
+    ff_unit unit;
+    double bound = NAN;
+    char why[160];
+    if (!limit || !ff_unit_parse(limit->unit, &unit, why, sizeof why) ||
+        !ff_quantity_parse(limit->asked + strspn(limit->asked, "<>= "), &unit, limit->unit, &bound,
+                           why, sizeof why))
+        return NAN;
+    return bound;
+}
+
+int32_t report_standing(const results_view *view, size_t index)
+{
+    const results_view_case *c = view->cases[index];
+    int32_t worst = LIMITS_MET;
+    for (size_t i = 0; i < c->limit_count; i++)
+        worst = c->limits[i]->standing > worst ? c->limits[i]->standing : worst;
+    return worst;
+}
 
 static const char *badge_of(int32_t standing)
 {
