@@ -82,15 +82,17 @@ class Browser:
         for domain in 'Page', 'Runtime', 'Log', 'Performance':
             self.ask(domain + '.enable')
 
-    def open(self, url, width=1000):
+    def open(self, url, width=1000, scripts=True):
         """Opens a page, and waits for what its script says last."""
         self.fresh()
+        self.ask('Emulation.setScriptExecutionDisabled', value=not scripts)
         self.ask('Emulation.setDeviceMetricsOverride', width=width, height=900, deviceScaleFactor=1, mobile=False)
         self.said, self.seen = [], set()
         self.ask('Page.navigate', url=url)
         while 'Page.loadEventFired' not in self.seen:
             self.next()
-        self.value('new Promise(function wait(done) { document.body.dataset.ready || performance.now() > 6e4 ? done() : setTimeout(wait, 20, done); })')
+        if scripts:
+            self.value('new Promise(function wait(done) { document.body.dataset.ready || performance.now() > 6e4 ? done() : setTimeout(wait, 20, done); })')
 
     def dress(self, width, scheme):
         """Gives the open page another width and scheme; a page draws its figures anew for either."""

@@ -103,57 +103,6 @@ const double *accuracy_numbers_like(const ff_pipeline *pipeline, const ff_stage 
     return numbers;
 }
 
-static const ff_stage *stage_of(const ff_pipeline *pipeline, const ff_result *result)
-{
-    for (size_t i = 0; i < pipeline->count; i++) {
-        const ff_stage *stage = &pipeline->stages[i];
-        const size_t count = stage->loaded ? stage->loaded->model->output_count : 0;
-        if (stage->results && result >= stage->results && result < stage->results + count)
-            return stage;
-    }
-    return NULL;
-}
-
-/* The series that a result is a share of, such as the load of a friction coefficient. */
-static const ff_result *whole_of(const ff_pipeline *pipeline, const ff_stage *stage,
-                                 const ff_result *result)
-{
-    const int input =
-        result->row->origin ? ff_model_find_input(stage->loaded->model, result->row->origin) : -1;
-    const ff_result *whole = input < 0 ? NULL : ff_feeding_result(pipeline, stage, (size_t)input);
-    return whole && whole->data && whole->rank == 1 && result->rank == 1 ? whole : NULL;
-}
-
-bool accuracy_extremes(const ff_pipeline *pipeline, const ff_stage *stage, const ff_result *result,
-                       size_t *least, size_t *greatest)
-{
-    static const double vanishing = 0.01; /* of the largest whole; shares of less say nothing */
-    const ff_result *whole = whole_of(pipeline, stage, result);
-    const ff_stage *of = whole ? stage_of(pipeline, whole) : NULL;
-    const ff_result *along = of ? accuracy_axis_of(pipeline, stage, result) : NULL;
-    const ff_result *there = of ? accuracy_axis_of(pipeline, of, whole) : NULL;
-    const bool placed = along && there && !strcmp(along->row->name, there->row->name);
-    bool known = false, all = true;
-    double most = 0;
-    if (!whole || (!placed && whole->count != result->count))
-        return false;
-    for (size_t i = 0; i < whole->count; i++)
-        most = fmax(most, fabs(whole->data[i]));
-    const accuracy_series series = {1, whole->count, placed ? there->data : NULL, whole->data, 0};
-    for (size_t i = 0; i < result->count; i++) {
-        const double of_it =
-            placed ? accuracy_interpolate(&series, along->data[i], false) : whole->data[i];
-        if (!isfinite(result->data[i]) || !(fabs(of_it) >= vanishing * most)) {
-            all = false;
-            continue;
-        }
-        *least = known && result->data[i] >= result->data[*least] ? *least : i;
-        *greatest = known && result->data[i] <= result->data[*greatest] ? *greatest : i;
-        known = true;
-    }
-    return known && !all;
-}
-
 static bool suits(const ff_port *row, const char *dim)
 {
     return !strcmp(row->unit, "s") || !strcmp(row->unit, "rad") || !strcmp(row->name, dim);

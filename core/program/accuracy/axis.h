@@ -33,14 +33,6 @@ const double *accuracy_numbers_like(const ff_pipeline *pipeline, const ff_stage 
                                     const ff_result *result, const ff_pipeline *other,
                                     memory_arena *arena);
 
-/*
- * Finds the ranks of the least and the greatest number of a series that is a share of another,
- * which `origin` of its row names, where that is at least a hundredth of its largest: friction
- * where there is load. False where that leaves nothing out.
- */
-bool accuracy_extremes(const ff_pipeline *pipeline, const ff_stage *stage, const ff_result *result,
-                       size_t *least, size_t *greatest);
-
 /* Makes the pipeline compute the points on angles, such as those where a second pair of teeth comes
    in, if a series is asked for. Before it runs. */
 void accuracy_want_points(const ff_pipeline *pipeline);

@@ -3,6 +3,7 @@
 
 #include "../accuracy/axis.h"
 #include "../accuracy/lines.h"
+#include "../results/extremes.h"
 #include "../results/number.h"
 
 #include <math.h>
@@ -13,23 +14,6 @@ static const double noise = 1e-9; /* relative; figures show 5 digits at most */
 static results_readable unit_of(const ff_port *row, double most)
 {
     return results_readable_output(row->name, row->unit, most);
-}
-
-/* Ranks of the least and the greatest value that are known; false: none is. */
-static bool find_extremes(const ff_result *result, size_t *least, size_t *greatest)
-{
-    bool known = false;
-    *least = *greatest = 0;
-    for (size_t i = 0; i < result->count; i++) {
-        if (!isfinite(result->data[i]))
-            continue;
-        if (!known || result->data[i] < result->data[*least])
-            *least = i;
-        if (!known || result->data[i] > result->data[*greatest])
-            *greatest = i;
-        known = true;
-    }
-    return known;
 }
 
 /* Numbers of one quantity; what is noise beside the greatest of them is 0. */
@@ -129,23 +113,22 @@ cli_output_text cli_output_text_of(const accuracy_record *errors, const ff_pipel
 {
     const ff_result *result = &stage->results[output];
     cli_output_text text = {.value = "(none)"};
-    size_t least = 0, greatest = 0;
+    results_extremes found = {.partial = false};
     bool pair = print_pair(result, text.value, sizeof text.value);
     if (result->count > 0 && !pair) {
-        const bool loaded = accuracy_extremes(pipeline, stage, result, &least, &greatest);
-        const bool known = loaded || find_extremes(result, &least, &greatest);
+        const bool known = results_find_extremes(pipeline, stage, result, &found);
         size_t at = accuracy_is_least(stage, result) ? strlen(strcpy(text.value, ">= ")) : 0;
         if (known)
-            print_range(result, result->data[least], result->data[greatest], text.value + at,
-                        sizeof text.value - at);
+            print_range(result, result->data[found.least], result->data[found.greatest],
+                        text.value + at, sizeof text.value - at);
         else
             strcpy(text.value, "not known");
     }
-    bool from_end_to_end = least == 0 && greatest + 1 == result->count;
+    bool from_end_to_end = found.least == 0 && found.greatest + 1 == result->count;
     if (result->rank > 1)
         print_shape(stage, output, text.place, sizeof text.place);
     else if (result->rank == 1 && !pair && strstr(text.value, " to ") && !from_end_to_end)
-        print_where(pipeline, stage, output, least, greatest, briefly, text.place,
+        print_where(pipeline, stage, output, found.least, found.greatest, briefly, text.place,
                     sizeof text.place);
     if (!known_error(stage, result))
         strcpy(text.value, "not known");

@@ -11,7 +11,7 @@
 
 const char cli_spectrum_files[] = "spectrum.json, spectrum.figure.json, ";
 
-enum { TEXT = 64, NAME = 32, MEAN = 14, EXTREME = 23 }; /* columns */
+enum { TEXT = RESULTS_QUANTITY_SIZE, NAME = 32, MEAN = 14, EXTREME = 23 }; /* columns */
 
 static double number_of(const json_t *of, const char *key)
 {
@@ -34,11 +34,9 @@ static results_readable unit_for(const char *name, const json_t *of)
 
 static void write_number(double si, results_readable unit, char out[TEXT])
 {
-    if (isfinite(si))
-        snprintf(out, TEXT, "%.4g%s%s", si * unit.factor + unit.offset, *unit.unit ? " " : "",
-                 unit.unit);
-    else
-        snprintf(out, TEXT, "-");
+    results_quantity_text(si, &unit, 4, " ", out);
+    if (!isfinite(si))
+        strcpy(out, "-");
 }
 
 /* "0.2341 um in row 7" */
@@ -57,9 +55,9 @@ static void write_energy(double joule, char out[TEXT])
     if (!isfinite(joule))
         *out = '\0';
     else if (fabs(joule) < 3.6e6)
-        snprintf(out, TEXT, "%.4g kJ", joule / 1e3);
+        write_number(joule, (results_readable){1e-3, 0, "kJ"}, out);
     else
-        snprintf(out, TEXT, "%.4g kWh", joule / 3.6e6);
+        write_number(joule, (results_readable){1 / 3.6e6, 0, "kWh"}, out);
 }
 
 static void write_time(const json_t *sums, char out[TEXT])
@@ -69,9 +67,9 @@ static void write_time(const json_t *sums, char out[TEXT])
     if (shares)
         *out = '\0';
     else if (time < 3600)
-        snprintf(out, TEXT, ", %.4g s", time);
+        write_number(time, (results_readable){1, 0, "s"}, out);
     else
-        snprintf(out, TEXT, ", %.4g h", time / 3600);
+        write_number(time, (results_readable){1.0 / 3600, 0, "h"}, out);
 }
 
 static void print_outputs(const json_t *sums)
@@ -173,8 +171,8 @@ void cli_spectrum_print(const json_t *sums)
 {
     char time[TEXT];
     write_time(sums, time);
-    printf("\nOver the spectrum: %lld rows%s\n",
-           (long long)json_integer_value(json_object_get(sums, "rows")), time);
+    printf("\nOver the spectrum: %lld rows%s%s\n",
+           (long long)json_integer_value(json_object_get(sums, "rows")), *time ? ", " : "", time);
     print_outputs(sums);
     print_energies(sums);
     print_below(sums);

@@ -121,12 +121,14 @@ static void print_difference(number first, number other, const results_readable 
     print_number(d, unit, true, text);
     const double share = d.value / fabs(first.value);
     const bool plain = unit->offset == 0 && first.value != 0 && isfinite(share);
+    char percent[RESULTS_NUMBER_SIZE];
+    results_number_text(100 * share, 3, " ", percent);
     if (fabs(d.value) <= noise * fabs(first.value))
         snprintf(out, 2 * ROOM, "the same");
     else if (fabs(d.value) <= d.bar)
         snprintf(out, 2 * ROOM, "%s: smaller than what is known", text);
     else if (plain)
-        snprintf(out, 2 * ROOM, "%s (%+.3g %%)", text, 100 * share);
+        snprintf(out, 2 * ROOM, "%s (%s%s %%)", text, share > 0 ? "+" : "", percent);
     else
         snprintf(out, 2 * ROOM, "%s", text);
 }

@@ -158,7 +158,8 @@ static bool is_wide(const report_plot *plot)
             low = fmin(low, y);
             high = fmax(high, y);
         }
-    return low > 0 && high > SPAN * low && high < MOST * low && !(plot->y0 < plot->y1);
+    return low > 0 && high > SPAN * low && high < MOST * low && !(plot->y0 < plot->y1) &&
+           !plot->curves[0].bars;
 }
 
 static void put_axis(FILE *out, const char *name, const char *label, bool log, double low,

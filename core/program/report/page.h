@@ -68,8 +68,8 @@ const char *report_axis_word(const results_view_axis *axis, size_t point,
    none). */
 void report_name_case(const results_view *view, size_t index, size_t a, int b,
                       char out[REPORT_TEXT_SIZE]);
-/* Names a case by what varies along some dimensions alone. */
-void report_name_point(const results_view *view, size_t index, const bool *dims,
+/* Names a case by what varies along some dimensions alone; `named`: with the names of numbers. */
+void report_name_point(const results_view *view, size_t index, const bool *dims, bool named,
                        char out[REPORT_TEXT_SIZE]);
 /* Returns the case of combination k of some dimensions, at the first point of the others; and that
    of all dimensions but a and b, which may be -1. */
@@ -239,6 +239,8 @@ void report_write_series(report_page *page);
 void report_write_snapshots(report_page *page);
 void report_write_study(report_page *page);
 void report_write_quality(report_page *page);
+/* Writes what the user has given, stage by stage. */
+void report_write_inputs(report_page *page);
 void report_write_origin(report_page *page);
 
 #endif

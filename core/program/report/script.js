@@ -391,7 +391,9 @@
   window.addEventListener('load', function () {
     var nodes = all('figure');
     if (window.vega) {
-      nodes.forEach(begin);
+      nodes.forEach(function (node, i) {
+        try { begin(node, i); } catch (e) { node.appendChild(make('small', '', 'This figure cannot be drawn: ' + e.message)); }
+      });
       all('.snapshots').forEach(animate);
     } else {
       nodes.forEach(tabulate);
@@ -412,10 +414,14 @@
       width = innerWidth;
       drawn().forEach(draw);
     });
+    var folded = []; /* a print has all parts of the page */
     ['beforeprint', 'afterprint'].forEach(function (kind) {
       window.addEventListener(kind, function () {
         printing = kind === 'beforeprint';
-        drawn().forEach(draw);
+        if (printing) folded = folded.concat(all('details:not([open])'));
+        folded.forEach(function (d) { d.open = printing; });
+        (printing ? shown : drawn()).forEach(draw);
+        if (!printing) folded = [];
       });
     });
     Promise.all(drawn().map(function (f) { return f.view.runAsync(); })).then(function () {

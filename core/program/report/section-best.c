@@ -101,7 +101,7 @@ ptrdiff_t report_best_of(const report_page *page, size_t variable, const double 
                                        results_view_point(view, c, x));
 }
 
-/* Writes "0.1832 um: 4 um, [30 deg, 22 deg]". */
+/* Writes "0.1832 um at 4 um, [30 deg, 22 deg]". */
 static void put_extreme(report_page *page, size_t variable, const double *values,
                         const report_sides *s, size_t first, int sense, const char *word, bool met)
 {
@@ -116,7 +116,7 @@ static void put_extreme(report_page *page, size_t variable, const double *values
         return;
     }
     report_quantity_text(of->output, of->unit, values[c], text);
-    report_name_point(view, c, s->chosen, name);
+    report_name_point(view, c, s->chosen, false, name);
     report_print(page->out, "<div>%s<b>%s</b> at %s", word, text, name);
     if (same > 0)
         fprintf(page->out, " <small>and %zu more</small>", same);
@@ -172,6 +172,22 @@ static size_t list_outputs(report_page *page, size_t list[MOST_OUTPUTS],
             free(values[count]);
     }
     return count;
+}
+
+/* Says of which paths the values are that stand behind "at", in their order. */
+static void put_chosen(report_page *page, const report_sides *s)
+{
+    const results_view *view = page->view;
+    const char *before = "<th>best for<br><small>at: ";
+    for (size_t a = 0; a < view->axis_count; a++) {
+        char words[REPORT_TEXT_SIZE];
+        if (!s->chosen[view->axes[a]->dimension])
+            continue;
+        fputs(before, page->out);
+        report_put_text(page->out, report_plain_name(view->axes[a]->path, words));
+        before = ", ";
+    }
+    fputs("</small></th>", page->out);
 }
 
 static void put_head(report_page *page, size_t variable)
@@ -240,7 +256,8 @@ bool report_write_best(report_page *page)
     const size_t rows = s.conditions < MOST_CONDITIONS ? s.conditions : MOST_CONDITIONS;
     if (count > 0) {
         fputs("<div class=\"wide\"><table class=\"best\"><thead><tr>", page->out);
-        fputs(s.conditions > 1 ? "<th>best for</th>" : "", page->out);
+        if (s.conditions > 1)
+            put_chosen(page, &s);
         for (size_t i = 0; i < count; i++)
             put_head(page, list[i]);
         fputs("</tr></thead><tbody>\n", page->out);
@@ -248,7 +265,7 @@ bool report_write_best(report_page *page)
     for (size_t k = 0; k < rows && count > 0; k++) {
         const size_t first = report_case_of(view, s.met, k);
         char name[REPORT_TEXT_SIZE];
-        report_name_point(view, first, s.met, name);
+        report_name_point(view, first, s.met, true, name);
         fputs("<tr>", page->out);
         if (s.conditions > 1)
             report_print(page->out, "<th scope=\"row\">%s</th>", name);

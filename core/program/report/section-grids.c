@@ -148,7 +148,7 @@ bool report_write_grids(report_page *page, size_t variable, const report_scalar 
     for (size_t k = 0; good && k < panels && k < MOST_PANELS; k++) {
         char name[REPORT_TEXT_SIZE];
         p.first = report_case_of(view, s.met, k);
-        report_name_point(view, p.first, s.met, name);
+        report_name_point(view, p.first, s.met, true, name);
         mark(page, &p, shown, squares * rows);
         write_panel(page, &p, name);
     }

@@ -2,6 +2,9 @@
 /* The section on where the numbers come from. */
 #include "page.h"
 
+#include "../memory/memory.h"
+
+#include <stdlib.h>
 #include <string.h>
 
 /* A page is sent to others, whom the folders of its author do not concern. */
@@ -39,10 +42,44 @@ static void write_stage(report_page *page, const results_view_stage *stage)
     for (size_t i = 0; i < stage->param_count; i++) {
         fputs("<tr>", out);
         report_put_cell(out, stage->params[i]->name);
-        report_put_cell(out, stage->params[i]->text);
+        report_put_cell(out, without_folder(stage->params[i]->text));
         report_put_cell(out, without_folder(stage->params[i]->origin));
         fputs("</tr>\n", out);
     }
+}
+
+/* Whether the user has given a parameter, and no axis of a study changes it. */
+static bool is_input(const results_view *view, size_t stage, const results_view_param *param)
+{
+    char *path = memory_print_text("%s.%s", view->stages[stage]->name, param->name);
+    bool given = strcmp(param->origin, "preset") != 0 && strncmp(param->text, "by the wire ", 12);
+    for (size_t a = 0; a < view->axis_count; a++)
+        given = given && strcmp(view->axes[a]->path, path) != 0;
+    free(path);
+    return given;
+}
+
+void report_write_inputs(report_page *page)
+{
+    const results_view *view = page->view;
+    fputs("<dl class=\"inputs\">\n", page->out);
+    for (size_t s = 0; s < view->stage_count; s++) {
+        const results_view_stage *stage = view->stages[s];
+        size_t said = 0;
+        for (size_t i = 0; i < stage->param_count; i++) {
+            const results_view_param *param = stage->params[i];
+            char words[REPORT_TEXT_SIZE];
+            if (!is_input(view, s, param))
+                continue;
+            if (said++ == 0)
+                report_print(page->out, "<dt>%s <small>%s</small></dt><dd>", stage->name,
+                             stage->model);
+            report_print(page->out, "<span>%s <b>%s</b></span> ",
+                         report_plain_name(param->name, words), without_folder(param->text));
+        }
+        fputs(said > 0 ? "</dd>\n" : "", page->out);
+    }
+    fputs("</dl>\n", page->out);
 }
 
 void report_write_origin(report_page *page)

@@ -33,11 +33,20 @@ static bool is_numeric(const results_view *view, const results_view_axis *axis)
     return true;
 }
 
-/* Says whether the points stand in no order along any input. */
+/* Rows of a load spectrum count by their times. */
+static bool is_spectrum(const results_view *view)
+{
+    for (size_t i = 0; i < view->figures_count; i++)
+        if (!strncmp(view->figures[i]->name, "spectrum.", 9))
+            return true;
+    return false;
+}
+
+/* Says whether the points stand in no order along any input, and each counts as much. */
 bool report_is_sample(const results_view *view)
 {
     size_t inputs = 0;
-    if (view->dimension_count != 1 || view->lengths[0] < 8)
+    if (view->dimension_count != 1 || view->lengths[0] < 8 || is_spectrum(view))
         return false;
     for (size_t a = 0; a < view->axis_count; a++) {
         const results_view_axis *axis = view->axes[a];

@@ -55,7 +55,9 @@ typedef struct figure {
     results_readable x_unit, y_unit;
     char x_si[40], y_si[40]; /* "" before the first curve */
     bool alternating;
-    bool *drawn; /* variables that have had their figure */
+    bool share;       /* some curve says little where its whole is next to nothing */
+    double low, high; /* of all curves, without what says little */
+    bool *drawn;      /* variables that have had their figure */
     size_t cases[MOST_CASES];
     size_t case_count, good; /* good: how many there are to choose from */
 } figure;
@@ -135,6 +137,22 @@ static void remove_mean(report_curve *curve)
         curve->y[i] -= sum / length;
 }
 
+/* Keeps what the y axis must show: of the friction coefficient not what it is without load. */
+static void keep_range(figure *d, const results_view_variable *of, const report_curve *curve)
+{
+    const bool share =
+        *of->whole && of->extremes[0] < curve->count && of->extremes[1] < curve->count;
+    d->share = d->share || share;
+    if (share) {
+        d->low = fmin(d->low, curve->y[of->extremes[0]]);
+        d->high = fmax(d->high, curve->y[of->extremes[1]]);
+    }
+    for (size_t i = 0; i < curve->count && !share; i++) {
+        d->low = fmin(d->low, curve->y[i]);
+        d->high = fmax(d->high, curve->y[i]);
+    }
+}
+
 static void add_curve(figure *d, size_t variable, size_t index, bool several, size_t stage)
 {
     report_page *page = d->page;
@@ -165,6 +183,7 @@ static void add_curve(figure *d, size_t variable, size_t index, bool several, si
             if (d->alternating)
                 remove_mean(made);
             label_curve(d, made, variable, index, several);
+            keep_range(d, page->view->variables[variable], made);
         }
         d->drawn[variable] = true;
     }
@@ -220,13 +239,19 @@ static bool is_other_gap(const results_view *view, size_t variable)
 /* Draws the figure and begins the next one. */
 static void finish_figure(figure *d)
 {
+    const double margin = 0.1 * (d->high - d->low);
     spread_colours(&d->plot);
     add_contact_marks(d);
+    if (d->share) {
+        d->plot.y0 = d->low - margin;
+        d->plot.y1 = d->high + margin;
+    }
     if (d->plot.count > 0 && !is_flat(&d->plot))
         report_plot_write(d->page, &d->plot);
     report_plot_free(&d->plot);
     d->plot = (report_plot){.count = 0};
-    d->alternating = false;
+    d->alternating = d->share = false;
+    d->low = d->high = 0;
 }
 
 static void draw_group(figure *d, const group *g)

@@ -40,6 +40,17 @@ static bool load_scalar(report_page *page, size_t variable, case_scalar *f)
     return any;
 }
 
+/* Whether the values of an axis rise or fall: along others a line would run to and fro. */
+static bool is_in_order(const results_view *view, const results_view_axis *axis)
+{
+    bool rises = true, falls = true;
+    for (size_t i = 1; i < view->lengths[axis->dimension]; i++) {
+        rises = rises && axis->values[i] >= axis->values[i - 1];
+        falls = falls && axis->values[i] <= axis->values[i - 1];
+    }
+    return rises || falls;
+}
+
 /* Finds the numeric axis with the most points that is not of dimension `other`. */
 static int main_axis(const results_view *view, int other)
 {
@@ -48,7 +59,7 @@ static int main_axis(const results_view *view, int other)
     for (size_t a = 0; a < view->axis_count; a++) {
         const results_view_axis *axis = view->axes[a];
         if (axis->values && (int)axis->dimension != other &&
-            view->lengths[axis->dimension] > points) {
+            view->lengths[axis->dimension] > points && is_in_order(view, axis)) {
             best = (int)a;
             points = view->lengths[axis->dimension];
         }
@@ -279,11 +290,11 @@ static void draw_scalar(const case_scalar *f)
         draw_lines(f, axis, combinations);
 }
 
-/* Says whether the cases differ in words alone and the study has figures of its own: the numbers of
-   the cases would be a meaningless axis. */
+/* Says whether the study has figures of its own and its cases are in no order, such as the rows of
+   a load spectrum: the numbers of the cases would be a meaningless axis. */
 static bool has_own_figures(const results_view *view)
 {
-    return view->figures_count > 0 && main_axis(view, -1) < 0;
+    return view->figures_count > 0 && main_axis(view, -1) < 0 && !report_is_sample(view);
 }
 
 static bool over_speed(const results_view *view)

@@ -162,8 +162,8 @@ static void begin_reason(report_page *page, size_t item, size_t count)
     if (item == 0)
         fputs("<ul>\n", page->out);
     if (item == SHOWN)
-        fprintf(page->out, "</ul>\n<details><summary>%zu more reasons</summary>\n<ul>\n",
-                count - SHOWN);
+        fprintf(page->out, "</ul>\n<details><summary>%zu more reason%s</summary>\n<ul>\n",
+                count - SHOWN, count == SHOWN + 1 ? "" : "s");
     fputs("<li>", page->out);
 }
 
@@ -374,7 +374,7 @@ static void write_spans(report_page *page)
           page->out);
     fputs("</tr></thead><tbody>\n", page->out);
     for (size_t v = 0; v < view->variable_count; v++) {
-        if (view->variables[v]->rank != 0)
+        if (view->variables[v]->rank != 0 || report_is_bar(view->variables[v]))
             continue;
         double *values = report_load_values(page, v);
         (sample ? write_distribution : write_span)(page, view->variables[v], values);
@@ -438,9 +438,7 @@ static void write_counts(report_page *page)
         fprintf(page->out, "; %zu not run", idle);
     fputs(": ", page->out);
     write_checks(page);
-    fputs(".</p>\n<p class=\"note\">", page->out);
-    report_put_text(page->out, view->summary); /* it also counts warnings, which are no checks */
-    fputs("</p>\n", page->out);
+    fputs(".</p>\n", page->out);
 }
 
 static void write_study(report_page *page)
@@ -450,6 +448,8 @@ static void write_study(report_page *page)
         scalars = scalars || page->view->variables[v]->rank == 0;
     write_counts(page);
     const bool best = report_write_best(page);
+    /* it also counts warnings, which are no checks */
+    report_print(page->out, "<p class=\"note\">%s</p>\n", page->view->summary);
     write_reasons(page);
     fputs(best ? "<details><summary>Least and largest of all cases</summary>\n" : "", page->out);
     if (scalars)
@@ -460,7 +460,8 @@ static void write_study(report_page *page)
 void report_write_verdict(report_page *page)
 {
     const results_view *view = page->view;
-    fputs("<section><h2>Verdict</h2>\n", page->out);
+    report_print(page->out, "<section class=\"%s\"><div><h2>Verdict</h2>\n",
+                 view->study ? "study" : "answer");
     if (!view->study && strcmp(view->cases[0]->status, "ok") != 0) {
         fputs("<p class=\"alarm\">The run ended as <b>", page->out);
         report_put_text(page->out, view->cases[0]->status);
@@ -470,5 +471,7 @@ void report_write_verdict(report_page *page)
     }
     report_write_limits(page);
     (view->study ? write_study : write_run)(page);
-    fputs("</section>\n", page->out);
+    fputs("</div><div><h2>Inputs</h2>\n", page->out);
+    report_write_inputs(page);
+    fputs("</div></section>\n", page->out);
 }

@@ -41,20 +41,17 @@ void report_number_text(double value, char out[REPORT_TEXT_SIZE])
 void report_bar_text(const char *si_unit, double bar, char out[REPORT_TEXT_SIZE])
 {
     const results_readable unit = report_unit_for("", si_unit, bar);
-    results_number_text(bar * unit.factor, 2, "\u202f", out);
-    const size_t length = strlen(out);
-    snprintf(out + length, REPORT_TEXT_SIZE - length, *unit.unit ? " %s" : "%s", unit.unit);
+    results_quantity_text(bar, &unit, 2, "\u202f", out);
 }
 
 void report_quantity_text(const char *name, const char *si_unit, double si,
                           char out[REPORT_TEXT_SIZE])
 {
-    results_readable unit = report_unit_for(name, si_unit, si);
-    report_number_text(report_convert(&unit, si), out);
-    if (isfinite(si) && *unit.unit) {
-        size_t length = strlen(out);
-        snprintf(out + length, REPORT_TEXT_SIZE - length, " %s", unit.unit);
-    }
+    const results_readable unit = report_unit_for(name, si_unit, si);
+    if (isfinite(si))
+        results_quantity_text(si, &unit, 4, "\u202f", out);
+    else
+        strcpy(out, "\u2013");
 }
 
 void report_put_value(FILE *out, const char *name, const char *si_unit, double si)
@@ -124,7 +121,7 @@ static const char *name_of_number(const results_view_axis *axis, const char *val
     return out;
 }
 
-void report_name_point(const results_view *view, size_t index, const bool *dims,
+void report_name_point(const results_view *view, size_t index, const bool *dims, bool named,
                        char out[REPORT_TEXT_SIZE])
 {
     size_t length = 0;
@@ -138,9 +135,9 @@ void report_name_point(const results_view *view, size_t index, const bool *dims,
         size_t d = axis->dimension;
         const char *value = report_axis_word(axis, results_view_point(view, index, d), word);
         if (dims[d] && view->lengths[d] > 1 && *value)
-            length += (size_t)snprintf(out + length, REPORT_TEXT_SIZE - length, "%s%s%.80s",
-                                       length ? ", " : "",
-                                       name_of_number(axis, value, varied > 1, name), value);
+            length += (size_t)snprintf(
+                out + length, REPORT_TEXT_SIZE - length, "%s%s%.80s", length ? ", " : "",
+                name_of_number(axis, value, named && varied > 1, name), value);
     }
 }
 
@@ -157,7 +154,7 @@ void report_name_case(const results_view *view, size_t index, size_t a, int b,
                       char out[REPORT_TEXT_SIZE])
 {
     bool *dims = dims_without(view, a, b);
-    report_name_point(view, index, dims, out);
+    report_name_point(view, index, dims, true, out);
     free(dims);
 }
 

@@ -108,3 +108,12 @@ results_readable results_readable_output(const char *name, const char *si_unit, 
     return is_temperature(name, si_unit) ? (results_readable){1, -273.15, "degC"}
                                          : results_readable_unit(si_unit, magnitude);
 }
+
+void results_quantity_text(double si, const results_readable *unit, int digits, const char *gap,
+                           char out[RESULTS_QUANTITY_SIZE])
+{
+    char text[RESULTS_NUMBER_SIZE];
+    results_number_text(si * unit->factor + unit->offset, digits, gap, text);
+    snprintf(out, RESULTS_QUANTITY_SIZE, isfinite(si) && *unit->unit ? "%s %.24s" : "%s", text,
+             unit->unit);
+}

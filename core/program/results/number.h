@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 
-enum { RESULTS_NUMBER_SIZE = 32 };
+enum { RESULTS_NUMBER_SIZE = 32, RESULTS_QUANTITY_SIZE = 64 };
 
 /* Writes the shortest decimal number that reads back as the same value; "nan" for one that is not
    finite. */
@@ -27,5 +27,9 @@ typedef struct results_readable {
 results_readable results_readable_unit(const char *si_unit, double magnitude);
 /* The unit of an output of that name: temperatures are in degC. */
 results_readable results_readable_output(const char *name, const char *si_unit, double magnitude);
+
+/* Writes an SI value in such a unit, "14 000 rpm", as results_number_text does its number. */
+void results_quantity_text(double si, const results_readable *unit, int digits, const char *gap,
+                           char out[RESULTS_QUANTITY_SIZE]);
 
 #endif

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "extremes.h"
 #include "json.h"
 #include "write.h"
 
@@ -37,18 +38,6 @@ static json_t *describe_array(const ff_stage *stage, size_t output)
     return json_pack("{s:s, s:o, s:o}", "unit", result->row->unit, "dims", dims, "shape", shape);
 }
 
-static const ff_stage *stage_of(const ff_pipeline *pipeline, const ff_result *result)
-{
-    for (size_t i = 0; i < pipeline->count; i++) {
-        const ff_stage *stage = &pipeline->stages[i];
-        size_t count = stage->loaded ? stage->loaded->model->output_count : 0;
-        for (size_t k = 0; k < count; k++)
-            if (&stage->results[k] == result)
-                return stage;
-    }
-    return NULL;
-}
-
 json_t *results_against(const ff_pipeline *pipeline, const ff_stage *stage, size_t output)
 {
     const ff_result *result = &stage->results[output];
@@ -56,7 +45,8 @@ json_t *results_against(const ff_pipeline *pipeline, const ff_stage *stage, size
     for (uint32_t i = 0; i < result->rank; i++) {
         const ff_result *axis =
             accuracy_axis(pipeline, stage, result->dims[i], result->shape[i], result, NULL);
-        const ff_stage *of = axis && !accuracy_is_axis(result) ? stage_of(pipeline, axis) : NULL;
+        const ff_stage *of =
+            axis && !accuracy_is_axis(result) ? results_stage_of(pipeline, axis) : NULL;
         char *name = memory_print_text("%s%s%s", of ? of->name : "", of ? "." : "",
                                        of ? axis->row->name : "");
         json_array_append_new(list, json_string(name));
@@ -122,11 +112,11 @@ static json_t *describe_output(const results_outcome *outcome, const ff_stage *s
         json_object_set_new(entry, "label", results_json_text(result->row->label));
     if (result->rank)
         json_object_set_new(entry, "against", results_against(pipeline, stage, output));
-    size_t least, greatest;
-    if (result->rank == 1 && accuracy_extremes(pipeline, stage, result, &least, &greatest))
-        json_object_set_new(
-            entry, "extremes",
-            json_pack("[I, I, s]", (json_int_t)least, (json_int_t)greatest, result->row->origin));
+    results_extremes at;
+    if (result->rank == 1 && results_find_extremes(pipeline, stage, result, &at) && at.partial)
+        json_object_set_new(entry, "extremes",
+                            json_pack("[I, I, s]", (json_int_t)at.least, (json_int_t)at.greatest,
+                                      result->row->origin));
     if (result->rank && is_elsewhere(result, arrays)) {
         json_object_set_new(entry, "file", name_file(stage, result, "", arrays));
     } else if (result->rank) {

@@ -156,7 +156,7 @@ class Limits(lab.Lab):
         self.assertIn('does not begin with "<!DOCTYPE html>"', said)
         with open("lab.html", encoding="utf-8") as file:
             text = file.read()
-        self.assertTrue(text.startswith(BEGINS + "flankfilm<section>"))
+        self.assertTrue(text.startswith(BEGINS + "flankfilm<section"))
         self.assertNotIn("{{", text)
 
     def test_compare(self):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Chromium opens pages of every sort: each tries itself, zooms, toggles, moves its slider, and complains of nothing."""
 import base64
+import copy
 import csv
 import hashlib
 import json
@@ -8,6 +9,7 @@ import os
 import re
 import shutil
 import struct
+import subprocess
 import sys
 
 import lab
@@ -19,8 +21,80 @@ if not shutil.which("chromium"):
     print("needs Chromium")
     sys.exit(77)
 
-HOSTILE = "</title><script>document.title='evil'</script>&amp;"
+HOSTILE = """</script></style></title>'"--><img src=x onerror="document.title='evil'"><script>document.title='evil'</script>&amp;"""
 CONFIGS = os.environ["FLANKFILM_TEST_SOURCE"] + "/configs/"
+
+# The figures that are to be seen and stay empty.
+EMPTY = """new Promise(function wait(done) {
+  const empty = [...document.querySelectorAll('.plot')].filter(p => p.offsetWidth && !p.querySelector('svg'));
+  empty.length && performance.now() < 1e5 ? setTimeout(wait, 20, done) : done(empty.map(p => p.parentNode.textContent)); })"""
+# What a print does not have, and what it has of use on a screen alone.
+LEFT_OUT = """[...document.querySelectorAll('details:not([open])'),
+  ...[...document.querySelectorAll('.buttons, .tools, .player')].filter(b => b.offsetWidth)].map(one => one.textContent)"""
+
+# A study of toy models of each sort of page.
+STUDIES = {
+    "sample": """
+pipeline: {wave: {use: toy/wave, amplitude: 2 mm, count: 8}}
+outputs: [wave.total]
+study:
+  sweep: {wave.amplitude: {from: 1 mm, to: 3 mm}}
+  sample: {sobol: 40, seed: 1}
+""",
+    "uncertainty": """
+pipeline: {wave: {use: toy/wave, amplitude: 2 mm, count: 8}}
+outputs: [wave.total]
+study:
+  uncertainty:
+    outputs: [wave.total]
+    inputs: {wave.amplitude: {normal: [2 mm, 5 %]}}
+    samples: 40
+    models: {longer: {wave.count: 12}}
+""",
+    "tradeoff": """
+pipeline: {root: {use: toy/root}}
+outputs: [root.value]
+study:
+  tradeoff:
+    outputs: [root.value]
+    accuracy: 1e-2
+    reference: {root.n: 100, refine: [root.n], refinements: 5}
+    candidates: [{root.n: [2, 4]}, {root.n: 5}, {root.blind: 8}]
+    repeats: 1
+""",
+    "stability": """
+pipeline: {verge: {use: toy/verge}}
+outputs: [verge.answers]
+study:
+  stability:
+    axes: {verge.load: {from: 1 N, to: 10 N, points: 3}, verge.speed: {from: 0.1 m/s, to: 4 m/s, points: 4}}
+    outputs: [verge.answer]
+    estimates: {verge.answer: [verge.answer_error]}
+    refine: [verge.cells]
+    range: [verge.law]
+    bisect: {verge.speed: 2}
+""",
+    "sweep": """
+pipeline: {wave: {use: toy/wave, amplitude: 2 mm}, second: {use: toy/wave, amplitude: 1 mm, count: 8}}
+outputs: [second.total, wave.total]
+limits: {second.total: "> 5 mm"}
+study:
+  sweep: {second.amplitude: [1 mm, 3 mm, 2 mm], wave.amplitude: [1 mm, 2 mm, 3 mm, 4 mm, 5 mm], wave.count: [4, 7, 11]}
+""",
+    "along": """
+pipeline: {wave: {use: toy/wave, amplitude: 2 mm, count: 8}}
+outputs: [wave.total, wave.height, wave.x]
+limits: {wave.total: "> 3 mm"}
+study:
+  sweep: {wave.amplitude: {from: 1 mm, to: 4 mm, points: 6}}
+""",
+    "spectrum": """
+pipeline: {wave: {use: toy/wave, amplitude: 2 mm, count: 8}}
+outputs: [wave.total, wave.height, wave.x]
+study:
+  cases: [{time: 3 h, wave.amplitude: 2 mm}, {time: 1 h, wave.amplitude: 4 mm}, {time: 8 h, wave.amplitude: 1 mm}, {time: 2 h, wave.amplitude: 3 mm}, {time: 5 h, wave.amplitude: 2.5 mm}, {time: 1 h, wave.amplitude: 5 mm}, {time: 4 h, wave.amplitude: 1.5 mm}, {time: 6 h, wave.amplitude: 2.2 mm}]
+""",
+}
 
 
 class Report(lab.Lab):
@@ -43,13 +117,40 @@ class Report(lab.Lab):
         self.assertEqual(look.wrong(self.browser), [])
         return self.browser.value("document.documentElement.outerHTML"), self.browser.value("document.querySelectorAll('figure').length")
 
-    def study(self, name, text, code=0):
-        """Runs a study of toy models; returns its page's text, what the browser makes of it, and its figures."""
-        with open(name + ".yaml", "w", encoding="utf-8") as file:
-            file.write("format: 2\n" + text)
-        self.call("run", name + ".yaml", "-o", name, code=code)
+    def see(self, path):
+        """A phone and a wide screen, light and dark, paper, and a browser that runs no scripts have the whole page."""
+        url, ground = "file://" + os.path.abspath(path), {}
+        for width, scheme in (420, "light"), (420, "dark"), (1600, "dark"), (1600, "light"), (1000, "print"):
+            self.browser.dress(width, scheme)
+            self.assertEqual(look.wrong(self.browser), [], (width, scheme))
+            self.assertEqual(self.browser.value(EMPTY), [], (width, scheme))
+            ground[scheme] = self.browser.value("getComputedStyle(document.body).backgroundColor")
+        self.assertEqual(len(set(ground.values())), 3)
+        self.browser.open(url)
+        title = self.browser.value("document.title")
+        words = self.browser.value("document.querySelector('main').innerText.length")
+        closed = self.browser.value("document.querySelectorAll('details:not([open])').length")
+        self.browser.dress(1000, "print")
+        self.assertEqual(self.browser.value(LEFT_OUT), [])
+        self.browser.dress(1000, "light")
+        self.assertEqual(self.browser.value("document.querySelectorAll('details:not([open])').length"), closed)
+        self.browser.open(url, scripts=False)
+        self.assertIsNone(self.browser.value("document.body.dataset.ready"))
+        self.assertGreater(self.browser.value("document.querySelector('main').innerText.length"), 0.5 * words)
+        self.assertEqual(self.browser.value("document.title"), title)
+
+    def made(self, name):
+        """Runs a study unless it was run; the map of stability has a cell that fails."""
+        self.write(name + ".yaml", "format: 2\n" + STUDIES[name])
+        self.call("run", name + ".yaml", "-o", name, code=4 if name == "stability" else 0)
+
+    def study(self, name):
+        """Returns a study's page, what the browser makes of it, and the number of its figures."""
+        self.made(name)
         self.call("report", name)
-        return self.read_page(name + "/report.html"), *self.look(name + "/report.html")
+        found = self.read_page(name + "/report.html"), *self.look(name + "/report.html")
+        self.see(name + "/report.html")
+        return found
 
     def read_page(self, path):
         self.assertLess(os.path.getsize(path), 5e6)
@@ -82,6 +183,7 @@ class Report(lab.Lab):
         self.assertEqual(self.call("report", "pair"), "pair/report.html\n")
         page = self.read_page("pair/report.html")
         dom, figures = self.look("pair/report.html")
+        self.see("pair/report.html")
         self.assertGreater(figures, 12)
         for words in ("least film thickness", "roll angle", "LPSTC", "HPSTC", "µm)", "MPa",
                       "Quality of the numbers", "unity-50.yaml", "@article"):
@@ -140,6 +242,35 @@ class Report(lab.Lab):
             with open(table, encoding="utf-8") as file:
                 self.assertEqual(file.read().count(words), 2)
 
+    def test_inputs(self):
+        """What the user has given stands beside the answer; presets and what a study varies do not."""
+        self.call("report", "run")
+        inputs = self.read_page("run/report.html").split('<dl class="inputs">')[1].split("</dl>")[0]
+        self.assertEqual(re.findall("<span>(.*?)</span>", inputs), ["amplitude <b>2 mm</b>", "count <b>9</b>", "end <b>doubtful</b>"])
+        self.write("heights.csv", "time [s],radius [mm],speed_1 [m/s],speed_2 [m/s],load_per_width [N/mm]\n0,12.8,9,1,100\n1,12.8,9,1,100\n")
+        self.write("named.yaml", f"format: 2\npipeline: {{spot: {{use: contact/table, file: {os.getcwd()}/heights.csv}}}}\noutputs: [spot.radius_1]\n")
+        self.call("run", "named.yaml", "-o", "named")
+        self.call("report", "named")
+        named = self.read_page("named/report.html")
+        self.assertIn("<b>heights.csv</b>", named)
+        self.assertNotIn(os.getcwd(), named)  # no folder of the author's disk
+        page, _, _ = self.study("along")
+        self.assertIn("<dt>wave <small>toy/wave</small></dt><dd><span>count <b>8</b></span> </dd>", page)
+
+    def test_along(self):
+        """A sweep of one axis: curves with the limit, and how many cases meet it."""
+        page, _, figures = self.study("along")
+        self.assertEqual(figures, 2)  # the total, and the heights of some cases
+        self.assertRegex(page, r'"limit":\{"at":3,"name":"\\u003e 3 mm"')
+        self.assertRegex(page, r"Of 6 cases \d meet the limits of the file")
+
+    def test_spectrum(self):
+        """Rows of a load spectrum are no sample, and their numbers no axis."""
+        page, dom, _ = self.study("spectrum")
+        for words in ("how it is spread", "median", "Over what is varied"):
+            self.assertNotIn(words, page.split("<main>")[1].split("</main>")[0])
+        self.assertIn("for how long it is below", dom)
+
     def test_share(self):
         """A friction coefficient has its extremes where there is load; without load it may be anything."""
         self.write("fade.csv", "time [s],radius [mm],speed_1 [m/s],speed_2 [m/s],load_per_width [N/mm]\n"
@@ -158,6 +289,8 @@ class Report(lab.Lab):
         self.call("compare", "fade", "fade", "-o", "faded")
         page = self.read_page("fade/report.html")
         self.assertIn(shown, page)
+        drawn = re.search(r'"y":\{"label":"traction[^}]*"low":([^,]*),"high":([^}]*)\}', page).groups()
+        self.assertLess(max(abs(float(end)) for end in drawn), 1.3 * max(abs(f) for f in friction[2:4]))
         self.assertIn("; where load per width is above 1 % of its largest", page)
         with open("faded.csv", encoding="utf-8") as table:
             self.assertEqual([float(row["fade"]) for row in csv.DictReader(table) if "friction" in row["output of flankfilm"]],
@@ -185,6 +318,7 @@ class Report(lab.Lab):
             self.assertEqual([mark for mark in ("SAP", "LPSTC", "pitch", "HPSTC", "tip") if f'"{mark}"]' not in text], [])
         self.assertIn("<th>difference</th>", text)  # without scripts, too
         _, figures = self.look("side.html")
+        self.see("side.html")
         self.assertEqual(figures, 1)
 
     def test_atlas(self):
@@ -196,13 +330,7 @@ class Report(lab.Lab):
         self.assertIn("all periodic motions", dom)
 
     def test_sample(self):
-        page, dom, figures = self.study("sample", """
-pipeline: {wave: {use: toy/wave, amplitude: 2 mm, count: 8}}
-outputs: [wave.total]
-study:
-  sweep: {wave.amplitude: {from: 1 mm, to: 3 mm}}
-  sample: {sobol: 40, seed: 1}
-""")
+        page, dom, figures = self.study("sample")
         self.assertEqual(figures, 3)  # how it is spread, what it follows, over each input
         for words in ("median", "95 %"):
             self.assertIn(words, page)
@@ -210,17 +338,9 @@ study:
 
     def test_uncertainty(self):
         """What limits an output, its histogram with percentiles, and the share of each input."""
-        page, dom, figures = self.study("uncertainty", """
-pipeline: {wave: {use: toy/wave, amplitude: 2 mm, count: 8}}
-outputs: [wave.total]
-study:
-  uncertainty:
-    outputs: [wave.total]
-    inputs: {wave.amplitude: {normal: [2 mm, 5 %]}}
-    samples: 40
-    models: {longer: {wave.count: 12}}
-""")
+        page, dom, figures = self.study("uncertainty")
         self.assertEqual(figures, 6)  # and the three of its samples
+        self.assertNotIn("error bar", page.split('class="verdict span')[1].split("</table>")[0])
         # 8 points make 3.6 amplitudes, 12 make 0.2; an amplitude is known to 5 %
         self.assertIn("the choice of the model does", page)
         for words in ("What limits each output", "what the inputs make of it", "50 % are below", "share of the variance"):
@@ -228,17 +348,7 @@ study:
 
     def test_tradeoff(self):
         """Its cases are named by what they set, with a table of the front and one of all candidates."""
-        page, dom, figures = self.study("tradeoff", """
-pipeline: {root: {use: toy/root}}
-outputs: [root.value]
-study:
-  tradeoff:
-    outputs: [root.value]
-    accuracy: 1e-2
-    reference: {root.n: 100, refine: [root.n], refinements: 5}
-    candidates: [{root.n: [2, 4]}, {root.n: 5}, {root.blind: 8}]
-    repeats: 1
-""")
+        page, dom, figures = self.study("tradeoff")
         self.assertEqual(figures, 1)
         # levels that were not needed are no cases
         self.assertIn('<p class="judgement"><span class="badge good">good</span> Of 6 cases 6 are good, ', page)
@@ -251,18 +361,7 @@ study:
 
     def test_stability(self):
         """A map has a letter and a reason for each cell, and its boundaries."""
-        page, dom, figures = self.study("stability", """
-pipeline: {verge: {use: toy/verge}}
-outputs: [verge.answers]
-study:
-  stability:
-    axes: {verge.load: {from: 1 N, to: 10 N, points: 3}, verge.speed: {from: 0.1 m/s, to: 4 m/s, points: 4}}
-    outputs: [verge.answer]
-    estimates: {verge.answer: [verge.answer_error]}
-    refine: [verge.cells]
-    range: [verge.law]
-    bisect: {verge.speed: 2}
-""", code=4)
+        page, dom, figures = self.study("stability")
         self.assertGreater(figures, 0)
         self.assertIn("the cells that are not converged, and why", dom)
         self.assertRegex(dom, r"<b[^>]*>F</b>\d+ failed")
@@ -339,23 +438,76 @@ study:
         self.assertIn('<p class="alarm without">This build has no plotting library', dom)
         self.assertRegex(dom, r'</script><div class="wide"><table>')
 
-    def test_hostile_text(self):
-        self.call("run", "run.yaml", "-o", "hostile", "--set", f'title="{HOSTILE}"')
-        self.call("report", "hostile")
-        self.assertNotIn(HOSTILE, self.read_page("hostile/report.html"))
-        dom, _ = self.look("hostile/report.html")
-        self.assertIn("&lt;/title&gt;&lt;script&gt;", dom)
-        self.assertIn("&lt;/title&gt;", self.browser.value("document.head.innerHTML"))
+    def test_hostile_results(self):
+        """Whatever text and name of a result is markup, the page of each sort shows it as text."""
+        for name in STUDIES:
+            self.made(name)
+        for name in "run", "study", *STUDIES:
+            taken = self.poison(name)
+            self.assertGreater(taken, 20, name)
+            self.call("report", "hostile", "-o", "hostile.html")
+            self.harmless("hostile.html")
+        self.poison("run")
+        self.call("compare", "hostile", "run", "-o", "against")
+        self.harmless("against.html")
+
+    def harmless(self, path):
+        with open(path, encoding="utf-8") as file:
+            self.assertNotIn("<img", file.read())
+        self.browser.open("file://" + os.path.abspath(path))
+        self.assertEqual(self.browser.value("document.body.dataset.ready"), "1")
+        self.assertNotEqual(self.browser.value("document.title"), "evil")
+        self.assertEqual(self.browser.value("document.querySelectorAll('img, [onerror]').length"), 0)
+        self.assertGreater(self.browser.value("document.querySelector('main').textContent.split('<img').length"), 5)
+
+    def poison(self, name):
+        """Copies results and puts markup into each text and name with which a page can be made; returns how many."""
+        def places(of, path):
+            if isinstance(of, dict):
+                for key, one in of.items():
+                    yield from places(one, (*path, key))
+                    if path[-1:] and path[-1] in ("outputs", "computed", "quality", "parameters", "wires", "docs"):
+                        yield (*path, key), True
+            elif isinstance(of, list):
+                for k, one in enumerate(of[:3]):
+                    yield from places(one, (*path, k))
+            elif isinstance(of, str):
+                yield path, False
+
+        def store(chosen):
+            files = copy.deepcopy(whole)
+            for path, key in sorted(chosen, key=lambda place: (place[1], -len(place[0]))):  # names after texts, from within
+                of = files
+                for step in path[:-1]:
+                    of = of[step]
+                if key:
+                    of[HOSTILE + path[-1]] = of.pop(path[-1])
+                else:
+                    of[path[-1]] = HOSTILE
+            for name, value in files.items():
+                self.write("hostile/" + name, json.dumps(value))
+
+        def spread(more, taken):
+            """Adds the places of a list that do not spoil the results for the page."""
+            store(taken + more)
+            done = subprocess.run([self.program, "report", "hostile", "-o", "hostile.html"], capture_output=True, check=False)
+            self.assertIn(done.returncode, (0, 1, 2), done)
+            if done.returncode == 0:
+                return taken + more
+            if len(more) < 2:
+                return taken
+            return spread(more[len(more) // 2:], spread(more[:len(more) // 2], taken))
+
+        shutil.rmtree("hostile", ignore_errors=True)
+        shutil.copytree(name, "hostile")
+        whole = {file: self.read("hostile/" + file) for file in os.listdir("hostile") if file.endswith(".json")}
+        taken = spread([place for place in places(whole, ()) if len(place[0]) > 1], [])
+        store(taken)
+        return len(taken)
 
     def test_sweep(self):
         """Of a sweep of several axes the best of each condition stands first; what no figure can hold is small tables. Both need no script."""
-        page, _, _ = self.study("sweep", """
-pipeline: {wave: {use: toy/wave, amplitude: 2 mm}, second: {use: toy/wave, amplitude: 1 mm, count: 8}}
-outputs: [second.total, wave.total]
-limits: {second.total: "> 5 mm"}
-study:
-  sweep: {second.amplitude: [1 mm, 3 mm, 2 mm], wave.amplitude: [1 mm, 2 mm, 3 mm, 4 mm, 5 mm], wave.count: [4, 7, 11]}
-""")
+        page, _, _ = self.study("sweep")
         with open("sweep/table.csv", encoding="utf-8") as table:
             cases = list(csv.DictReader(table))
         best = page.split('<table class="best">')[1].split("</table>")[0]
@@ -363,11 +515,11 @@ study:
             row = best.split(f"amplitude {case['wave.amplitude [mm]']} mm, count {case['wave.count']}</th>")[1].split("</tr>")[0]
             shown, unit = re.search('data-head="wave.total"><div>\u25bc <b>([0-9.]+) (\\S+)</b> at', row).groups()
             self.assertAlmostEqual(float(shown) * {"mm": 1e-3, "\u00b5m": 1e-6}[unit] / float(case["wave.total [m]"]), 1, places=3)
-            self.assertIn("<b>10.85 mm</b> at amplitude 3 mm<", row)
+            self.assertIn("<b>10.85 mm</b> at 3 mm<", row)
         self.assertEqual(page.count('class="missed'), 30)  # 1 mm, under all conditions, of both outputs
         self.assertEqual(page.count("\u2605\u202f10.85<"), 3)
         self.assertNotIn("10.85 mm</b>", self.sought("wave.total=least"))
-        self.assertIn("<b>7.233 mm</b> at amplitude 2 mm<", self.sought("wave.total=largest", "second.total=least"))  # 1 mm misses the limit
+        self.assertIn("<b>7.233 mm</b> at 2 mm<", self.sought("wave.total=largest", "second.total=least"))  # 1 mm misses the limit
         for words, said in (("wave.totl=least", 'did you mean "wave.total"'), ("wave.total", "OUTPUT=least or OUTPUT=largest")):
             self.assertIn(said, self.call("report", "sweep", "--best", words, code=2))
         self.assertIn("not of a sweep", self.call("report", "run", "--best", "sum.sum=least", code=2))
