@@ -19,8 +19,7 @@ static void put_cell(FILE *out, const json_t *cell)
     if (json_is_number(cell)) {
         report_number_text(json_number_value(cell), text);
         fprintf(out, "<td class=\"number\" data-v=\"%.9g\">", json_number_value(cell));
-        report_put_text(out, text);
-        fputs("</td>", out);
+        report_print(out, "%s</td>", text);
     } else if (json_is_boolean(cell)) {
         report_put_cell(out, json_is_true(cell) ? "true" : "false");
     } else {
@@ -70,9 +69,10 @@ static void put_figure(FILE *out, json_t *figure)
     json_object_del(figure, "words");
     json_object_del(figure, "tables");
     if (drawn) {
-        report_print(out, "<figure><figcaption><span>%s</span></figcaption>",
-                     text_of(figure, "title"));
-        fputs("<script type=\"application/json\">", out);
+        report_print(
+            out,
+            "<figure><figcaption><span>%s</span></figcaption><script type=\"application/json\">",
+            text_of(figure, "title"));
         put_description(out, figure);
         fputs("</script>\n", out);
     } else {

@@ -137,12 +137,12 @@ bool report_write_grids(report_page *page, size_t variable, const report_scalar 
         shown[p.across] = true;
         if (p.down >= 0)
             shown[p.down] = true;
-        report_print(page->out,
-                     "<div class=\"broad\"><h3>%s: %s</h3>\n<p class=\"note\">across: %s",
-                     view->variables[variable]->name, scalar->label, path_of(view, p.across));
-        report_print(page->out, "%s%s; shaded from the least to the largest of each table</p>\n",
-                     p.down < 0 ? "" : "; down: ", p.down < 0 ? "" : path_of(view, p.down));
-        fputs("<div class=\"grids\">\n", page->out);
+        report_print(
+            page->out,
+            "<div class=\"broad\"><h3>%s: %s</h3>\n<p class=\"note\">across: %s%s%s; shaded from "
+            "the least to the largest of each table</p>\n<div class=\"grids\">\n",
+            view->variables[variable]->name, scalar->label, path_of(view, p.across),
+            p.down < 0 ? "" : "; down: ", p.down < 0 ? "" : path_of(view, p.down));
         page->figures++;
     }
     for (size_t k = 0; good && k < panels && k < MOST_PANELS; k++) {

@@ -18,11 +18,8 @@ static void write_facts(report_page *page)
     const results_view *view = page->view;
     fputs("<table class=\"facts\"><tbody>\n", page->out);
     for (size_t i = 0; i < view->fact_count; i++) {
-        fputs("<tr><th scope=\"row\">", page->out);
-        report_put_text(page->out, view->facts[i]->name);
-        fputs("</th>", page->out);
-        report_put_cell(page->out, without_folder(view->facts[i]->text));
-        fputs("</tr>\n", page->out);
+        report_print(page->out, "<tr><th scope=\"row\">%s</th><td>%s</td></tr>\n",
+                     view->facts[i]->name, without_folder(view->facts[i]->text));
     }
     fputs("</tbody></table>\n", page->out);
 }
@@ -30,21 +27,14 @@ static void write_facts(report_page *page)
 static void write_stage(report_page *page, const results_view_stage *stage)
 {
     FILE *out = page->out;
-    fputs("<tr class=\"stage\"><th scope=\"row\">", out);
-    report_put_text(out, stage->name);
-    fputs("</th><td colspan=\"2\">", out);
-    report_put_text(out, stage->model);
-    fputs(" ", out);
-    report_put_text(out, stage->version);
-    fputs(" <small>plugin file ", out);
-    report_put_text(out, stage->build);
-    fputs("</small></td></tr>\n", out);
+    report_print(out,
+                 "<tr class=\"stage\"><th scope=\"row\">%s</th><td colspan=\"2\">%s %s "
+                 "<small>plugin file %s</small></td></tr>\n",
+                 stage->name, stage->model, stage->version, stage->build);
     for (size_t i = 0; i < stage->param_count; i++) {
-        fputs("<tr>", out);
-        report_put_cell(out, stage->params[i]->name);
-        report_put_cell(out, without_folder(stage->params[i]->text));
-        report_put_cell(out, without_folder(stage->params[i]->origin));
-        fputs("</tr>\n", out);
+        report_print(out, "<tr><td>%s</td><td>%s</td><td>%s</td></tr>\n", stage->params[i]->name,
+                     without_folder(stage->params[i]->text),
+                     without_folder(stage->params[i]->origin));
     }
 }
 
@@ -99,13 +89,8 @@ void report_write_origin(report_page *page)
           "</summary>\n<dl>\n",
           out);
     for (size_t i = 0; i < view->citation_count; i++) {
-        fputs("<dt>", out);
-        report_put_text(out, view->citations[i]->model);
-        fputs("</dt><dd>", out);
-        report_put_text(out, view->citations[i]->reference);
-        fputs("<pre>", out);
-        report_put_text(out, view->citations[i]->bibtex);
-        fputs("</pre></dd>\n", out);
+        report_print(out, "<dt>%s</dt><dd>%s<pre>%s</pre></dd>\n", view->citations[i]->model,
+                     view->citations[i]->reference, view->citations[i]->bibtex);
     }
     fputs("</dl></details></section>\n", out);
 }

@@ -132,9 +132,7 @@ report_check *report_find_checks(const results_view *view, size_t *count)
 static void write_line(report_page *page, const report_check *w)
 {
     FILE *out = page->out;
-    fputs("<tr>", out);
-    report_put_cell(out, page->view->stages[w->line->stage]->name);
-    fputs("<td>", out);
+    report_print(out, "<tr><td>%s</td><td>", page->view->stages[w->line->stage]->name);
     report_put_line_name(out, w->line);
     fputs("</td>", out);
     put_number(out, w->line->value);
@@ -143,8 +141,7 @@ static void write_line(report_page *page, const report_check *w)
     report_put_badge(out, report_verdict_word(w->line));
     if (page->view->study)
         fprintf(out, " %zu of %zu, as in case %zu", w->count, w->total, w->index + 1);
-    fputs("</td>", out);
-    report_print(out, "<td>%s", w->line->text);
+    report_print(out, "</td><td>%s", w->line->text);
     if (*w->line->accepted)
         report_print(out, " <b>Accepted:</b> %s", w->line->accepted);
     fputs("</td>", out);

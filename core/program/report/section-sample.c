@@ -225,9 +225,10 @@ void report_write_sample(report_page *page, const report_scalar *f)
     size_t drawn = 0;
     draw_histogram(page, f);
     draw_bars(page, f);
-    fputs("<details class=\"broad\"><summary>", page->out);
-    report_put_text(page->out, f->title);
-    fputs(" over each input</summary>\n<div class=\"figures\">\n", page->out);
+    report_print(
+        page->out,
+        "<details class=\"broad\"><summary>%s over each input</summary>\n<div class=\"figures\">\n",
+        f->title);
     for (size_t a = 0; a < view->axis_count && drawn < MOST_INPUTS; a++)
         if (is_numeric(view, view->axes[a])) {
             draw_dots(page, f, view->axes[a]);

@@ -339,12 +339,8 @@ static void write_failed(report_page *page)
         if (failed > MOST_FAILED)
             continue;
         fprintf(page->out, "<tr><td>%zu</td><td>", c + 1);
-        report_put_text(page->out, of->status);
-        fputs("</td><td>", page->out);
-        report_put_text(page->out, of->reason);
-        fputs("</td><td><code>", page->out);
-        report_put_text(page->out, of->command);
-        fputs("</code></td></tr>\n", page->out);
+        report_print(page->out, "%s</td><td>%s</td><td><code>%s</code></td></tr>\n", of->status,
+                     of->reason, of->command);
     }
     if (failed > 0)
         fputs("</tbody></table></div>\n", page->out);
@@ -366,18 +362,14 @@ static void write_table_row(report_page *page, size_t index, const columns *has)
     char text[REPORT_TEXT_SIZE];
     fprintf(page->out, "<tr><td>%zu</td>", index + 1);
     for (size_t a = 0; a < view->axis_count; a++) {
-        fputs("<td>", page->out);
-        report_put_text(page->out,
-                        report_axis_word(view->axes[a],
-                                         results_view_point(view, index, view->axes[a]->dimension),
-                                         text));
-        fputs("</td>", page->out);
+        report_print(page->out, "<td>%s</td>",
+                     report_axis_word(view->axes[a],
+                                      results_view_point(view, index, view->axes[a]->dimension),
+                                      text));
     }
-    report_put_cell(page->out, view->cases[index]->status);
-    fputs("<td>", page->out);
+    report_print(page->out, "<td>%s</td><td>", view->cases[index]->status);
     report_put_badge(page->out, view->cases[index]->verdict);
-    fputs("</td>", page->out);
-    report_put_cell(page->out, view->cases[index]->reasons);
+    report_print(page->out, "</td><td>%s</td>", view->cases[index]->reasons);
     if (has->range)
         report_put_cell(page->out, view->cases[index]->range);
     if (has->limits)
@@ -404,9 +396,7 @@ static void write_table(report_page *page)
     fprintf(page->out, "<section><details><summary>All cases</summary>\n<div class=\"wide\"><table>"
                        "<thead><tr><th>case</th>");
     for (size_t a = 0; a < view->axis_count; a++) {
-        fputs("<th>", page->out);
-        report_put_text(page->out, view->axes[a]->path);
-        fputs("</th>", page->out);
+        report_print(page->out, "<th>%s</th>", view->axes[a]->path);
     }
     fprintf(page->out, "<th>status</th><th>verdict</th><th>because of</th>%s%s",
             has.range ? "<th>outside of its range</th>" : "", has.limits ? "<th>limits</th>" : "");

@@ -42,8 +42,7 @@ static void write_place(report_page *page, int axis, double at)
     const results_view_variable *along = page->view->variables[axis];
     report_quantity_text(along->output, along->unit, at, text);
     bool roll = !strcmp(along->output, "roll_angle");
-    report_put_text(page->out, roll ? "roll angle" : report_output_words(along, words));
-    report_print(page->out, " %s", text);
+    report_print(page->out, "%s %s", roll ? "roll angle" : report_output_words(along, words), text);
     if (!roll)
         return;
     report_marks marks = report_find_marks(page, 0);
@@ -63,8 +62,7 @@ static void write_error(report_page *page, size_t variable, size_t at)
     ff_array bar = report_load(page, report_find_bar(page->view, variable), 0);
     if (bar.data && at < report_array_size(&bar) && bar.data[at] > 0) {
         report_bar_text(of->unit, bar.data[at], text);
-        fputs(" &#177; ", page->out);
-        report_put_text(page->out, text);
+        report_print(page->out, " &#177; %s", text);
     }
     report_release(page, &bar);
 }
@@ -179,15 +177,13 @@ static void write_reason(report_page *page, const results_view_quality *line)
     char value[REPORT_TEXT_SIZE], limit[REPORT_TEXT_SIZE];
     char words[REPORT_TEXT_SIZE], name[REPORT_TEXT_SIZE];
     const size_t length = strlen(line->name), end = strlen("_error");
-    report_put_text(page->out, page->view->stages[line->stage]->name);
-    fputs(": ", page->out);
+    report_print(page->out, "%s: ", page->view->stages[line->stage]->name);
     if (!strncmp(line->text, "measured", 8) && length > end && length < sizeof name) {
         snprintf(name, sizeof name, "%.*s", (int)(length - end), line->name);
         const int of = report_find_output(page->view, line->stage, name);
-        fputs("error of the ", page->out);
-        report_put_text(page->out, of < 0 ? report_plain_name(name, words)
-                                          : report_output_words(page->view->variables[of], words));
-        fputs(", ", page->out);
+        report_print(page->out, "error of the %s, ",
+                     of < 0 ? report_plain_name(name, words)
+                            : report_output_words(page->view->variables[of], words));
     }
     report_put_text(page->out, *line->text ? line->text : line->name);
     report_number_text(line->value, value);
@@ -307,10 +303,8 @@ static void write_run(report_page *page)
 static void begin_span(report_page *page, const results_view_variable *of)
 {
     char words[REPORT_TEXT_SIZE];
-    fputs("<tr><th scope=\"row\">", page->out);
-    report_put_text(page->out, report_output_words(of, words));
-    fputs("</th>", page->out);
-    report_put_cell(page->out, page->view->stages[of->stage]->name);
+    report_print(page->out, "<tr><th scope=\"row\">%s</th><td>%s</td>",
+                 report_output_words(of, words), page->view->stages[of->stage]->name);
 }
 
 /* Writes the least and the largest value of a scalar over the cases, and where they are. */
@@ -463,11 +457,8 @@ void report_write_verdict(report_page *page)
     report_print(page->out, "<section class=\"%s\"><div><h2>Verdict</h2>\n",
                  view->study ? "study" : "answer");
     if (!view->study && strcmp(view->cases[0]->status, "ok") != 0) {
-        fputs("<p class=\"alarm\">The run ended as <b>", page->out);
-        report_put_text(page->out, view->cases[0]->status);
-        fputs("</b>: ", page->out);
-        report_put_text(page->out, view->cases[0]->reason);
-        fputs("</p>\n", page->out);
+        report_print(page->out, "<p class=\"alarm\">The run ended as <b>%s</b>: %s</p>\n",
+                     view->cases[0]->status, view->cases[0]->reason);
     }
     report_write_limits(page);
     (view->study ? write_study : write_run)(page);
