@@ -144,13 +144,28 @@ report_marks report_find_marks(report_page *page, size_t index)
     return marks;
 }
 
-double *report_load_values(report_page *page, size_t variable)
+report_scalar report_load_scalar(report_page *page, size_t variable)
 {
-    double *values = memory_alloc(page->view->case_count * sizeof *values);
-    for (size_t c = 0; c < page->view->case_count; c++) {
+    const results_view *view = page->view;
+    const results_view_variable *of = view->variables[variable];
+    report_scalar s = {.page = page,
+                       .variable = variable,
+                       .count = view->case_count,
+                       .values = memory_alloc(view->case_count * sizeof *s.values),
+                       .low = INFINITY,
+                       .high = -INFINITY};
+    char words[REPORT_TEXT_SIZE];
+    for (size_t c = 0; c < s.count; c++) {
         ff_array array = report_load(page, (int)variable, c);
-        values[c] = array.data ? array.data[0] : (double)NAN;
+        s.values[c] = array.data ? array.data[0] : (double)NAN;
         report_release(page, &array);
+        s.low = fmin(s.low, s.values[c]); /* which drop NaN */
+        s.high = fmax(s.high, s.values[c]);
     }
-    return values;
+    s.unit =
+        report_unit_for(of->output, of->unit, s.low > s.high ? 0 : fmax(fabs(s.low), fabs(s.high)));
+    snprintf(s.title, sizeof s.title, "%.60s: %.120s", view->stages[of->stage]->name,
+             report_output_words(of, words));
+    report_label(report_output_words(of, words), &s.unit, s.label);
+    return s;
 }

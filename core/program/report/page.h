@@ -92,8 +92,6 @@ double report_find_scalar(report_page *page, const char *output, size_t index);
 ff_array report_load(report_page *page, int variable, size_t index);
 void report_release(report_page *page, ff_array *array);
 size_t report_array_size(const ff_array *array);
-/* Loads a scalar over the cases, in SI; to be freed. */
-double *report_load_values(report_page *page, size_t variable);
 
 /* Points along the path of contact: SAP, LPSTC, pitch, HPSTC, tip. */
 enum { REPORT_MARKS = 5 };
@@ -177,18 +175,24 @@ void report_put_line_name(FILE *out, const results_view_quality *line);
 /* Returns each line of any case once, in the order of the first case that has it; to be freed. */
 report_check *report_find_checks(const results_view *view, size_t *count);
 
-/* section-sample.c: a scalar over the cases, in SI, and how it is shown. */
+/* find.c: a scalar over the cases, in SI, and how it is shown. */
 typedef struct report_scalar {
-    const double *values;
-    size_t count;
+    report_page *page;
+    size_t variable, count;
+    double *values;
+    double low, high; /* of those that are known; low > high: none is */
     results_readable unit;
     char title[REPORT_TEXT_SIZE], label[REPORT_TEXT_SIZE];
 } report_scalar;
+/* Loads it; values are to be freed. */
+report_scalar report_load_scalar(report_page *page, size_t variable);
+
+/* section-sample.c */
 bool report_is_sample(const results_view *view);
 /* Returns the finite values in order, to be freed; percent is 0 to 100, count above 0. */
 double *report_sort(const double *values, size_t count, size_t *kept);
 double report_percentile(const double *list, size_t count, double percent);
-void report_write_sample(report_page *page, const report_scalar *scalar);
+void report_write_sample(const report_scalar *scalar);
 
 /* section-limits.c: the number that a limit of an output names, in SI; NaN: none does. */
 double report_limit_bound(const results_view *view, size_t variable);
@@ -214,11 +218,10 @@ int report_sense_of(const report_page *page, size_t variable);
 /* Finds the case with the least (-1) or largest (1) value among the combinations of some
    dimensions, from the case `first`; SIZE_MAX: no value is known. With `met` cases that miss a
    limit do not count. `same` counts other cases with that value. */
-size_t report_find_extreme(const results_view *view, const double *values, const bool *dims,
-                           size_t count, size_t first, int sense, bool met, size_t *same);
+size_t report_find_extreme(const report_scalar *scalar, const bool *dims, size_t count,
+                           size_t first, int sense, bool met, size_t *same);
 /* The cell that is best of a map over dimensions x and y, whose first case is given; -1: none. */
-ptrdiff_t report_best_of(const report_page *page, size_t variable, const double *values,
-                         size_t first, size_t x, size_t y);
+ptrdiff_t report_best_of(const report_scalar *scalar, size_t first, size_t x, size_t y);
 /* Reads "OUTPUT=least" and "OUTPUT=largest"; false with an error in the report. */
 bool report_read_sought(const results_view *view, const char *const *best, size_t count,
                         report_sought *out, ff_report *report);
@@ -226,7 +229,7 @@ bool report_read_sought(const results_view *view, const char *const *best, size_
 bool report_write_best(report_page *page);
 
 /* section-grids.c writes a scalar as small tables; false where they would be large. */
-bool report_write_grids(report_page *page, size_t variable, const report_scalar *scalar);
+bool report_write_grids(const report_scalar *scalar);
 
 /* These write the sections of the page. */
 /* Writes how the answers stand to the limits of the file: of a study, in how many cases. */

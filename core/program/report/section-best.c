@@ -66,9 +66,11 @@ int report_sense_of(const report_page *page, size_t variable)
     return !asked ? 0 : *asked == '<' ? -1 : 1;
 }
 
-size_t report_find_extreme(const results_view *view, const double *values, const bool *dims,
-                           size_t count, size_t first, int sense, bool met, size_t *same)
+size_t report_find_extreme(const report_scalar *f, const bool *dims, size_t count, size_t first,
+                           int sense, bool met, size_t *same)
 {
+    const results_view *view = f->page->view;
+    const double *values = f->values;
     size_t best = SIZE_MAX;
     *same = 0;
     for (size_t j = 0; j < count; j++) {
@@ -83,18 +85,16 @@ size_t report_find_extreme(const results_view *view, const double *values, const
     return best;
 }
 
-ptrdiff_t report_best_of(const report_page *page, size_t variable, const double *values,
-                         size_t first, size_t x, size_t y)
+ptrdiff_t report_best_of(const report_scalar *f, size_t first, size_t x, size_t y)
 {
-    const results_view *view = page->view;
-    const int sense = report_sense_of(page, variable);
+    const results_view *view = f->page->view;
+    const int sense = report_sense_of(f->page, f->variable);
     bool *dims = memory_alloc(view->dimension_count * sizeof *dims);
+    const size_t count = view->lengths[x] * view->lengths[y];
     size_t same;
     dims[x] = dims[y] = true;
     const size_t c =
-        sense == 0 ? SIZE_MAX
-                   : report_find_extreme(view, values, dims, view->lengths[x] * view->lengths[y],
-                                         first, sense, true, &same);
+        sense == 0 ? SIZE_MAX : report_find_extreme(f, dims, count, first, sense, true, &same);
     free(dims);
     return c == SIZE_MAX ? -1
                          : (ptrdiff_t)(results_view_point(view, c, y) * view->lengths[x] +
@@ -102,55 +102,42 @@ ptrdiff_t report_best_of(const report_page *page, size_t variable, const double 
 }
 
 /* Writes "0.1832 um at 4 um, [30 deg, 22 deg]". */
-static void put_extreme(report_page *page, size_t variable, const double *values,
-                        const report_sides *s, size_t first, int sense, const char *word, bool met)
+static void put_extreme(const report_scalar *f, const report_sides *s, size_t first, int sense,
+                        const char *word, bool met)
 {
-    const results_view *view = page->view;
-    const results_view_variable *of = view->variables[variable];
+    report_page *page = f->page;
+    const results_view_variable *of = page->view->variables[f->variable];
     char text[REPORT_TEXT_SIZE], name[REPORT_TEXT_SIZE];
     size_t same;
-    const size_t c =
-        report_find_extreme(view, values, s->chosen, s->choices, first, sense, met, &same);
+    const size_t c = report_find_extreme(f, s->chosen, s->choices, first, sense, met, &same);
     if (c == SIZE_MAX) {
         report_print(page->out, "<div>%s</div>", met ? "none meets the limits" : "\u2013");
         return;
     }
-    report_quantity_text(of->output, of->unit, values[c], text);
-    report_name_point(view, c, s->chosen, false, name);
+    report_quantity_text(of->output, of->unit, f->values[c], text);
+    report_name_point(page->view, c, s->chosen, false, name);
     report_print(page->out, "<div>%s<b>%s</b> at %s", word, text, name);
     if (same > 0)
         fprintf(page->out, " <small>and %zu more</small>", same);
     fputs("</div>", page->out);
 }
 
-/* Whether the choice makes a difference. */
-static bool varies(const double *values, const results_view *view, const report_sides *s,
-                   size_t first)
+static void put_cell(const report_scalar *f, const report_sides *s, size_t first)
 {
+    const int sense = report_sense_of(f->page, f->variable);
     size_t same;
-    const size_t least =
-        report_find_extreme(view, values, s->chosen, s->choices, first, -1, false, &same);
-    return least != SIZE_MAX && same + 1 < s->choices;
-}
-
-static void put_cell(report_page *page, size_t variable, const double *values,
-                     const report_sides *s, size_t first)
-{
-    const int sense = report_sense_of(page, variable);
-    report_print(page->out, "<td data-head=\"%s\">", page->view->variables[variable]->name);
-    if (sense != 0) {
-        put_extreme(page, variable, values, s, first, sense, "", true);
-    } else {
-        put_extreme(page, variable, values, s, first, -1, "\u25bc ", false);
-        if (varies(values, page->view, s, first))
-            put_extreme(page, variable, values, s, first, 1, "\u25b2 ", false);
-    }
-    fputs("</td>", page->out);
+    report_print(f->page->out, "<td data-head=\"%s\">",
+                 f->page->view->variables[f->variable]->name);
+    put_extreme(f, s, first, sense ? sense : -1, sense ? "" : "\u25bc ", sense != 0);
+    if (sense == 0 && /* the choice makes a difference */
+        report_find_extreme(f, s->chosen, s->choices, first, -1, false, &same) != SIZE_MAX &&
+        same + 1 < s->choices)
+        put_extreme(f, s, first, 1, "\u25b2 ", false);
+    fputs("</td>", f->page->out);
 }
 
 /* Lists the outputs that the table has: those of the reader's choice, or all that vary. */
-static size_t list_outputs(report_page *page, size_t list[MOST_OUTPUTS],
-                           double *values[MOST_OUTPUTS])
+static size_t list_outputs(report_page *page, report_scalar list[MOST_OUTPUTS])
 {
     const results_view *view = page->view;
     size_t count = 0;
@@ -160,16 +147,11 @@ static size_t list_outputs(report_page *page, size_t list[MOST_OUTPUTS],
             wanted = wanted || page->goals[i].variable == v;
         if (!wanted || view->variables[v]->rank != 0)
             continue;
-        values[count] = report_load_values(page, v);
-        double low = INFINITY, high = -INFINITY;
-        for (size_t c = 0; c < view->case_count; c++) {
-            low = fmin(low, values[count][c]);
-            high = fmax(high, values[count][c]);
-        }
-        if (high > low)
-            list[count++] = v;
+        list[count] = report_load_scalar(page, v);
+        if (list[count].high > list[count].low)
+            count++;
         else
-            free(values[count]);
+            free(list[count].values);
     }
     return count;
 }
@@ -247,19 +229,18 @@ bool report_read_sought(const results_view *view, const char *const *best, size_
 bool report_write_best(report_page *page)
 {
     const results_view *view = page->view;
-    size_t list[MOST_OUTPUTS];
-    double *values[MOST_OUTPUTS];
+    report_scalar list[MOST_OUTPUTS];
     if (!report_is_sweep(view))
         return false;
     report_sides s = report_sides_of(view);
-    const size_t count = list_outputs(page, list, values);
+    const size_t count = list_outputs(page, list);
     const size_t rows = s.conditions < MOST_CONDITIONS ? s.conditions : MOST_CONDITIONS;
     if (count > 0) {
         fputs("<div class=\"wide\"><table class=\"best\"><thead><tr>", page->out);
         if (s.conditions > 1)
             put_chosen(page, &s);
         for (size_t i = 0; i < count; i++)
-            put_head(page, list[i]);
+            put_head(page, list[i].variable);
         fputs("</tr></thead><tbody>\n", page->out);
     }
     for (size_t k = 0; k < rows && count > 0; k++) {
@@ -270,11 +251,11 @@ bool report_write_best(report_page *page)
         if (s.conditions > 1)
             report_print(page->out, "<th scope=\"row\">%s</th>", name);
         for (size_t i = 0; i < count; i++)
-            put_cell(page, list[i], values[i], &s, first);
+            put_cell(&list[i], &s, first);
         fputs("</tr>\n", page->out);
     }
     for (size_t i = 0; i < count; i++)
-        free(values[i]);
+        free(list[i].values);
     if (count > 0)
         fputs("</tbody></table></div>\n<p class=\"note\">\u25bc the least, \u25b2 the largest of "
               "the values of the stage that the sweep names first; an output with a limit, or "

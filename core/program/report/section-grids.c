@@ -24,7 +24,7 @@ static int take_longest(const results_view *view, bool *left)
 /* What a small table shows. */
 typedef struct panel {
     const report_scalar *scalar;
-    size_t variable, first;
+    size_t first;
     int across, down;            /* dimensions; down may be -1 */
     size_t least, largest, best; /* cases; SIZE_MAX: not marked */
     double low, high;
@@ -73,17 +73,16 @@ static void put_square(report_page *page, const panel *p, size_t c)
 static void mark(const report_page *page, panel *p, const bool *dims, size_t count)
 {
     const double *values = p->scalar->values;
-    const int sense = report_sense_of(page, p->variable);
+    const int sense = report_sense_of(page, p->scalar->variable);
     size_t same;
-    p->least = report_find_extreme(page->view, values, dims, count, p->first, -1, false, &same);
-    p->largest = report_find_extreme(page->view, values, dims, count, p->first, 1, false, &same);
+    p->least = report_find_extreme(p->scalar, dims, count, p->first, -1, false, &same);
+    p->largest = report_find_extreme(p->scalar, dims, count, p->first, 1, false, &same);
     p->low = p->least == SIZE_MAX ? 0 : values[p->least];
     p->high = p->largest == SIZE_MAX ? 0 : values[p->largest];
     p->best = SIZE_MAX;
     const bool level = !(p->high > p->low);
     if (!level && sense != 0)
-        p->best =
-            report_find_extreme(page->view, values, dims, count, p->first, sense, true, &same);
+        p->best = report_find_extreme(p->scalar, dims, count, p->first, sense, true, &same);
     if (level || sense != 0)
         p->least = p->largest = SIZE_MAX;
 }
@@ -117,11 +116,12 @@ static void write_panel(report_page *page, const panel *p, const char *name)
     free(down);
 }
 
-bool report_write_grids(report_page *page, size_t variable, const report_scalar *scalar)
+bool report_write_grids(const report_scalar *scalar)
 {
+    report_page *page = scalar->page;
     const results_view *view = page->view;
     report_sides s = report_sides_of(view);
-    panel p = {.scalar = scalar, .variable = variable, .across = take_longest(view, s.chosen)};
+    panel p = {.scalar = scalar, .across = take_longest(view, s.chosen)};
     p.down = take_longest(view, s.chosen);
     for (size_t d = 0; d < view->dimension_count; d++) /* what is left has a table for each point */
         s.met[d] = s.met[d] || s.chosen[d];
@@ -141,7 +141,7 @@ bool report_write_grids(report_page *page, size_t variable, const report_scalar 
             page->out,
             "<div class=\"broad\"><h3>%s: %s</h3>\n<p class=\"note\">across: %s%s%s; shaded from "
             "the least to the largest of each table</p>\n<div class=\"grids\">\n",
-            view->variables[variable]->name, scalar->label, path_of(view, p.across),
+            view->variables[scalar->variable]->name, scalar->label, path_of(view, p.across),
             p.down < 0 ? "" : "; down: ", p.down < 0 ? "" : path_of(view, p.down));
         page->figures++;
     }

@@ -84,7 +84,7 @@ double report_percentile(const double *list, size_t count, double percent)
                            : list[count - 1];
 }
 
-static void draw_histogram(report_page *page, const report_scalar *f)
+static void draw_histogram(const report_scalar *f)
 {
     static const char *const names[] = {"5 %", "50 %", "95 %"};
     static const double percents[] = {5, 50, 95};
@@ -110,7 +110,7 @@ static void draw_histogram(report_page *page, const report_scalar *f)
         snprintf(plot.title, sizeof plot.title, "%.150s: how it is spread", f->title);
         snprintf(plot.x_label, sizeof plot.x_label, "%s", f->label);
         snprintf(plot.y_label, sizeof plot.y_label, "cases");
-        report_plot_write(page, &plot);
+        report_plot_write(f->page, &plot);
     }
     report_plot_free(&plot);
     free(list);
@@ -149,10 +149,10 @@ static double correlation(const double *x, const double *y, const bool *counts, 
 }
 
 /* Ranks cost the square of the cases; of many, the first will do. */
-static void draw_bars(report_page *page, const report_scalar *f)
+static void draw_bars(const report_scalar *f)
 {
     enum { MOST_RANKED = 2000 };
-    const results_view *view = page->view;
+    const results_view *view = f->page->view;
     size_t count = f->count < MOST_RANKED ? f->count : MOST_RANKED, inputs = 0;
     bool *counts = memory_alloc(count * sizeof *counts);
     double *x = memory_alloc(count * sizeof *x), *a = memory_alloc(count * sizeof *a);
@@ -181,7 +181,7 @@ static void draw_bars(report_page *page, const report_scalar *f)
         plot.x_names = (const char(*)[REPORT_TEXT_SIZE])names;
         snprintf(plot.title, sizeof plot.title, "%.150s: what it follows", f->title);
         snprintf(plot.y_label, sizeof plot.y_label, "rank correlation");
-        report_plot_write(page, &plot);
+        report_plot_write(f->page, &plot);
     }
     report_plot_free(&plot);
     free(counts);
@@ -190,9 +190,9 @@ static void draw_bars(report_page *page, const report_scalar *f)
     free(b);
 }
 
-static void draw_dots(report_page *page, const report_scalar *f, const results_view_axis *axis)
+static void draw_dots(const report_scalar *f, const results_view_axis *axis)
 {
-    const results_view *view = page->view;
+    const results_view *view = f->page->view;
     char words[REPORT_TEXT_SIZE];
     double size = 0, *x = memory_alloc(f->count * sizeof *x);
     report_plot plot = {.count = 0};
@@ -214,24 +214,25 @@ static void draw_dots(report_page *page, const report_scalar *f, const results_v
     report_curve *curve = report_plot_add(&plot, &unit, x, &f->unit, f->values, f->count);
     if (curve)
         curve->dots = true;
-    report_plot_write(page, &plot);
+    report_plot_write(f->page, &plot);
     report_plot_free(&plot);
     free(x);
 }
 
-void report_write_sample(report_page *page, const report_scalar *f)
+void report_write_sample(const report_scalar *f)
 {
+    report_page *page = f->page;
     const results_view *view = page->view;
     size_t drawn = 0;
-    draw_histogram(page, f);
-    draw_bars(page, f);
+    draw_histogram(f);
+    draw_bars(f);
     report_print(
         page->out,
         "<details class=\"broad\"><summary>%s over each input</summary>\n<div class=\"figures\">\n",
         f->title);
     for (size_t a = 0; a < view->axis_count && drawn < MOST_INPUTS; a++)
         if (is_numeric(view, view->axes[a])) {
-            draw_dots(page, f, view->axes[a]);
+            draw_dots(f, view->axes[a]);
             drawn++;
         }
     fputs("</div></details>\n", page->out);

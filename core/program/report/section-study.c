@@ -10,36 +10,6 @@
 
 enum { MOST_LINES = 8, MOST_MAPS = 6, MOST_ROWS = 400, MOST_FAILED = 100 };
 
-/* A scalar over the cases, in SI. */
-typedef struct case_scalar {
-    report_page *page;
-    size_t variable;
-    double *values;
-    double low, high;
-    results_readable unit;
-} case_scalar;
-
-static bool load_scalar(report_page *page, size_t variable, case_scalar *f)
-{
-    const results_view *view = page->view;
-    double size = 0;
-    bool any = false;
-    *f = (case_scalar){.page = page,
-                       .variable = variable,
-                       .values = report_load_values(page, variable),
-                       .low = INFINITY,
-                       .high = -INFINITY};
-    for (size_t c = 0; c < view->case_count; c++) {
-        any = any || isfinite(f->values[c]);
-        f->low = fmin(f->low, f->values[c]);
-        f->high = fmax(f->high, f->values[c]);
-        size = fmax(size, fabs(f->values[c]));
-    }
-    const results_view_variable *of = view->variables[variable];
-    f->unit = report_unit_for(of->output, of->unit, size);
-    return any;
-}
-
 /* Whether the values of an axis rise or fall: along others a line would run to and fro. */
 static bool is_in_order(const results_view *view, const results_view_axis *axis)
 {
@@ -88,20 +58,6 @@ static results_readable show_axis(const results_view *view, const results_view_a
     return unit;
 }
 
-static void write_title(const case_scalar *f, char out[REPORT_TEXT_SIZE])
-{
-    char words[REPORT_TEXT_SIZE];
-    const results_view_variable *of = f->page->view->variables[f->variable];
-    snprintf(out, REPORT_TEXT_SIZE, "%.60s: %.120s", f->page->view->stages[of->stage]->name,
-             report_output_words(of, words));
-}
-
-static void write_label(const case_scalar *f, char out[REPORT_TEXT_SIZE])
-{
-    char words[REPORT_TEXT_SIZE];
-    report_label(report_output_words(f->page->view->variables[f->variable], words), &f->unit, out);
-}
-
 /* Says whether values are spaced as by `spacing: log`, over a factor of five at least. */
 static bool is_geometric(const double *values, size_t count)
 {
@@ -132,7 +88,7 @@ static report_curve *find_same(report_plot *plot, const results_readable *unit, 
     return NULL;
 }
 
-static void draw_lines(const case_scalar *f, const results_view_axis *axis, size_t combinations)
+static void draw_lines(const report_scalar *f, const results_view_axis *axis, size_t combinations)
 {
     const results_view *view = f->page->view;
     size_t points = view->lengths[axis->dimension], stride = stride_of(view, axis->dimension);
@@ -140,8 +96,8 @@ static void draw_lines(const case_scalar *f, const results_view_axis *axis, size
     report_plot plot = {.count = 0};
     plot.decades = is_geometric(axis->values, points);
     results_readable unit = show_axis(view, axis, plot.x_label);
-    write_title(f, plot.title);
-    write_label(f, plot.y_label);
+    snprintf(plot.title, sizeof plot.title, "%s", f->title);
+    snprintf(plot.y_label, sizeof plot.y_label, "%s", f->label);
     plot.limit_name = report_limit_asked(view, f->variable);
     plot.limit = report_convert(&f->unit, report_limit_bound(view, f->variable));
     for (size_t k = 0; k < combinations && k < MOST_LINES; k++) {
@@ -175,21 +131,20 @@ static void draw_lines(const case_scalar *f, const results_view_axis *axis, size
     free(y);
 }
 
-static void draw_map(const case_scalar *f, const results_view_axis *x, const results_view_axis *y,
+static void draw_map(const report_scalar *f, const results_view_axis *x, const results_view_axis *y,
                      size_t first)
 {
     const results_view *view = f->page->view;
-    char rest[REPORT_TEXT_SIZE], title[REPORT_TEXT_SIZE];
+    char rest[REPORT_TEXT_SIZE];
     report_map map = {.columns = view->lengths[x->dimension], .rows = view->lengths[y->dimension]};
     double *xs = memory_alloc(map.columns * sizeof *xs), *ys = memory_alloc(map.rows * sizeof *ys);
     double *values = memory_alloc(map.columns * map.rows * sizeof *values);
     int32_t *standing = memory_alloc(map.columns * map.rows * sizeof *standing);
     results_readable x_unit = show_axis(view, x, map.x_label),
                      y_unit = show_axis(view, y, map.y_label);
-    write_title(f, title);
     report_name_case(view, first, x->dimension, (int)y->dimension, rest);
-    snprintf(map.title, sizeof map.title, *rest ? "%.100s (%.90s)" : "%.100s%s", title, rest);
-    write_label(f, map.value_label);
+    snprintf(map.title, sizeof map.title, *rest ? "%.100s (%.90s)" : "%.100s%s", f->title, rest);
+    snprintf(map.value_label, sizeof map.value_label, "%s", f->label);
     for (size_t i = 0; i < map.columns; i++)
         xs[i] = report_convert(&x_unit, x->values[i]);
     for (size_t k = 0; k < map.rows; k++) {
@@ -207,8 +162,7 @@ static void draw_map(const case_scalar *f, const results_view_axis *x, const res
     map.low = report_convert(&f->unit, f->low);
     map.high = report_convert(&f->unit, f->high);
     map.mark = report_convert(&f->unit, report_limit_bound(view, f->variable));
-    map.best =
-        (int)report_best_of(f->page, f->variable, f->values, first, x->dimension, y->dimension);
+    map.best = (int)report_best_of(f, first, x->dimension, y->dimension);
     map.standing = standing;
     report_map_write(f->page, &map);
     free(xs);
@@ -217,7 +171,8 @@ static void draw_map(const case_scalar *f, const results_view_axis *x, const res
     free(standing);
 }
 
-static void draw_maps(const case_scalar *f, const results_view_axis *x, const results_view_axis *y)
+static void draw_maps(const report_scalar *f, const results_view_axis *x,
+                      const results_view_axis *y)
 {
     const results_view *view = f->page->view;
     size_t count = view->case_count / view->lengths[x->dimension] / view->lengths[y->dimension];
@@ -229,7 +184,7 @@ static void draw_maps(const case_scalar *f, const results_view_axis *x, const re
 }
 
 /* Draws points that have no order: those of cases that differ in words. */
-static void draw_dots(const case_scalar *f)
+static void draw_dots(const report_scalar *f)
 {
     const results_view *view = f->page->view;
     report_plot plot = {.count = 0};
@@ -238,8 +193,8 @@ static void draw_dots(const case_scalar *f)
     snprintf(plot.x_label, sizeof plot.x_label, "case");
     for (size_t c = 0; c < view->case_count; c++)
         x[c] = (double)(c + 1);
-    write_title(f, plot.title);
-    write_label(f, plot.y_label);
+    snprintf(plot.title, sizeof plot.title, "%s", f->title);
+    snprintf(plot.y_label, sizeof plot.y_label, "%s", f->label);
     report_curve *curve = report_plot_add(&plot, &unit, x, &f->unit, f->values, view->case_count);
     if (curve)
         curve->dots = true;
@@ -248,24 +203,12 @@ static void draw_dots(const case_scalar *f)
     free(x);
 }
 
-/* Small tables of all cases. */
-static bool write_grids(const case_scalar *f)
-{
-    report_scalar scalar = {
-        .values = f->values, .count = f->page->view->case_count, .unit = f->unit};
-    write_label(f, scalar.label);
-    return report_write_grids(f->page, f->variable, &scalar);
-}
-
-static void draw_scalar(const case_scalar *f)
+static void draw_scalar(const report_scalar *f)
 {
     const results_view *view = f->page->view;
     int x = main_axis(view, -1);
     if (report_is_sample(view)) {
-        report_scalar scalar = {.values = f->values, .count = view->case_count, .unit = f->unit};
-        write_title(f, scalar.title);
-        write_label(f, scalar.label);
-        report_write_sample(f->page, &scalar);
+        report_write_sample(f);
         return;
     }
     if (x < 0) {
@@ -282,7 +225,7 @@ static void draw_scalar(const case_scalar *f)
                                     view->lengths[view->axes[y]->dimension] <=
                                 MOST_MAPS
                           : combinations <= MOST_LINES;
-    if (!fits && report_is_sweep(view) && write_grids(f))
+    if (!fits && report_is_sweep(view) && report_write_grids(f))
         return;
     if (map)
         draw_maps(f, axis, view->axes[y]);
@@ -311,12 +254,11 @@ static void write_scalars(report_page *page, const char *title, bool errors)
     report_part_begin(page, &part);
     report_print(page->out, "<section><h2>%s</h2>\n<div class=\"figures\">\n", title);
     for (size_t v = 0; v < view->variable_count; v++) {
-        case_scalar f;
         if (view->variables[v]->rank != 0 ||
             (!strncmp(view->variables[v]->output, "dte_", 4) && over_speed(view)) != errors)
             continue;
-        if (load_scalar(page, v, &f) &&
-            f.high > f.low) /* the table of verdicts has the constants */
+        report_scalar f = report_load_scalar(page, v);
+        if (f.high > f.low) /* the table of verdicts has the constants */
             draw_scalar(&f);
         free(f.values);
     }

@@ -300,58 +300,56 @@ static void write_run(report_page *page)
     fputs("</details>\n", page->out);
 }
 
-static void begin_span(report_page *page, const results_view_variable *of)
+static void begin_span(const report_scalar *f)
 {
+    const results_view *view = f->page->view;
+    const results_view_variable *of = view->variables[f->variable];
     char words[REPORT_TEXT_SIZE];
-    report_print(page->out, "<tr><th scope=\"row\">%s</th><td>%s</td>",
-                 report_output_words(of, words), page->view->stages[of->stage]->name);
+    report_print(f->page->out, "<tr><th scope=\"row\">%s</th><td>%s</td>",
+                 report_output_words(of, words), view->stages[of->stage]->name);
 }
 
-/* Writes the least and the largest value of a scalar over the cases, and where they are. */
-static void write_span(report_page *page, const results_view_variable *of, const double *values)
+static void put_value(const report_scalar *f, double value)
 {
-    const results_view *view = page->view;
-    size_t at[2] = {0};
+    const results_view_variable *of = f->page->view->variables[f->variable];
+    report_put_value(f->page->out, of->output, of->unit, value);
+}
+
+/* Writes the least and the largest value of a scalar over the cases, and where they are first. */
+static void write_span(const report_scalar *f)
+{
+    const double ends[] = {f->low, f->high};
     char words[REPORT_TEXT_SIZE];
-    for (size_t c = 0; c < view->case_count; c++)
-        for (int side = 0; side < 2; side++) {
-            double best = values[at[side]];
-            if (isfinite(values[c]) &&
-                (!isfinite(best) || (side ? values[c] > best : values[c] < best)))
-                at[side] = c;
-        }
-    if (!isfinite(values[at[0]]))
-        return;
-    begin_span(page, of);
+    begin_span(f);
     for (int side = 0; side < 2; side++) {
-        report_put_value(page->out, of->output, of->unit, values[at[side]]);
-        report_name_case(view, at[side], SIZE_MAX, -1, words);
-        report_put_cell(page->out, words);
+        size_t at = 0;
+        while (!(f->values[at] == ends[side]))
+            at++;
+        put_value(f, ends[side]);
+        report_name_case(f->page->view, at, SIZE_MAX, -1, words);
+        report_put_cell(f->page->out, words);
     }
-    fputs("</tr>\n", page->out);
+    fputs("</tr>\n", f->page->out);
 }
 
 /* Writes how a scalar is distributed over a sample; of the lambda ratio, how often it is below 1,
    where flanks touch. */
-static void write_distribution(report_page *page, const results_view_variable *of,
-                               const double *values)
+static void write_distribution(const report_scalar *f)
 {
     static const double percents[] = {0, 5, 50, 95, 100};
+    FILE *out = f->page->out;
     size_t kept, below = 0;
-    double *list = report_sort(values, page->view->case_count, &kept);
-    if (kept > 0) {
-        begin_span(page, of);
-        for (size_t i = 0; i < sizeof percents / sizeof *percents; i++)
-            report_put_value(page->out, of->output, of->unit,
-                             report_percentile(list, kept, percents[i]));
-        while (below < kept && list[below] < 1)
-            below++;
-        fputs("<td>", page->out);
-        if (!strcmp(of->output, "lambda_ratio_lowest"))
-            fprintf(page->out, "below 1 in %zu of %zu cases (%.3g %%)", below, kept,
-                    100 * (double)below / (double)kept);
-        fputs("</td></tr>\n", page->out);
-    }
+    double *list = report_sort(f->values, f->count, &kept);
+    begin_span(f);
+    for (size_t i = 0; i < sizeof percents / sizeof *percents; i++)
+        put_value(f, report_percentile(list, kept, percents[i]));
+    while (below < kept && list[below] < 1)
+        below++;
+    fputs("<td>", out);
+    if (!strcmp(f->page->view->variables[f->variable]->output, "lambda_ratio_lowest"))
+        fprintf(out, "below 1 in %zu of %zu cases (%.3g %%)", below, kept,
+                100 * (double)below / (double)kept);
+    fputs("</td></tr>\n", out);
     free(list);
 }
 
@@ -370,9 +368,10 @@ static void write_spans(report_page *page)
     for (size_t v = 0; v < view->variable_count; v++) {
         if (view->variables[v]->rank != 0 || report_is_bar(view->variables[v]))
             continue;
-        double *values = report_load_values(page, v);
-        (sample ? write_distribution : write_span)(page, view->variables[v], values);
-        free(values);
+        report_scalar f = report_load_scalar(page, v);
+        if (f.low <= f.high)
+            (sample ? write_distribution : write_span)(&f);
+        free(f.values);
     }
     fputs("</tbody></table></div>\n", page->out);
 }
