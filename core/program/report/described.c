@@ -48,16 +48,16 @@ static void put_table(FILE *out, const json_t *table)
     fputs("</tbody></table></div></details>\n", out);
 }
 
-/* Writes the text of a drawing's description; < occurs within its strings alone. */
-static void put_description(FILE *out, const json_t *figure)
+void report_put_json(FILE *out, json_t *value)
 {
-    char *text = json_dumps(figure, JSON_COMPACT | JSON_REAL_PRECISION(9));
+    char *text = json_dumps(value, JSON_COMPACT | JSON_ENCODE_ANY | JSON_REAL_PRECISION(9));
     for (const char *at = text; at && *at; at++)
         if (*at == '<')
             fputs("\\u003c", out);
         else
             fputc(*at, out);
     free(text);
+    json_decref(value);
 }
 
 static void put_figure(FILE *out, json_t *figure)
@@ -69,11 +69,11 @@ static void put_figure(FILE *out, json_t *figure)
     json_object_del(figure, "words");
     json_object_del(figure, "tables");
     if (drawn) {
-        report_print(
-            out,
-            "<figure><figcaption><span>%s</span></figcaption><script type=\"application/json\">",
-            text_of(figure, "title"));
-        put_description(out, figure);
+        report_print(out,
+                     "<figure class=\"%s\"><figcaption><span>%s</span></figcaption><script "
+                     "type=\"application/json\">",
+                     text_of(figure, "class"), text_of(figure, "title"));
+        report_put_json(out, json_incref(figure));
         fputs("</script>\n", out);
     } else {
         fputs("<div>\n", out);
@@ -84,6 +84,13 @@ static void put_figure(FILE *out, json_t *figure)
     fputs(drawn ? "</figure>\n" : "</div>\n", out);
     json_decref(words);
     json_decref(tables);
+}
+
+void report_put_figure(report_page *page, json_t *figure)
+{
+    page->figures++;
+    put_figure(page->out, figure);
+    json_decref(figure);
 }
 
 void report_put_figures(FILE *out, const char *json)

@@ -6,6 +6,7 @@
 #include "page.h"
 
 #include "../memory/memory.h"
+#include "../results/json.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -48,23 +49,14 @@ void report_plot_free(report_plot *plot)
     plot->count = 0;
 }
 
-void report_put_json_text(FILE *out, const char *text)
+/* A number with the six digits that a drawing needs; null where none is known. */
+static json_t *number(double value)
 {
-    fputc('"', out);
-    for (; *text; text++)
-        if (strchr("\"\\<>&'", *text) || (unsigned char)*text < 32)
-            fprintf(out, "\\u%04x", (unsigned)*text);
-        else
-            fputc(*text, out);
-    fputc('"', out);
-}
-
-static void put_number(FILE *out, double value, size_t i)
-{
-    if (isfinite(value))
-        fprintf(out, i ? ",%.6g" : "%.6g", value);
-    else
-        fputs(i ? ",null" : "null", out);
+    char text[32];
+    if (!isfinite(value))
+        return json_null();
+    snprintf(text, sizeof text, "%.6g", value);
+    return json_real(strtod(text, NULL));
 }
 
 static bool is_rising(const report_curve *curve)
@@ -111,40 +103,36 @@ static size_t choose_points(const report_curve *curve, size_t *kept, bool *thinn
     return count;
 }
 
-static void put_list(FILE *out, const char *name, const double *values, const size_t *kept,
-                     size_t count)
+/* Lists those of the numbers that are drawn, each moved by so much. */
+static json_t *list_of(const double *values, const size_t *kept, size_t count, double moved)
 {
-    fprintf(out, ",\"%s\":[", name);
+    json_t *list = json_array();
     for (size_t i = 0; i < count; i++)
-        put_number(out, values[kept[i]], i);
-    fputc(']', out);
+        json_array_append_new(list, number(values[kept[i]] + moved));
+    return list;
 }
 
-static void put_curve(report_page *page, const report_curve *curve)
+static json_t *describe_curve(const report_curve *curve, bool *thinned)
 {
-    FILE *out = page->out;
     size_t *kept = memory_alloc(4 * curve->count * sizeof *kept);
-    size_t count = choose_points(curve, kept, &page->thinned);
-    fputs("{\"name\":", out);
-    report_put_json_text(out, curve->label);
-    fprintf(out, ",\"colour\":%d,\"dash\":%d,\"style\":\"%s\"", curve->colour, curve->dash,
-            curve->dots   ? "dots"
-            : curve->bars ? "bars"
-                          : "line");
-    if (*curve->live)
-        fprintf(out, ",\"live\":\"%s\"", curve->live);
-    put_list(out, "x", curve->x, kept, count);
-    put_list(out, "y", curve->y, kept, count);
+    const size_t count = choose_points(curve, kept, thinned);
+    json_t *made =
+        json_pack("{s:o, s:i, s:i, s:s, s:s*, s:o, s:o}", "name", results_json_text(curve->label),
+                  "colour", curve->colour, "dash", curve->dash, "style",
+                  curve->dots   ? "dots"
+                  : curve->bars ? "bars"
+                                : "line",
+                  "live", *curve->live ? curve->live : NULL, "x", list_of(curve->x, kept, count, 0),
+                  "y", list_of(curve->y, kept, count, 0));
     if (curve->bar)
-        put_list(out, "bar", curve->bar, kept, count);
-    for (int side = 0; side < 2 && curve->bars; side++) {
-        fprintf(out, ",\"%s\":[", side ? "to" : "from");
-        for (size_t i = 0; i < count; i++)
-            put_number(out, curve->x[kept[i]] + (side - 0.5) * curve->width, i);
-        fputc(']', out);
+        json_object_set_new(made, "bar", list_of(curve->bar, kept, count, 0));
+    if (curve->bars) {
+        const double half = 0.5 * curve->width;
+        json_object_set_new(made, "from", list_of(curve->x, kept, count, -half));
+        json_object_set_new(made, "to", list_of(curve->x, kept, count, half));
     }
     free(kept);
-    fputc('}', out);
+    return made;
 }
 
 /* Says whether the values along y are above 0 and span so much that a linear axis hides some. */
@@ -162,119 +150,86 @@ static bool is_wide(const report_plot *plot)
            !plot->curves[0].bars;
 }
 
-static void put_axis(FILE *out, const char *name, const char *label, bool log, double low,
-                     double high)
+/* An axis; an end that is not finite is left to the script. */
+static json_t *describe_axis(const char *label, bool log, double low, double high)
 {
-    fprintf(out, "\"%s\":{\"label\":", name);
-    report_put_json_text(out, label);
-    fprintf(out, ",\"log\":%d", log);
-    if (isfinite(low))
-        fprintf(out, ",\"low\":%.6g", low);
-    if (isfinite(high))
-        fprintf(out, ",\"high\":%.6g", high);
-    fputs("},", out);
-}
-
-void report_figure_begin(report_page *page, const char *title, const char *class)
-{
-    page->figures++;
-    fprintf(page->out, "<figure%s%s%s><figcaption><span>", class ? " class=\"" : "",
-            class ? class : "", class ? "\"" : "");
-    report_put_text(page->out, title);
-    fputs("</span></figcaption><script type=\"application/json\">", page->out);
-}
-
-void report_figure_end(report_page *page)
-{
-    fputs("</script></figure>\n", page->out);
+    return json_pack("{s:o, s:i, s:o*, s:o*}", "label", results_json_text(label), "log", (int)log,
+                     "low", isfinite(low) ? number(low) : NULL, "high",
+                     isfinite(high) ? number(high) : NULL);
 }
 
 void report_plot_write(report_page *page, const report_plot *plot)
 {
-    FILE *out = page->out;
-    bool ranged = plot->x0<plot->x1, dots = plot->count> 0 && plot->curves[0].dots;
+    const bool ranged = plot->x0 < plot->x1, bound = plot->y0 < plot->y1;
     if (plot->count == 0)
         return;
-    report_figure_begin(page, plot->title, plot->class);
-    fputs("{\"sort\":\"curves\",", out);
-    put_axis(out, "x", plot->x_label, plot->decades, ranged ? plot->x0 : NAN,
-             ranged ? plot->x1 : NAN);
-    bool bound = plot->y0 < plot->y1;
-    put_axis(out, "y", plot->y_label, is_wide(plot) || plot->y_decades,
-             bound             ? plot->y0
-             : plot->from_zero ? 0
-                               : NAN,
-             bound ? plot->y1 : NAN);
-    for (size_t i = 0; plot->x_names && i < plot->curves[0].count; i++) {
-        fputs(i ? "," : "\"names\":[", out);
-        report_put_json_text(out, plot->x_names[i]);
-    }
-    fputs(plot->x_names ? "]," : "", out);
-    if (plot->limit_name) {
-        fprintf(out, "\"limit\":{\"at\":%.6g,\"name\":", plot->limit);
-        report_put_json_text(out, plot->limit_name);
-        fputs("},", out);
-    }
-    fprintf(out, "%s\"marks\":[", dots ? "\"room\":1," : "");
-    for (size_t i = 0; i < plot->mark_count; i++) {
-        fprintf(out, "%s[%.6g,", i ? "," : "", plot->marks[i]);
-        report_put_json_text(out, plot->mark_names[i]);
-        fputc(']', out);
-    }
-    fputs("],\"curves\":[", out);
-    for (size_t k = 0; k < plot->count; k++) {
-        fputs(k ? ",\n" : "\n", out);
-        put_curve(page, &plot->curves[k]);
-    }
-    fputs("]}", out);
-    report_figure_end(page);
+    json_t *marks = json_array(), *curves = json_array(), *names = json_array();
+    for (size_t i = 0; plot->x_names && i < plot->curves[0].count; i++)
+        json_array_append_new(names, results_json_text(plot->x_names[i]));
+    for (size_t i = 0; i < plot->mark_count; i++)
+        json_array_append_new(marks,
+                              json_pack("[o, s]", number(plot->marks[i]), plot->mark_names[i]));
+    for (size_t k = 0; k < plot->count; k++)
+        json_array_append_new(curves, describe_curve(&plot->curves[k], &page->thinned));
+    json_t *figure =
+        json_pack("{s:s, s:o, s:s*, s:o, s:o, s:O*, s:o*, s:i, s:o, s:o}", "sort", "curves",
+                  "title", results_json_text(plot->title), "class", plot->class, "x",
+                  describe_axis(plot->x_label, plot->decades, ranged ? plot->x0 : NAN,
+                                ranged ? plot->x1 : NAN),
+                  "y",
+                  describe_axis(plot->y_label, is_wide(plot) || plot->y_decades,
+                                bound             ? plot->y0
+                                : plot->from_zero ? 0
+                                                  : NAN,
+                                bound ? plot->y1 : NAN),
+                  "names", plot->x_names ? names : NULL, "limit",
+                  plot->limit_name ? json_pack("{s:o, s:o}", "at", number(plot->limit), "name",
+                                               results_json_text(plot->limit_name))
+                                   : NULL,
+                  "room", plot->curves[0].dots, "marks", marks, "curves", curves);
+    json_decref(names);
+    report_put_figure(page, figure);
 }
 
-static void put_side(FILE *out, const char *name, const char *label, const double *at, size_t count,
-                     size_t step)
+/* A side of a map: its label, and where its cells are. */
+static json_t *describe_side(const char *label, const double *at, size_t count, size_t step)
 {
-    fprintf(out, "\"%s\":{\"label\":", name);
-    report_put_json_text(out, label);
-    fputs(",\"at\":[", out);
+    json_t *list = json_array();
     for (size_t i = 0; i < count; i += step)
-        put_number(out, at[i], i);
-    fputs("]},", out);
+        json_array_append_new(list, number(at[i]));
+    return json_pack("{s:o, s:o}", "label", results_json_text(label), "at", list);
 }
 
 void report_map_write(report_page *page, const report_map *map)
 {
-    FILE *out = page->out;
     size_t step_x = map->columns / MOST_CELLS + 1, step_y = map->rows / MOST_CELLS + 1;
     bool log = map->low > 0 && map->high > 30 * map->low;
     if (!(map->low <= map->high))
         return;
     page->thinned = page->thinned || step_x > 1 || step_y > 1;
-    report_figure_begin(page, map->title, NULL);
-    fputs("{\"sort\":\"map\",\"height\":300,", out);
-    put_side(out, "x", map->x_label, map->x, map->columns, step_x);
-    put_side(out, "y", map->y_label, map->y, map->rows, step_y);
-    fputs("\"value\":{\"label\":", out);
-    report_put_json_text(out, map->value_label);
-    fprintf(out, ",\"log\":%d,\"low\":%.6g,\"high\":%.6g},", log, map->low, map->high);
-    if (isfinite(map->mark))
-        fprintf(out, "\"mark\":%.6g,", map->mark);
-    if (map->best >= 0)
-        fprintf(out, "\"best\":[%zu,%zu],", (size_t)map->best % map->columns / step_x,
-                (size_t)map->best / map->columns / step_y);
-    fputs("\"standing\":[", out);
+    json_t *standing = json_array(), *values = json_array();
     for (size_t r = 0; r < map->rows; r += step_y) {
-        fputs(r ? ",\"" : "\"", out);
-        for (size_t c = 0; c < map->columns; c += step_x)
-            fprintf(out, "%d", (int)map->standing[r * map->columns + c]);
-        fputc('"', out);
+        char letters[MOST_CELLS + 1];
+        size_t used = 0;
+        json_t *row = json_array();
+        for (size_t c = 0; c < map->columns; c += step_x) {
+            json_array_append_new(row, number(map->values[r * map->columns + c]));
+            letters[used++] = (char)('0' + map->standing[r * map->columns + c]);
+        }
+        json_array_append_new(standing, json_stringn(letters, used));
+        json_array_append_new(values, row);
     }
-    fputs("],\"values\":[", out);
-    for (size_t r = 0; r < map->rows; r += step_y) {
-        fputs(r ? ",\n[" : "[", out);
-        for (size_t c = 0; c < map->columns; c += step_x)
-            put_number(out, map->values[r * map->columns + c], c);
-        fputc(']', out);
-    }
-    fputs("]}", out);
-    report_figure_end(page);
+    json_t *value = describe_axis(map->value_label, log, map->low, map->high);
+    report_put_figure(
+        page,
+        json_pack("{s:s, s:i, s:o, s:o, s:o, s:o, s:o*, s:o*, s:o, s:o}", "sort", "map", "height",
+                  300, "title", results_json_text(map->title), "x",
+                  describe_side(map->x_label, map->x, map->columns, step_x), "y",
+                  describe_side(map->y_label, map->y, map->rows, step_y), "value", value, "mark",
+                  isfinite(map->mark) ? number(map->mark) : NULL, "best",
+                  map->best < 0
+                      ? NULL
+                      : json_pack("[I, I]", (json_int_t)((size_t)map->best % map->columns / step_x),
+                                  (json_int_t)((size_t)map->best / map->columns / step_y)),
+                  "standing", standing, "values", values));
 }

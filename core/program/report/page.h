@@ -6,6 +6,7 @@
 #include "../results/number.h"
 #include "../results/view.h"
 
+#include <jansson.h>
 #include <stdbool.h>
 #include <stdio.h>
 
@@ -139,13 +140,13 @@ void report_curve_bar(report_curve *curve, const results_readable *y_unit, const
 void report_plot_write(report_page *page, const report_plot *plot);
 void report_plot_free(report_plot *plot);
 
-/* Writes <figure> with its head, up to its description; the text of the description, in which HTML
-   finds no tag; and the end. */
-void report_figure_begin(report_page *page, const char *title, const char *class);
-void report_put_json_text(FILE *out, const char *text);
-void report_figure_end(report_page *page);
-/* described.c writes a list of descriptions: drawings with their sentences and tables. */
+/* described.c writes a value, which it takes, as text in which HTML finds no tag: < occurs within
+   strings alone. */
+void report_put_json(FILE *out, json_t *value);
+/* Writes a list of descriptions: drawings with their sentences and tables. */
 void report_put_figures(FILE *out, const char *json);
+/* Writes one, which it takes, and counts it. */
+void report_put_figure(report_page *page, json_t *figure);
 
 /* Values over two axes as colours. */
 typedef struct report_map {

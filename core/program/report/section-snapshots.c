@@ -6,6 +6,7 @@
 #include "page.h"
 
 #include "../memory/memory.h"
+#include "../results/json.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -324,7 +325,7 @@ static void write_frames(report_page *page, const snapshots *s)
         size_t cells = of->cells < CELLS ? of->cells : CELLS;
         page->thinned = page->thinned || frames < of->frames || cells < of->cells;
         fprintf(out, "%s{\"frames\":%zu,\"cells\":%zu,\"name\":", m ? "," : "", frames, cells);
-        report_put_json_text(out, page->view->stages[of->stage]->name);
+        report_put_json(out, results_json_text(page->view->stages[of->stage]->name));
         fputs(",\"at\":", out);
         put_instants(out, of, frames, &s->at);
         fputs(",\"x\":", out);
