@@ -26,6 +26,23 @@ void ehl_thermal_weigh(const ehl_thermal *t, const ehl_reynolds *r, const ehl_fi
 }
 
 /*
+ * Sets the factors behind the nodes that pressure can reach. The oil of the void there keeps its
+ * density on its way with u_r: a void whose density changed at once would gain mass by it, more
+ * than its opening gap takes, and fill. What is carried is that of the last node.
+ */
+static void leave_behind(const ehl_thermal *t, const ehl_energy_film *f, size_t n, double *next)
+{
+    const double *past = f->past ? t->past + t->width - (EHL_THERMAL_FACTORS - 1) * n : NULL;
+    const double passes = (f->speed[0] + f->speed[1]) / 2 / f->dx;
+    for (size_t i = f->count; i < n; i++) {
+        next[i] = 1;
+        next[n + i] =
+            past ? (passes * next[n + i - 1] - past[i]) / (passes + f->rate) : next[n + i - 1];
+        next[2 * n + i] = next[2 * n + i - 1];
+    }
+}
+
+/*
  * Computes the factors of the flow across the film. Returns by how much they change the flow
  * of mass, at most, relative to what the flanks carry along, weighted.
  */
@@ -53,9 +70,7 @@ double ehl_thermal_find_factors(ehl_thermal *t, const ehl_reynolds *r, const ehl
         next[n + i] = swell;
         next[2 * n + i] = t->carry[i] + share * (carry - t->carry[i]);
     }
-    for (size_t i = f->count; i < n; i++)
-        for (size_t k = 0; k < EHL_THERMAL_FACTORS; k++)
-            next[k * n + i] = k > 0 ? next[k * n + f->count - 1] : 1;
+    leave_behind(t, f, n, next);
     return most;
 }
 

@@ -242,7 +242,7 @@ static void predict(ehl_march *m, double time, double c[3])
     double ahead = 0;
     if (m->smooth >= 2)
         ahead = (time - m->state[0].time) / (m->state[0].time - m->state[1].time);
-    look_back(kept, one, two, c, past);
+    look_back(t->width, one, two, c, past);
     if (m->rough) /* a flank that moves back has its modes from the node behind */
         memcpy(now + temperatures, one + temperatures, (kept - temperatures) * sizeof *now);
     go_on(temperatures, one, two, ahead, t->energy.lowest, t->energy.highest, now);
