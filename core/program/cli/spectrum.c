@@ -2,6 +2,7 @@
 #include "spectrum.h"
 
 #include "../results/number.h"
+#include "../study/kinds/answer/text.h"
 #include "../study/store/journal.h"
 #include "../terminal/terminal.h"
 
@@ -13,12 +14,6 @@ const char cli_spectrum_files[] = "spectrum.json, spectrum.figure.json, ";
 
 enum { TEXT = RESULTS_QUANTITY_SIZE, NAME = 32, MEAN = 14, EXTREME = 23 }; /* columns */
 
-static double number_of(const json_t *of, const char *key)
-{
-    const json_t *value = json_object_get(of, key);
-    return json_is_number(value) ? json_number_value(value) : (double)NAN;
-}
-
 static const char *last_word(const char *path)
 {
     const char *dot = strrchr(path, '.');
@@ -27,7 +22,7 @@ static const char *last_word(const char *path)
 
 static results_readable unit_for(const char *name, const json_t *of)
 {
-    double most = fmax(fabs(number_of(of, "lowest")), fabs(number_of(of, "highest")));
+    double most = fmax(fabs(study_number_of(of, "lowest")), fabs(study_number_of(of, "highest")));
     return results_readable_output(last_word(name), json_string_value(json_object_get(of, "unit")),
                                    most);
 }
@@ -44,7 +39,7 @@ static void write_extreme(const json_t *of, const char *key, results_readable un
 {
     char member[32];
     snprintf(member, sizeof member, "%s_row", key);
-    write_number(number_of(of, key), unit, out);
+    write_number(study_number_of(of, key), unit, out);
     size_t length = strlen(out);
     snprintf(out + length, TEXT - length, " in row %lld",
              (long long)json_integer_value(json_object_get(of, member)));
@@ -62,7 +57,7 @@ static void write_energy(double joule, char out[TEXT])
 
 static void write_time(const json_t *sums, char out[TEXT])
 {
-    double time = number_of(sums, "time");
+    double time = study_number_of(sums, "time");
     bool shares = !strcmp(json_string_value(json_object_get(sums, "unit")), "1");
     if (shares)
         *out = '\0';
@@ -72,35 +67,43 @@ static void write_time(const json_t *sums, char out[TEXT])
         write_number(time, (results_readable){1.0 / 3600, 0, "h"}, out);
 }
 
-static void print_outputs(const json_t *sums)
+/* The table of the page: a list of name, mean, lowest, highest and energy for each output. */
+static json_t *rows_of(const json_t *sums)
 {
+    json_t *rows = json_array(), *of;
     const char *name;
-    json_t *of;
-    printf("  %-*s %-*s %-*s %s\n", NAME, "", MEAN, "mean over time", EXTREME, "lowest", "highest");
     json_object_foreach(json_object_get(sums, "outputs"), name, of)
     {
-        char mean[TEXT], low[TEXT], high[TEXT], line[5 * TEXT];
+        char mean[TEXT], low[TEXT], high[TEXT], energy[TEXT];
         results_readable unit = unit_for(name, of);
-        write_number(number_of(of, "mean"), unit, mean);
+        write_number(study_number_of(of, "mean"), unit, mean);
         write_extreme(of, "lowest", unit, low);
         write_extreme(of, "highest", unit, high);
-        snprintf(line, sizeof line, "%-*s %-*s %-*s %s", NAME, name, MEAN, mean, EXTREME, low,
-                 high);
-        terminal_print_cut(line, printf("  "));
+        write_energy(study_number_of(of, "energy"), energy);
+        json_array_append_new(rows, json_pack("[s, s, s, s, s]", name, mean, low, high, energy));
     }
+    return rows;
 }
 
-static void print_energies(const json_t *sums)
+static const char *cell_of(const json_t *row, size_t column)
 {
-    const char *name;
-    json_t *of;
-    json_object_foreach(json_object_get(sums, "outputs"), name, of)
+    return json_string_value(json_array_get(row, column));
+}
+
+static void print_rows(const json_t *rows)
+{
+    size_t i;
+    const json_t *row;
+    printf("  %-*s %-*s %-*s %s\n", NAME, "", MEAN, "mean over time", EXTREME, "lowest", "highest");
+    json_array_foreach(rows, i, row)
     {
-        char energy[TEXT];
-        write_energy(number_of(of, "energy"), energy);
-        if (*energy)
-            printf("  %s sums to %s\n", name, energy);
+        char line[5 * TEXT];
+        snprintf(line, sizeof line, "%-*s %-*s %-*s %s", NAME, cell_of(row, 0), MEAN,
+                 cell_of(row, 1), EXTREME, cell_of(row, 2), cell_of(row, 3));
+        terminal_print_cut(line, printf("  "));
     }
+    json_array_foreach(rows, i, row) if (*cell_of(row, 4))
+        printf("  %s sums to %s\n", cell_of(row, 0), cell_of(row, 4));
 }
 
 static void print_below(const json_t *sums)
@@ -111,14 +114,14 @@ static void print_below(const json_t *sums)
     {
         char limit[TEXT];
         const char *name = json_string_value(json_object_get(one, "output"));
-        double value = number_of(one, "limit");
+        double value = study_number_of(one, "limit");
         write_number(value,
                      results_readable_output(last_word(name),
                                              json_string_value(json_object_get(one, "unit")),
                                              fabs(value)),
                      limit);
         printf("  %s is below %s for %.4g %% of the time, in %lld of %lld rows\n", name, limit,
-               100 * number_of(one, "share"),
+               100 * study_number_of(one, "share"),
                (long long)json_integer_value(json_object_get(one, "rows")),
                (long long)json_integer_value(json_object_get(sums, "rows")));
     }
@@ -144,8 +147,8 @@ static void print_stages(const json_t *sums)
 static void print_left_out(const json_t *sums)
 {
     const json_t *refused = json_object_get(sums, "refused");
-    double stated = number_of(sums, "stated"), share = number_of(refused, "share");
-    double failed = number_of(sums, "missing") - share;
+    double stated = study_number_of(sums, "stated"), share = study_number_of(refused, "share");
+    double failed = study_number_of(sums, "missing") - share;
     json_int_t empty = json_integer_value(json_object_get(sums, "empty"));
     if (fabs(stated - 1) > 1e-9)
         printf("  the shares of the time sum to %.6g %%: each is taken as its part of that sum\n",
@@ -173,8 +176,9 @@ void cli_spectrum_print(const json_t *sums)
     write_time(sums, time);
     printf("\nOver the spectrum: %lld rows%s%s\n",
            (long long)json_integer_value(json_object_get(sums, "rows")), *time ? ", " : "", time);
-    print_outputs(sums);
-    print_energies(sums);
+    json_t *rows = rows_of(sums);
+    print_rows(rows);
+    json_decref(rows);
     print_below(sums);
     print_stages(sums);
     print_left_out(sums);
@@ -213,29 +217,11 @@ static json_t *curve_of(const study_run *run, const json_t *values, results_read
                      "line", "x", x, "y", y);
 }
 
-static json_t *table_of(const json_t *sums)
-{
-    json_t *rows = json_array(), *of;
-    const char *name;
-    json_object_foreach((json_t *)(size_t)json_object_get(sums, "outputs"), name, of)
-    {
-        char mean[TEXT], low[TEXT], high[TEXT], energy[TEXT];
-        results_readable unit = unit_for(name, of);
-        write_number(number_of(of, "mean"), unit, mean);
-        write_extreme(of, "lowest", unit, low);
-        write_extreme(of, "highest", unit, high);
-        write_energy(number_of(of, "energy"), energy);
-        json_array_append_new(rows, json_pack("[s, s, s, s, s]", name, mean, low, high, energy));
-    }
-    return json_pack("[{s:s, s:[s, s, s, s, s], s:o}]", "summary", "over the spectrum", "head", "",
-                     "mean over time", "lowest", "highest", "energy", "rows", rows);
-}
-
 static json_t *figures_of(const study_run *run, const json_t *sums)
 {
     json_t *all = json_array(), *of;
     const char *name;
-    json_object_foreach((json_t *)(size_t)json_object_get(sums, "outputs"), name, of)
+    json_object_foreach(json_object_get(sums, "outputs"), name, of)
     {
         const json_t *values = json_object_get(of, "values");
         results_readable unit = unit_for(name, of);
@@ -244,7 +230,12 @@ static json_t *figures_of(const study_run *run, const json_t *sums)
                  unit.unit);
         if (!values)
             continue;
-        json_t *tables = json_array_size(all) ? json_array() : table_of(sums);
+        json_t *tables = json_array();
+        if (json_array_size(all) == 0)
+            json_array_append_new(tables,
+                                  json_pack("{s:s, s:[s, s, s, s, s], s:o}", "summary",
+                                            "over the spectrum", "head", "", "mean over time",
+                                            "lowest", "highest", "energy", "rows", rows_of(sums)));
         json_array_append_new(
             all, json_pack("{s:s, s:s+, s:i, s:{s:s}, s:{s:s}, s:[], s:[o], s:o}", "sort", "curves",
                            "title", name, ": for how long it is below", "height", 260, "x", "label",
