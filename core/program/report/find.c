@@ -91,6 +91,26 @@ size_t report_array_size(const ff_array *array)
     return count;
 }
 
+report_extremes report_find_extremes(const ff_array *array)
+{
+    const size_t count = report_array_size(array);
+    report_extremes found = {0, 0, NAN, NAN};
+    for (size_t i = 0; i < count; i++) {
+        const double value = array->data[i];
+        if (!isfinite(value))
+            continue;
+        if (!(value >= found.low)) {
+            found.least = i;
+            found.low = value;
+        }
+        if (!(value <= found.high)) {
+            found.greatest = i;
+            found.high = value;
+        }
+    }
+    return found;
+}
+
 double report_find_scalar(report_page *page, const char *output, size_t index)
 {
     double value = NAN;

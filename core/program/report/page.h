@@ -93,6 +93,12 @@ double report_find_scalar(report_page *page, const char *output, size_t index);
 ff_array report_load(report_page *page, int variable, size_t index);
 void report_release(report_page *page, ff_array *array);
 size_t report_array_size(const ff_array *array);
+/* Finds the least and the greatest number of an array, and their ranks; NaN if none is known. */
+typedef struct report_extremes {
+    size_t least, greatest;
+    double low, high;
+} report_extremes;
+report_extremes report_find_extremes(const ff_array *array);
 
 /* Points along the path of contact: SAP, LPSTC, pitch, HPSTC, tip. */
 enum { REPORT_MARKS = 5 };

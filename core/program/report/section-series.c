@@ -64,10 +64,8 @@ typedef struct figure {
 
 static double magnitude(const ff_array *array)
 {
-    double size = 0;
-    for (size_t i = 0; i < report_array_size(array); i++)
-        size = fmax(size, fabs(array->data[i])); /* fmax drops NaN */
-    return size;
+    const report_extremes found = report_find_extremes(array);
+    return fmax(0, fmax(fabs(found.low), fabs(found.high))); /* 0: nothing is known */
 }
 
 /* Finds the curve of another stage with the same numbers, which then stands for both. */

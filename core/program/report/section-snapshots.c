@@ -29,19 +29,6 @@ typedef struct stage_fields {
     size_t peak, low;              /* the instants of the highest pressure and of the least film */
 } stage_fields;
 
-/* Finds the instants of the highest pressure and of the least film. */
-static void find_extremes(stage_fields *m)
-{
-    const double *p = m->field[PRESSURE].data, *h = m->field[FILM].data;
-    size_t peak = 0, low = 0;
-    for (size_t i = 1; i < m->frames * m->cells; i++) {
-        peak = p[i] > p[peak] ? i : peak;
-        low = h[i] < h[low] ? i : low;
-    }
-    m->peak = peak / m->cells;
-    m->low = low / m->cells;
-}
-
 /* Loads a field, which is left out when it does not have the shape of the pressure. */
 static void load_field(report_page *page, stage_fields *m, size_t f)
 {
@@ -68,7 +55,8 @@ static bool load_fields(report_page *page, size_t stage, stage_fields *m)
     m->angle = m->at.data && !strcmp(view->variables[at]->unit, "rad");
     m->frames = m->field[PRESSURE].shape[0];
     m->cells = m->field[PRESSURE].shape[1];
-    find_extremes(m);
+    m->peak = report_find_extremes(&m->field[PRESSURE]).greatest / m->cells;
+    m->low = report_find_extremes(&m->field[FILM]).least / m->cells;
     return true;
 }
 
@@ -116,13 +104,16 @@ static void put_base64(FILE *out, const unsigned char *data, size_t size)
     }
 }
 
-/* Writes numbers as little-endian floats. */
-static void put_floats(FILE *out, const float *data, size_t count)
+/* Writes chosen numbers as little-endian floats; of an array that is not there their ranks. */
+static void put_floats(FILE *out, const ff_array *from, const size_t *chosen, size_t count,
+                       const results_readable *unit)
 {
     unsigned char *bytes = memory_alloc(4 * count);
     for (size_t i = 0; i < count; i++) {
+        const float number =
+            (float)(from->data ? report_convert(unit, from->data[chosen[i]]) : (double)chosen[i]);
         uint32_t bits;
-        memcpy(&bits, &data[i], sizeof bits);
+        memcpy(&bits, &number, sizeof bits);
         for (int b = 0; b < 4; b++)
             bytes[4 * i + (size_t)b] = (unsigned char)(bits >> (8 * b));
     }
@@ -132,57 +123,30 @@ static void put_floats(FILE *out, const float *data, size_t count)
     free(bytes);
 }
 
-static void put_field(FILE *out, const stage_fields *m, const ff_array *field,
-                      const results_readable *unit, size_t frames, size_t cells)
+/* Writes the instants, the places and the fields of a stage. */
+static void put_stage(FILE *out, const stage_fields *m, size_t frames, size_t cells,
+                      const results_readable *at, const results_readable *x,
+                      const results_readable unit[FIELDS])
 {
-    float *data = memory_alloc(frames * cells * sizeof *data);
+    size_t *chosen = memory_alloc(frames * cells * sizeof *chosen);
+    for (size_t k = 0; k < frames; k++)
+        chosen[k] = frame_at(m, k, frames);
+    fputs(",\"at\":", out);
+    put_floats(out, &m->at, chosen, frames, at);
+    for (size_t i = 0; i < cells; i++)
+        chosen[i] = sample_index(i, cells, m->cells);
+    fputs(",\"x\":", out);
+    put_floats(out, &m->x, chosen, cells, x);
     for (size_t k = 0; k < frames; k++)
         for (size_t i = 0; i < cells; i++)
-            data[k * cells + i] = (float)report_convert(
-                unit,
-                field->data[frame_at(m, k, frames) * m->cells + sample_index(i, cells, m->cells)]);
-    put_floats(out, data, frames * cells);
-    free(data);
-}
-
-static void put_axis(FILE *out, const ff_array *axis, size_t count, size_t kept,
-                     const results_readable *unit)
-{
-    float *data = memory_alloc(kept * sizeof *data);
-    for (size_t i = 0; i < kept; i++) {
-        size_t at = sample_index(i, kept, count);
-        data[i] = (float)(axis->data ? report_convert(unit, axis->data[at]) : (double)at);
-    }
-    put_floats(out, data, kept);
-    free(data);
-}
-
-static void put_instants(FILE *out, const stage_fields *m, size_t kept,
-                         const results_readable *unit)
-{
-    float *data = memory_alloc(kept * sizeof *data);
-    for (size_t k = 0; k < kept; k++) {
-        size_t at = frame_at(m, k, kept);
-        data[k] = (float)(m->at.data ? report_convert(unit, m->at.data[at]) : (double)at);
-    }
-    put_floats(out, data, kept);
-    free(data);
-}
-
-static double largest_value(const ff_array *array)
-{
-    double size = 0;
-    for (size_t i = 0; i < report_array_size(array); i++)
-        size = fmax(size, array->data[i]);
-    return size;
-}
-
-static double least_value(const ff_array *array)
-{
-    double least = INFINITY;
-    for (size_t i = 0; i < report_array_size(array); i++)
-        least = fmin(least, array->data[i]);
-    return least;
+            chosen[k * cells + i] =
+                frame_at(m, k, frames) * m->cells + sample_index(i, cells, m->cells);
+    for (size_t f = 0; f < FIELDS; f++)
+        if (m->field[f].data) {
+            fprintf(out, ",\"%c\":", field_letters[f]);
+            put_floats(out, &m->field[f], chosen, frames * cells, &unit[f]);
+        }
+    free(chosen);
 }
 
 /* Finds the largest film of all instants in the middle of the contact: away from it the gap is
@@ -214,7 +178,7 @@ static size_t find_highest_pressure(const stage_fields *m, size_t frames)
 static void widen_to_contact(const stage_fields *m, double *from, double *to)
 {
     const ff_array *p = &m->field[PRESSURE];
-    double least = 0.01 * largest_value(p);
+    double least = 0.01 * report_find_extremes(p).high;
     for (size_t i = 0; i < report_array_size(p); i++)
         if (p->data[i] > least) {
             size_t cell = i % m->cells;
@@ -239,8 +203,9 @@ static void find_range(const snapshots *s, size_t f, double *low, double *high)
     *high = -INFINITY;
     for (size_t m = 0; m < s->count; m++)
         if (s->stages[m].field[f].data) {
-            *low = fmin(*low, least_value(&s->stages[m].field[f]));
-            *high = fmax(*high, largest_value(&s->stages[m].field[f]));
+            const report_extremes found = report_find_extremes(&s->stages[m].field[f]);
+            *low = fmin(*low, found.low);
+            *high = fmax(*high, found.high);
         }
 }
 
@@ -252,7 +217,8 @@ static void add_field(const report_page *page, const snapshots *s, report_plot *
     for (size_t m = 0; m < s->count; m++) {
         const stage_fields *of = &s->stages[m];
         size_t frame = frame_at(of, s->start, FRAMES < of->frames ? FRAMES : of->frames);
-        if (!of->field[f].data || (f == ASPERITIES && !(largest_value(&of->field[f]) > 0)))
+        if (!of->field[f].data ||
+            (f == ASPERITIES && !(report_find_extremes(&of->field[f]).high > 0)))
             continue;
         report_curve *curve = report_plot_add(plot, &s->x, of->x.data, &s->unit[f],
                                               of->field[f].data + frame * of->cells, of->cells);
@@ -326,15 +292,7 @@ static void write_frames(report_page *page, const snapshots *s)
         page->thinned = page->thinned || frames < of->frames || cells < of->cells;
         fprintf(out, "%s{\"frames\":%zu,\"cells\":%zu,\"name\":", m ? "," : "", frames, cells);
         report_put_json(out, results_json_text(page->view->stages[of->stage]->name));
-        fputs(",\"at\":", out);
-        put_instants(out, of, frames, &s->at);
-        fputs(",\"x\":", out);
-        put_axis(out, &of->x, of->cells, cells, &s->x);
-        for (size_t f = 0; f < FIELDS; f++)
-            if (of->field[f].data) {
-                fprintf(out, ",\"%c\":", field_letters[f]);
-                put_field(out, of, &of->field[f], &s->unit[f], frames, cells);
-            }
+        put_stage(out, of, frames, cells, &s->at, &s->x, s->unit);
         fputc('}', out);
     }
     fputs("]}</script>\n", out);
@@ -344,9 +302,9 @@ static void write_frames(report_page *page, const snapshots *s)
 static void choose_view(snapshots *s)
 {
     const stage_fields *first = &s->stages[0];
-    double reach = 0, from = INFINITY, to = -INFINITY;
-    for (size_t i = 0; i < report_array_size(&first->x); i++)
-        reach = fmax(reach, fabs(first->x.data[i]));
+    double from = INFINITY, to = -INFINITY;
+    const report_extremes along = report_find_extremes(&first->x);
+    const double reach = fmax(fabs(along.low), fabs(along.high));
     s->x = first->x.data ? report_unit_for("", "m", reach) : (results_readable){1, 0, ""};
     for (size_t m = 0; m < s->count; m++) {
         widen_to_contact(&s->stages[m], &from, &to);
@@ -355,11 +313,11 @@ static void choose_view(snapshots *s)
     s->x0 = report_convert(&s->x, from - 0.2 * (to - from));
     s->x1 = report_convert(&s->x, to + 0.2 * (to - from));
     s->unit[PRESSURE] = s->unit[ASPERITIES] =
-        report_unit_for("", "Pa", largest_value(&first->field[PRESSURE]));
+        report_unit_for("", "Pa", report_find_extremes(&first->field[PRESSURE]).high);
     s->unit[FILM] = s->unit[ROUGHNESS] = report_unit_for("", "m", s->film);
     s->unit[TEMPERATURE] = report_unit_for("temperature", "K", 1);
     s->at = first->angle ? report_unit_for("", "rad", 1)
-                         : report_unit_for("", "s", largest_value(&first->at));
+                         : report_unit_for("", "s", report_find_extremes(&first->at).high);
     s->start = find_highest_pressure(first, first->frames < FRAMES ? first->frames : FRAMES);
 }
 

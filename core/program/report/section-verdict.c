@@ -13,26 +13,6 @@
 
 enum { LABEL = 60 }; /* bytes that an output is called by, if it has more than one clause */
 
-/* Ranks of the least and the greatest number of a series. */
-typedef struct extremes {
-    size_t least, greatest;
-} extremes;
-
-static extremes find_extremes(const ff_array *array)
-{
-    extremes at = {0, 0};
-    for (size_t i = 1; i < report_array_size(array); i++) {
-        double value = array->data[i];
-        if (!isfinite(value))
-            continue;
-        if (value < array->data[at.least] || !isfinite(array->data[at.least]))
-            at.least = i;
-        if (value > array->data[at.greatest] || !isfinite(array->data[at.greatest]))
-            at.greatest = i;
-    }
-    return at;
-}
-
 /* Writes "roll angle 22.3 deg, single contact". */
 static void write_place(report_page *page, int axis, double at)
 {
@@ -85,9 +65,11 @@ static void write_values(report_page *page, size_t variable, const ff_array *y)
     size_t count = report_array_size(y);
     bool pair = count == 2 && axis < 0;
     const bool share = *of->whole && of->extremes[0] < count && of->extremes[1] < count;
-    extremes at = pair    ? (extremes){0, 1}
-                  : share ? (extremes){of->extremes[0], of->extremes[1]}
-                          : find_extremes(y);
+    report_extremes at = report_find_extremes(y);
+    if (pair || share) {
+        at.least = pair ? 0 : of->extremes[0];
+        at.greatest = pair ? 1 : of->extremes[1];
+    }
     double least = y->data[at.least], greatest = y->data[at.greatest];
     bool varies = pair || greatest > least;
     fputs(of->flags & RESULTS_VIEW_AT_LEAST ? "&#8805; " : "", page->out);
