@@ -158,7 +158,12 @@ static void take_reference_away(ff_run *run, const char *name)
     free(none);
 }
 
-bool accuracy_name_references(ff_run *run, ff_engine *engine)
+/*
+ * Gives each stage that says KIND/auto its reference, with which other models of the kind are
+ * compared: the model under `reference`, else the first under `with`, else the most expensive. For
+ * a law the file must name it. Returns false after an error.
+ */
+static bool name_references(ff_run *run, ff_engine *engine)
 {
     const ff_report *report = ff_run_report(run);
     size_t errors = ff_report_errors(report), count = stage_count(run);
@@ -179,7 +184,7 @@ bool accuracy_name_references(ff_run *run, ff_engine *engine)
 
 ff_pipeline *accuracy_build_alone(ff_run *run, ff_engine *engine, bool everything)
 {
-    return accuracy_name_references(run, engine) ? run_build(run, everything) : NULL;
+    return name_references(run, engine) ? run_build(run, everything) : NULL;
 }
 
 ff_pipeline *accuracy_build(ff_run *run, ff_engine *engine, bool everything)

@@ -7,13 +7,6 @@
 
 #include <flankfilm/engine.h>
 
-/*
- * Gives each stage that says KIND/auto its reference, with which other models of the kind are
- * compared: the model under `reference`, else the first under `with`, else the most expensive. For
- * a law the file must name it. Returns false after an error.
- */
-bool accuracy_name_references(ff_run *run, ff_engine *engine);
-
 /* Names the references and builds the pipeline as run_build does. NULL only if nothing can be
    shown. */
 ff_pipeline *accuracy_build_alone(ff_run *run, ff_engine *engine, bool everything);

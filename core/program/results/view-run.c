@@ -116,7 +116,7 @@ bool results_view_read_run(results_reader *reader)
     results_view_add_head(reader, root);
     results_view_case *c = results_view_add_row(reader, &reader->cases, sizeof *c);
     *c = (results_view_case){
-        .status = results_view_text(reader, json_object_get(root, "status")),
+        .status = results_view_member(reader, root, "status"),
         .reason = results_view_text(
             reader, json_object_get(json_array_get(json_object_get(root, "errors"), 0), "message")),
         .command = "",

@@ -46,9 +46,9 @@ static bool add_axis(results_reader *reader, const json_t *entry)
             values[i] = json_number_value(json_array_get(numbers, i));
     }
     results_view_axis *axis = results_view_add_row(reader, &reader->axes, sizeof *axis);
-    *axis = (results_view_axis){.path = results_view_text(reader, json_object_get(entry, "path")),
+    *axis = (results_view_axis){.path = results_view_member(reader, entry, "path"),
                                 .dimension = dimension,
-                                .unit = results_view_text(reader, json_object_get(entry, "unit")),
+                                .unit = results_view_member(reader, entry, "unit"),
                                 .values = values,
                                 .words = texts};
     return true;
@@ -171,8 +171,8 @@ static void add_case(results_reader *reader, size_t index, const json_t *record,
     results_case *of = &reader->per_case[index];
     *c = (results_view_case){
         .status = status ? results_view_shared_text(reader, json_string_value(status)) : "not run",
-        .reason = results_view_text(reader, json_object_get(record, "reason")),
-        .command = results_view_text(reader, json_object_get(record, "command")),
+        .reason = results_view_member(reader, record, "reason"),
+        .command = results_view_member(reader, record, "command"),
         .seconds = seconds ? json_number_value(seconds) : (double)NAN,
     };
     add_scalars(reader, docs, json_object_get(record, "outputs"));

@@ -14,6 +14,11 @@ const char *results_view_text(results_reader *reader, const json_t *text)
     return value ? memory_arena_text(&reader->arena, value, strlen(value)) : "";
 }
 
+const char *results_view_member(results_reader *reader, const json_t *of, const char *key)
+{
+    return results_view_text(reader, json_object_get(of, key));
+}
+
 const char *results_view_shared_text(results_reader *reader, const char *text)
 {
     if (!text)
@@ -43,11 +48,6 @@ void *results_view_add_row(results_reader *reader, results_rows *rows, size_t si
     return rows->rows[rows->count++] = memory_arena_alloc(&reader->arena, size);
 }
 
-static double number_of(const json_t *value)
-{
-    return json_is_number(value) ? json_number_value(value) : (double)NAN;
-}
-
 static void add_limits(results_reader *reader, results_view_case *c, const json_t *list)
 {
     results_rows rows = {.rows = NULL};
@@ -57,11 +57,11 @@ static void add_limits(results_reader *reader, results_view_case *c, const json_
     {
         results_view_limit *row = results_view_add_row(reader, &rows, sizeof *row);
         *row = (results_view_limit){
-            .output = results_view_text(reader, json_object_get(entry, "output")),
-            .asked = results_view_text(reader, json_object_get(entry, "asked")),
-            .unit = results_view_text(reader, json_object_get(entry, "unit")),
-            .value = number_of(json_object_get(entry, "value")),
-            .bar = number_of(json_object_get(entry, "bar")),
+            .output = results_view_member(reader, entry, "output"),
+            .asked = results_view_member(reader, entry, "asked"),
+            .unit = results_view_member(reader, entry, "unit"),
+            .value = study_json_number(json_object_get(entry, "value")),
+            .bar = study_json_number(json_object_get(entry, "bar")),
             .at_least = json_is_true(json_object_get(entry, "at_least")),
             .standing =
                 (int32_t)limits_standing_of(json_string_value(json_object_get(entry, "standing"))),
@@ -127,7 +127,7 @@ static size_t find_stage(results_reader *reader, const char *name, size_t length
 
 void results_view_add_citation(results_reader *reader, const char *model, const json_t *entry)
 {
-    const char *reference = results_view_text(reader, json_object_get(entry, "reference"));
+    const char *reference = results_view_member(reader, entry, "reference");
     for (size_t i = 0; i < reader->citations.count; i++) {
         const results_view_citation *known = reader->citations.rows[i];
         if (!strcmp(known->model, model))
@@ -139,7 +139,7 @@ void results_view_add_citation(results_reader *reader, const char *model, const 
     *made = (results_view_citation){
         .model = memory_arena_text(&reader->arena, model, strlen(model)),
         .reference = reference,
-        .bibtex = results_view_text(reader, json_object_get(entry, "bibtex")),
+        .bibtex = results_view_member(reader, entry, "bibtex"),
     };
 }
 
@@ -153,26 +153,12 @@ static void add_params(results_reader *reader, results_view_stage *stage, json_t
         results_view_param *row = results_view_add_row(reader, &rows, sizeof *row);
         *row = (results_view_param){
             .name = memory_arena_text(&reader->arena, name, strlen(name)),
-            .text = results_view_text(reader, json_object_get(param, "text")),
-            .origin = results_view_text(reader, json_object_get(param, "origin")),
+            .text = results_view_member(reader, param, "text"),
+            .origin = results_view_member(reader, param, "origin"),
         };
     }
     stage->param_count = rows.count;
     stage->params = results_view_take_rows(reader, &rows);
-}
-
-static void add_feeders(results_reader *reader, results_view_stage *stage, json_t *wires)
-{
-    const char *name;
-    json_t *wire;
-    size_t *feeders = memory_arena_alloc(&reader->arena, json_object_size(wires) * sizeof *feeders);
-    stage->feeders = feeders;
-    json_object_foreach(wires, name, wire)
-    {
-        const char *from = json_string_value(json_object_get(wire, "stage"));
-        if (from)
-            feeders[stage->feeder_count++] = find_stage(reader, from, strlen(from));
-    }
 }
 
 static void add_stage(results_reader *reader, const json_t *entry)
@@ -182,11 +168,10 @@ static void add_stage(results_reader *reader, const json_t *entry)
         return;
     const size_t at = find_stage(reader, name, strlen(name));
     results_view_stage *stage = reader->stages.rows[at];
-    stage->model = results_view_text(reader, json_object_get(entry, "model"));
-    stage->version = results_view_text(reader, json_object_get(entry, "version"));
-    stage->build = results_view_text(reader, json_object_get(entry, "build"));
+    stage->model = results_view_member(reader, entry, "model");
+    stage->version = results_view_member(reader, entry, "version");
+    stage->build = results_view_member(reader, entry, "build");
     add_params(reader, stage, json_object_get(entry, "parameters"));
-    add_feeders(reader, stage, json_object_get(entry, "wires"));
     results_view_add_citation(reader, stage->model, entry);
 }
 
@@ -195,7 +180,7 @@ void results_view_add_head(results_reader *reader, const json_t *root)
     const char *name;
     json_t *text, *stage;
     size_t i;
-    reader->view.title = results_view_text(reader, json_object_get(root, "title"));
+    reader->view.title = results_view_member(reader, root, "title");
     json_object_foreach(json_object_get(root, "facts"), name, text)
     {
         results_view_fact *fact = results_view_add_row(reader, &reader->facts, sizeof *fact);
@@ -294,8 +279,8 @@ void results_view_add_quality(results_reader *reader, results_rows *rows, const 
         .stage = find_stage(reader, stage, strlen(stage)),
         .name = results_view_shared_text(reader, name),
         .text = results_view_shared_text(reader, text),
-        .value = number_of(json_array_get(line, 0)),
-        .limit = number_of(json_array_get(line, 1)),
+        .value = study_json_number(json_array_get(line, 0)),
+        .limit = study_json_number(json_array_get(line, 1)),
         .verdict = (int32_t)json_integer_value(json_array_get(line, 2)),
         .accepted = results_view_shared_text(reader, accepted),
         .range = study_line_of_range(line),

@@ -51,6 +51,8 @@ typedef struct results_reader {
 json_t *results_view_read_json(const results_reader *reader, const char *name);
 const char *results_view_text(results_reader *reader,
                               const json_t *text); /* "" when it is not a text */
+/* The same of a member of an object. */
+const char *results_view_member(results_reader *reader, const json_t *of, const char *key);
 /* Returns the same address for the same text. */
 const char *results_view_shared_text(results_reader *reader, const char *text);
 void *results_view_add_row(results_reader *reader, results_rows *rows, size_t size);

@@ -33,8 +33,6 @@ typedef struct results_view_stage {
     const char *build; /* hash of the plugin's file */
     const results_view_param *const *params;
     size_t param_count;
-    const size_t *feeders; /* the stages that it is wired to */
-    size_t feeder_count;
 } results_view_stage;
 
 /* What is varied: a path, and the value that it takes at each point of a dimension of the study.
