@@ -128,12 +128,6 @@ static void say(void *ctx, int indent, const char *line)
         terminal_print_wrapped(line + blanks, printf("%*s", blanks, ""), indent);
 }
 
-static study_readable readable(const char *name, const char *si_unit, double magnitude)
-{
-    results_readable of = results_readable_output(name, si_unit, magnitude);
-    return (study_readable){of.factor, of.offset, of.unit};
-}
-
 static study_run run_of(const cli_session *session, const cli_options *options, char *directory)
 {
     const char *executor = cli_option(options, "executor");
@@ -154,7 +148,7 @@ static study_run run_of(const cli_session *session, const cli_options *options, 
                               : options->rerun_failed ? STUDY_RERUN_FAILED
                                                       : STUDY_RERUN_NONE,
                      .fail_fast = cli_option(options, "fail-fast") != NULL,
-                     .readable = readable,
+                     .readable = results_readable_output,
                      .against = results_against};
     if (!options->shards && !session->study->streams)
         cli_shard_find(&run, executor != NULL, session->report);

@@ -3,7 +3,7 @@
 #ifndef RESULTS_NUMBER_H
 #define RESULTS_NUMBER_H
 
-#include <stdbool.h>
+#include "../study/cases/study.h"
 
 enum { RESULTS_NUMBER_SIZE = 32, RESULTS_QUANTITY_SIZE = 64 };
 
@@ -19,10 +19,7 @@ void results_number_text(double value, int digits, const char *gap, char out[RES
 void results_number_short(double value, char out[RESULTS_NUMBER_SIZE]);
 
 /* A unit in which a value of that size reads well: number = si * factor + offset. */
-typedef struct results_readable {
-    double factor, offset;
-    const char *unit; /* "" for a pure number */
-} results_readable;
+typedef study_readable results_readable;
 
 results_readable results_readable_unit(const char *si_unit, double magnitude);
 /* The unit of an output of that name: temperatures are in degC. */
