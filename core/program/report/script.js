@@ -365,6 +365,46 @@
     update();
   }
 
+  /* The pair of the inputs to scale: tips, sketched flanks, and the pitch circles that touch. */
+  function pair(list) {
+    var of = {}, inside = false;
+    Array.prototype.forEach.call(list.children, function (node) {
+      if (node.tagName === 'DT') inside = /^gear\//.test((node.querySelector('small') || node).textContent);
+      else if (inside) all('span', node).forEach(function (one) { of[one.firstChild.textContent.trim()] = one.querySelector('b').textContent; });
+    });
+    function both(name, otherwise) { /* mm; a number by itself is as it stands */
+      var found = (of[name] || '').match(/-?[\d.]+(e[-+]?\d+)? *[^\d,\]\s]*/gi);
+      if (!found) return otherwise;
+      found = found.map(function (word) { return parseFloat(word) * ({m: 1e3, cm: 10, um: 1e-3, in: 25.4}[word.replace(/.*[\d. ]/, '')] || 1); });
+      return [found[0], found.length > 1 ? found[1] : found[0]];
+    }
+    var z = both('teeth'), m = both('module'), x = both('profile shift', [0, 0]);
+    if (!z || !m || !(z[0] > 2 && z[1] > 2)) return;
+    var a = both('centre distance', [m[0] * (z[0] + z[1]) / 2])[0];
+    var tips = both('tip diameter', [0, 1].map(function (i) { return m[0] * (z[i] + 2 + 2 * x[i]); }));
+    var high = Math.max(tips[0], tips[1]) * 1.02, ns = 'http://www.w3.org/2000/svg', svg = document.createElementNS(ns, 'svg');
+    function put(tag, values) {
+      var node = document.createElementNS(ns, tag);
+      Object.keys(values).forEach(function (key) { node.setAttribute(key, values[key]); });
+      svg.appendChild(node);
+    }
+    [0, 1].forEach(function (i) {
+      var tip = tips[i] / 2, root = tip - 2.25 * m[0], step = 2 * Math.PI / z[i], points = [];
+      for (var k = 0; k < z[i]; k++) /* a tooth of gear 1 and a gap of gear 2 on the line of centres */
+        [[-0.36, root], [-0.14, tip], [0.14, tip], [0.36, root]].forEach(function (p) {
+          var at = (k + (i ? 0.5 : 0) + p[0]) * step + i * Math.PI;
+          points.push((i * a + p[1] * Math.cos(at)).toFixed(3) + ',' + (p[1] * Math.sin(at)).toFixed(3));
+        });
+      put('path', {d: 'M' + points.join('L') + 'Z'});
+      put('circle', {cx: i * a, cy: 0, r: a * z[i] / (z[0] + z[1])});
+    });
+    svg.setAttribute('viewBox', [-tips[0] / 2 - high / 100, -high / 2, tips[0] / 2 + a + tips[1] / 2 + high / 50, high].join(' '));
+    var box = make('div', 'pair');
+    box.appendChild(svg);
+    box.appendChild(make('small', '', 'to scale: ' + z.join(' and ') + ' teeth, ' + String(Number(a.toPrecision(6))) + ' mm apart; flanks are sketched'));
+    list.parentNode.insertBefore(box, list);
+  }
+
   /* #figures: puts all figures into the page as one that could be saved, each at its place or below the last. */
   function spell() {
     return Promise.all(shown.map(function (f) { return figures.standalone(f.figure); })).then(function (list) {
@@ -390,6 +430,7 @@
   }
   window.addEventListener('load', function () {
     var nodes = all('figure');
+    all('.inputs').forEach(pair);
     if (window.vega) {
       nodes.forEach(function (node, i) {
         try { begin(node, i); } catch (e) { node.appendChild(make('small', '', 'This figure cannot be drawn: ' + e.message)); }

@@ -257,6 +257,21 @@ class Report(lab.Lab):
         page, _, _ = self.study("along")
         self.assertIn("<dt>wave <small>toy/wave</small></dt><dd><span>count <b>8</b></span> </dd>", page)
 
+    def test_pair(self):
+        """The pair of the inputs is drawn to scale: tips as typed or by the module, pitch circles that touch."""
+        for tips, ratio in (("", 60 / 23), (", tip_diameter: [70 mm, 180.6 mm]", 180.6 / 70)):
+            self.write("gears.yaml", "format: 2\npipeline: {gears: {use: gear/involute-spur, teeth: [21, 58], module: 3 mm, "
+                                     f"face_width: 28 mm, material: steel, centre_distance: 118.6 mm{tips}}}}}\noutputs: [gears.contact_ratio]\n")
+            self.call("run", "gears.yaml", "-o", "gears")
+            self.call("report", "gears")
+            self.look("gears/report.html")
+            sizes = self.browser.value("[...document.querySelectorAll('.pair path')].map(p => p.getBBox().height)")
+            self.assertAlmostEqual(sizes[1] / sizes[0], ratio, delta=0.02 * ratio)  # a tooth need not stand at the top
+            circles = self.browser.value("[...document.querySelectorAll('.pair circle')].flatMap(c => [+c.getAttribute('cx'), +c.getAttribute('r')])")
+            self.assertAlmostEqual(circles[2] - circles[0], 118.6)
+            self.assertAlmostEqual(circles[1] + circles[3], 118.6)
+            self.assertAlmostEqual(circles[3] / circles[1], 58 / 21)
+
     def test_along(self):
         """A sweep of one axis: curves with the limit, and how many cases meet it."""
         page, _, figures = self.study("along")
