@@ -188,9 +188,11 @@ def values(table):
 
 def is_told(role, place, what, command, done, directory):
     said = sentence(role, place, what)
+    unclear = "one that serves it" in said and "crashed" in TOLD[what] and what != "trap"
+    words = [said] + ["; flankfilm verify tells of each whether"] * unclear
     if command == "json":
         message = (answer(done).get("errors") or [{"message": ""}])[0]["message"]
-        return done.returncode == 3 and answer(done)["exit"] == 3 and said in message and done.stderr.endswith(f"error: {message}\n")
+        return done.returncode == 3 and answer(done)["exit"] == 3 and all_in(words, message) and done.stderr.endswith(f"error: {message}\n")
     if command == "study" and done.returncode == 4:
         table = read(directory + "/table.csv")
         return "2 failed" in done.stdout and table.count(said) == 2
@@ -198,7 +200,7 @@ def is_told(role, place, what, command, done, directory):
         lines = [line for line in done.stdout.split("\n") if line.startswith("# faulty: ")]
         came = ["crashed while", "ended the program", "started another process", "hung while", said.split(": ")[-1]]
         return done.returncode == 3 and any(word in line for word in came for line in lines)
-    return done.returncode == 3 and said in done.stderr
+    return done.returncode == 3 and all_in(words, done.stderr)
 
 
 def is_right(what, command, done, directory):

@@ -233,6 +233,15 @@ static int wait_for_child(void)
     }
 }
 
+/* Several plugins may be at fault for a crash: one has overrun memory of another. */
+static void add_advice(char *sentence, size_t size)
+{
+    size_t length = strlen(sentence);
+    if (strstr(sentence, ", or one that serves it ("))
+        snprintf(sentence + length, size - length,
+                 "; flankfilm verify tells of each whether it writes where it must not");
+}
+
 /* Fills code and sentence for a child that ended with this status. */
 static void judge(int status, crash_end *end)
 {
@@ -249,6 +258,8 @@ static void judge(int status, crash_end *end)
     if (!(number && (number == handed_on || number == SIGXCPU)) &&
         crash_describe(&words->running, status, end->sentence, sizeof end->sentence)) {
         end->code = FF_FAULT_PLUGIN;
+        if (number && crash_fault_name(number))
+            add_advice(end->sentence, sizeof end->sentence);
     } else if (number) {
         signal(number, SIG_DFL);
         raise(number);
