@@ -117,4 +117,11 @@ while read -r named; do
     *) [ -e "doc/flankfilm/source/$named" ] ;;
     esac || { echo "a page for authors names $named, which is not installed" && exit 1; }
 done <"$lab/named"
+# and so is the template of each kind that its table has
+awk -F'|' '/^\| kind \| what `flankfilm new/ { on = 1 } !/^\|/ { on = 0 } on { print $2 }' doc/flankfilm/plugins.md |
+    grep -o '`[a-z]*`' | tr -d '`' >"$lab/kinds"
+[ "$(wc -l <"$lab/kinds")" -ge 14 ]
+while read -r kind; do
+    [ -f "$plugins/$kind.template.c" ] || { echo "plugins.md has a template of $kind, which is not installed" && exit 1; }
+done <"$lab/kinds"
 say "examples, schema and pages" "$count examples"
