@@ -71,15 +71,10 @@ static int find(const results_view *view, const char *name)
 
 static size_t rank_of(const results_view_variable *of, const ff_array *array, part what)
 {
-    if (*of->whole && what >= LEAST)
-        return of->extremes[what == LARGEST];
-    size_t at = what == SECOND ? 1 : 0;
-    for (size_t i = 1; what >= LEAST && i < report_array_size(array); i++) {
-        const double value = array->data[i], best = array->data[at];
-        if (isfinite(value) && (!isfinite(best) || (what == LEAST ? value < best : value > best)))
-            at = i;
-    }
-    return at;
+    if (what < LEAST)
+        return what == SECOND;
+    const report_extremes at = report_find_extremes(array);
+    return *of->whole ? of->extremes[what == LARGEST] : what == LEAST ? at.least : at.greatest;
 }
 
 /* Reads a number of a design. False after an error. */

@@ -4,6 +4,7 @@
 #include "number.h"
 
 #include "../memory/memory.h"
+#include "../study/cases/csv.h"
 
 #include <fcntl.h>
 #include <stdlib.h>
@@ -17,16 +18,7 @@ typedef struct table {
 
 static void put_text(FILE *out, const char *text)
 {
-    bool plain = !text[strcspn(text, ",\"\n\r")];
-    if (!plain)
-        fputc('"', out);
-    for (; *text; text++) {
-        if (*text == '"')
-            fputc('"', out);
-        fputc(*text, out);
-    }
-    if (!plain)
-        fputc('"', out);
+    study_csv_write(out, text, strlen(text), false);
 }
 
 static void put_number(FILE *out, double value)
@@ -36,10 +28,22 @@ static void put_number(FILE *out, double value)
     fputs(text, out);
 }
 
-static void put_head(FILE *out, const char *name, const char *unit)
+/* Put one more field of a row. */
+static void put_field(FILE *out, const char *text)
 {
     fputc(',', out);
-    put_text(out, name);
+    put_text(out, text);
+}
+
+static void put_real(FILE *out, double value)
+{
+    fputc(',', out);
+    put_number(out, value);
+}
+
+static void put_head(FILE *out, const char *name, const char *unit)
+{
+    put_field(out, name);
     if (*unit)
         fprintf(out, " [%s]", unit);
 }
@@ -64,11 +68,10 @@ static void put_axes(const table *t, size_t index)
     for (size_t a = 0; a < t->view->axis_count; a++) {
         const results_view_axis *axis = t->view->axes[a];
         size_t point = results_view_point(t->view, index, axis->dimension);
-        fputc(',', t->out);
         if (axis->values)
-            put_number(t->out, axis->values[point]);
+            put_real(t->out, axis->values[point]);
         else
-            put_text(t->out, axis->words[point]);
+            put_field(t->out, axis->words[point]);
     }
 }
 
@@ -108,25 +111,19 @@ static bool write_scalars(table *t)
             range ? ",range" : "");
     for (size_t c = 0; c < view->case_count && good; c++) {
         put_axes(t, c);
-        fputc(',', t->out);
-        put_text(t->out, view->cases[c]->status);
-        fputc(',', t->out);
-        put_number(t->out, view->cases[c]->seconds);
+        put_field(t->out, view->cases[c]->status);
+        put_real(t->out, view->cases[c]->seconds);
         good = put_scalars(t, c);
         if (limits) {
-            fputc(',', t->out);
-            put_text(t->out, view->cases[c]->limits_text);
+            put_field(t->out, view->cases[c]->limits_text);
         }
         fprintf(t->out, ",%s,", view->cases[c]->verdict);
         put_text(t->out, view->cases[c]->reasons);
         if (range) {
-            fputc(',', t->out);
-            put_text(t->out, view->cases[c]->range);
+            put_field(t->out, view->cases[c]->range);
         }
-        fputc(',', t->out);
-        put_text(t->out, view->cases[c]->reason);
-        fputc(',', t->out);
-        put_text(t->out, view->cases[c]->command);
+        put_field(t->out, view->cases[c]->reason);
+        put_field(t->out, view->cases[c]->command);
         fputc('\n', t->out);
     }
     return good;
@@ -270,10 +267,8 @@ static bool write_quality(table *t)
             put_axes(t, c);
             fprintf(t->out, ",%s,", view->stages[line->stage]->name);
             put_text(t->out, line->name);
-            fputc(',', t->out);
-            put_number(t->out, line->value);
-            fputc(',', t->out);
-            put_number(t->out, line->limit);
+            put_real(t->out, line->value);
+            put_real(t->out, line->limit);
             fprintf(t->out, ",%s,", ff_verdict_name(line->verdict));
             put_text(t->out, line->text);
             fputc('\n', t->out);
@@ -283,12 +278,10 @@ static bool write_quality(table *t)
 
 static void put_row(FILE *out, const char *a, const char *b, const char *c, const char *d)
 {
-    const char *const cells[] = {a, b, c, d};
-    for (size_t i = 0; i < 4; i++) {
-        if (i)
-            fputc(',', out);
-        put_text(out, cells[i]);
-    }
+    put_text(out, a);
+    put_field(out, b);
+    put_field(out, c);
+    put_field(out, d);
     fputc('\n', out);
 }
 
