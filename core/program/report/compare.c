@@ -128,11 +128,6 @@ static void print_difference(number first, number other, const results_readable 
         snprintf(out, 2 * ROOM, "%s", text);
 }
 
-static json_t *real_or_null(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
-}
-
 /* Sets member "NAME<rank>". */
 static void set(json_t *row, const char *name, size_t rank, json_t *value)
 {
@@ -160,8 +155,8 @@ static bool add_row(json_t *rows, const results_view_variable *of, part what,
         char text[ROOM], difference[2 * ROOM];
         print_number(numbers[i], &unit, false, text);
         set(row, "text", i, json_string(text));
-        set(row, "value", i, real_or_null(numbers[i].value));
-        set(row, "bar", i, real_or_null(numbers[i].bar));
+        set(row, "value", i, study_json_real(numbers[i].value));
+        set(row, "bar", i, study_json_real(numbers[i].bar));
         print_difference(numbers[0], numbers[i], &unit, difference);
         set(row, "difference", i, json_string(i ? difference : ""));
     }

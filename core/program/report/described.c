@@ -3,15 +3,11 @@
    but the drawings is read without scripts. */
 #include "page.h"
 
+#include "../study/kinds/answer/text.h"
+
 #include <jansson.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const char *text_of(const json_t *of, const char *key)
-{
-    const char *text = json_string_value(json_object_get(of, key));
-    return text ? text : "";
-}
 
 static void put_cell(FILE *out, const json_t *cell)
 {
@@ -35,7 +31,7 @@ static void put_table(FILE *out, const json_t *table)
         return;
     report_print(out, "<details%s><summary>%s</summary>\n<div class=\"wide\"><table><thead><tr>",
                  json_integer_value(json_object_get(table, "folded")) ? "" : " open",
-                 text_of(table, "summary"));
+                 study_text_of(table, "summary"));
     json_array_foreach(json_object_get(table, "head"), i, cell)
         report_print(out, "<th>%s</th>", json_is_string(cell) ? json_string_value(cell) : "");
     fputs("</tr></thead><tbody>\n", out);
@@ -64,7 +60,7 @@ static void put_figure(FILE *out, json_t *figure)
 {
     json_t *words = json_incref(json_object_get(figure, "words")),
            *tables = json_incref(json_object_get(figure, "tables")), *one;
-    const bool drawn = strcmp(text_of(figure, "sort"), "tables") != 0;
+    const bool drawn = strcmp(study_text_of(figure, "sort"), "tables") != 0;
     size_t i;
     json_object_del(figure, "words");
     json_object_del(figure, "tables");
@@ -72,7 +68,7 @@ static void put_figure(FILE *out, json_t *figure)
         report_print(out,
                      "<figure class=\"%s\"><figcaption><span>%s</span></figcaption><script "
                      "type=\"application/json\">",
-                     text_of(figure, "class"), text_of(figure, "title"));
+                     study_text_of(figure, "class"), study_text_of(figure, "title"));
         report_put_json(out, json_incref(figure));
         fputs("</script>\n", out);
     } else {

@@ -32,6 +32,25 @@ report_curve *report_plot_add(report_plot *plot, const results_readable *x_unit,
     return curve;
 }
 
+report_curve *report_plot_find(report_plot *plot, const results_readable *unit, const double *y,
+                               size_t count, double share)
+{
+    for (size_t k = 0; k < plot->count; k++) {
+        report_curve *curve = &plot->curves[k];
+        double low = INFINITY, high = -INFINITY;
+        for (size_t i = 0; i < curve->count; i++) {
+            low = fmin(low, curve->y[i]);
+            high = fmax(high, curve->y[i]);
+        }
+        bool same = curve->count == count;
+        for (size_t i = 0; i < count && same; i++)
+            same = fabs(curve->y[i] - report_convert(unit, y[i])) <= share * (high - low);
+        if (same)
+            return curve;
+    }
+    return NULL;
+}
+
 void report_curve_bar(report_curve *curve, const results_readable *y_unit, const double *bar)
 {
     curve->bar = memory_alloc(curve->count * sizeof *curve->bar);

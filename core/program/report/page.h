@@ -141,6 +141,9 @@ typedef struct report_plot {
  */
 report_curve *report_plot_add(report_plot *plot, const results_readable *x_unit, const double *x,
                               const results_readable *y_unit, const double *y, size_t count);
+/* Finds a curve that is no further from such numbers than a share of its range; NULL: none. */
+report_curve *report_plot_find(report_plot *plot, const results_readable *unit, const double *y,
+                               size_t count, double share);
 /* Gives a curve the error bars of its numbers, which are drawn as a band. */
 void report_curve_bar(report_curve *curve, const results_readable *y_unit, const double *bar);
 void report_plot_write(report_page *page, const report_plot *plot);

@@ -68,20 +68,6 @@ static double magnitude(const ff_array *array)
     return fmax(0, fmax(fabs(found.low), fabs(found.high))); /* 0: nothing is known */
 }
 
-/* Finds the curve of another stage with the same numbers, which then stands for both. */
-static report_curve *find_same_curve(figure *d, const ff_array *y)
-{
-    for (size_t k = 0; k < d->plot.count; k++) {
-        report_curve *curve = &d->plot.curves[k];
-        bool same = curve->count == report_array_size(y);
-        for (size_t i = 0; same && i < curve->count; i++)
-            same = curve->y[i] == report_convert(&d->y_unit, y->data[i]);
-        if (same)
-            return curve;
-    }
-    return NULL;
-}
-
 static void label_curve(const figure *d, report_curve *curve, size_t variable, size_t index,
                         bool several)
 {
@@ -158,7 +144,10 @@ static void add_curve(figure *d, size_t variable, size_t index, bool several, si
     ff_array y = report_load(page, (int)variable, index), x = report_load(page, axis, index);
     if (y.data && y.rank == 1 && report_array_size(&y) > 2 && (axis < 0 || x.data) &&
         choose_units(d, variable, axis, &x, &y)) {
-        report_curve *same = page->view->study ? NULL : find_same_curve(d, &y), *made = NULL;
+        report_curve *same = page->view->study ? NULL
+                                               : report_plot_find(&d->plot, &d->y_unit, y.data,
+                                                                  report_array_size(&y), 0),
+                     *made = NULL;
         const char *name = page->view->stages[page->view->variables[variable]->stage]->name;
         if (same) {
             char rest[REPORT_TEXT_SIZE]; /* of "stage: output", or "" */

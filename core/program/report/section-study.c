@@ -68,26 +68,6 @@ static bool is_geometric(const double *values, size_t count)
     return good;
 }
 
-/* Finds a curve of which y is no further than a thousandth of its range: both chains of a sweep are
-   one where there is one motion. */
-static report_curve *find_same(report_plot *plot, const results_readable *unit, const double *y)
-{
-    for (size_t k = 0; k < plot->count; k++) {
-        report_curve *curve = &plot->curves[k];
-        double low = INFINITY, high = -INFINITY;
-        for (size_t i = 0; i < curve->count; i++) {
-            low = fmin(low, curve->y[i]);
-            high = fmax(high, curve->y[i]);
-        }
-        bool same = true;
-        for (size_t i = 0; i < curve->count && same; i++)
-            same = fabs(curve->y[i] - report_convert(unit, y[i])) <= 1e-3 * (high - low);
-        if (same)
-            return curve;
-    }
-    return NULL;
-}
-
 static void draw_lines(const report_scalar *f, const results_view_axis *axis, size_t combinations)
 {
     const results_view *view = f->page->view;
@@ -111,7 +91,8 @@ static void draw_lines(const report_scalar *f, const results_view_axis *axis, si
             continue;
         char name[REPORT_TEXT_SIZE];
         report_name_case(view, first, axis->dimension, -1, name);
-        report_curve *curve = find_same(&plot, &f->unit, y);
+        /* both chains of a sweep are one where there is one motion */
+        report_curve *curve = report_plot_find(&plot, &f->unit, y, points, 1e-3);
         if (curve) {
             size_t length = strlen(curve->label);
             snprintf(curve->label + length, sizeof curve->label - length, " and %.80s", name);
