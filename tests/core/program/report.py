@@ -38,8 +38,8 @@ STUDIES = {
 pipeline: {wave: {use: toy/wave, amplitude: 2 mm, count: 8}}
 outputs: [wave.total]
 study:
-  sweep: {wave.amplitude: {from: 1 mm, to: 3 mm}}
-  sample: {sobol: 40, seed: 1}
+  sweep: {wave.amplitude: {from: 0.001 mm, to: 5 mm, spacing: log}}
+  sample: {sobol: 200, seed: 1}
 """,
     "uncertainty": """
 pipeline: {wave: {use: toy/wave, amplitude: 2 mm, count: 8}}
@@ -347,6 +347,7 @@ class Report(lab.Lab):
     def test_sample(self):
         page, dom, figures = self.study("sample")
         self.assertEqual(figures, 3)  # how it is spread, what it follows, over each input
+        self.assertIn('"y":{"label":"cases","log":0,"low":0', page)  # columns stand on 0
         for words in ("median", "95 %"):
             self.assertIn(words, page)
         self.assertIn("rank correlation", dom)
