@@ -311,20 +311,22 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
         {.name = "h_min_error",
          .unit = "m",
          .doc =
-             "estimate of the error of h_min: (0.16 + 0.0063 L^2)/n^2 of it (first-order wedge: "
-             "(0.4 + 0.012 L)/n) with n cells over the inlet's pressure rise and Moes' L, plus the "
+             "estimate of the error of h_min: 1.5 times what the transport of errors tells, by the "
+             "cells and by the time steps (ehl/finite-volume: steady films, and histories with "
+             "errors: transport); else (0.16 + 0.0063 L^2)/n^2 of it (first-order wedge: (0.4 + "
+             "0.012 L)/n) with n cells over the inlet's pressure rise and Moes' L, plus the "
              "truncation of the time steps and of the cells that the film gathers on its way "
-             "through "
-             "the contact; above 2 % what twice the cells make of the last passage",
+             "through the contact; above 2 % what twice the cells make of the last passage",
          .dims = "t",
          .max = INFINITY},
     [EHL_H_CENTRAL_ERROR] =
         {.name = "h_central_error",
          .unit = "m",
          .doc =
-             "estimate of the error of h_central: (0.2 + 0.05 L)/n^2 of it (first-order wedge: "
-             "(0.4 + 0.02 L)/n), n and L as for h_min_error, plus the truncation that the film at "
-             "x = 0 has gathered; above 2 % by the cells as h_min_error",
+             "estimate of the error of h_central: by the transport of errors as h_min_error; else "
+             "(0.2 + 0.05 L)/n^2 of it (first-order wedge: (0.4 + 0.02 L)/n), n and L as for "
+             "h_min_error, plus the truncation that the film at x = 0 has gathered; above 2 % by "
+             "the cells as h_min_error",
          .dims = "t",
          .max = INFINITY},
     [EHL_P_MAX_ERROR] =

@@ -28,9 +28,10 @@ typedef struct ehl_state {
 
 typedef struct ehl_march {
     const ehl_history *history;
-    ehl_roughness *rough;        /* NULL: smooth flanks */
-    struct ehl_heat *heat;       /* NULL: the film has the temperature of the oil */
-    struct ehl_thermal *thermal; /* NULL: no temperatures across the film */
+    ehl_roughness *rough;            /* NULL: smooth flanks */
+    struct ehl_heat *heat;           /* NULL: the film has the temperature of the oil */
+    struct ehl_transport *transport; /* NULL: errors are not asked for */
+    struct ehl_thermal *thermal;     /* NULL: no temperatures across the film */
     ehl_solver *solver;
     int scheme;                  /* EHL_EULER or EHL_BDF2 */
     ehl_state state[EHL_STATES]; /* newest first */

@@ -2,6 +2,7 @@
 /* Estimates the errors of a film by the cells, by the time steps and by the ends of the domain. */
 #include "../contact/lanes.h"
 #include "../estimates/inlet.h"
+#include "../time/error-transport.h"
 #include "results.h"
 
 #include <math.h>
@@ -333,6 +334,22 @@ static void record_bounds(ehl_results *r, const ehl_march *m, double h_central, 
         record_narrow(r, m, c, &of);
 }
 
+/* Puts the errors by the cells in place of what bounds them. The film of a rigid cylinder feels its
+   end pass from node to node, which a linear equation does not: there the bound stays if it is
+   more. */
+static void put_transported(ehl_results *r, const ehl_transported *e, const contact *c)
+{
+    const double film[] = {r->row[EHL_H_MIN], r->row[EHL_H_CENTRAL]};
+    const int rigid = c->opening > 2 * c->a;
+    for (int k = EHL_LEAST; k <= EHL_CENTRAL; k++) {
+        double share = ehl_known_error(e->by_cells[k] / film[k]), *part = &r->row_in_space[k];
+        if (!rigid || fabs(share) * film[k] > *part)
+            *part = share * film[k];
+        r->row_in_space[EHL_MEASURED + k] = 1;
+    }
+    r->transported = 1;
+}
+
 static void keep_least(double *least, double value)
 {
     if (!(value >= *least))
@@ -345,6 +362,16 @@ void ehl_results_errors(ehl_results *r, const ehl_march *m, size_t node, double 
     const ehl_grid *g = m->solver->grid;
     size_t centre = (size_t)(g->inlet / g->dx + 0.5);
     double time[] = {accumulated_error_near(m, node), accumulated_error_near(m, centre)};
+    const int transported = m->transport && m->transport->known;
+    ehl_transported e;
+    if (transported) {
+        e = ehl_results_transported(r, m);
+        const double film[] = {r->row[EHL_H_MIN], r->row[EHL_H_CENTRAL]};
+        for (int k = EHL_LEAST; k <= EHL_CENTRAL; k++) {
+            double by_steps = fabs(e.by_steps[k]) / film[k];
+            time[k] = m->distance_of_jump > 0 ? fmax(time[k], by_steps) : by_steps;
+        }
+    }
     if (ehl_march_is_loaded(m)) {
         const ehl_reynolds *eq = m->solver->reynolds;
         contact c = contact_at(eq, &m->at, m->history->modulus, h_central);
@@ -356,6 +383,8 @@ void ehl_results_errors(ehl_results *r, const ehl_march *m, size_t node, double 
         };
         record_resolution(r, m, h_central, &c);
         record_bounds(r, m, h_central, p_max, carried, &c);
+        if (transported)
+            put_transported(r, &e, &c);
         for (int k = EHL_LEAST; k <= EHL_CENTRAL; k++)
             ehl_worse(&r->worst_in_time[k], time[k]);
         keep_least(&r->least_in_time, r->row[EHL_H_MIN] * (1 - time[EHL_LEAST]));

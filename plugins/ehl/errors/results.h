@@ -59,11 +59,13 @@ typedef struct ehl_results {
     double share;     /* of the bounds of p_max that remains where it was not looked at; 1: all */
     ehl_look look[EHL_LOOKS]; /* at rows, by their order */
     size_t looks;
-    int measured[EHL_PEAK];              /* 1: h_min, h_central were measured at some rows */
-    int finest;                          /* the most cells at which, over those of the run */
-    ehl_rows space;                      /* what the cells add to h_min, h_central, p_max */
-    double *row_in_space;                /* its row that is being filled in */
-    double worst_gap_excess, widest_gap; /* while the contact is lost, m */
+    double known_error[2];  /* largest errors by the cells and by the steps lately, relative */
+    int transported;        /* errors of h_min and h_central are those of their transport */
+    int measured[EHL_PEAK]; /* 1: h_min, h_central were measured at some rows */
+    int finest;             /* the most cells at which, over those of the run */
+    ehl_rows space;         /* what the cells add to h_min, h_central, p_max */
+    double *row_in_space;   /* its row that is being filled in */
+    double worst_gap_excess, widest_gap;                    /* while the contact is lost, m */
     double share_sum, ratio_sum, trapped_sum, worst_supply; /* sums over rough, loaded instants */
     double least_gap;                                       /* of statistical flanks, over sigma */
     double yield_sum, deepest_yield, worst_yield; /* the same; deepest_yield: plastic part, m */
@@ -87,6 +89,14 @@ double ehl_results_loss_in_time(const ehl_results *r, const ehl_march *m);
 /* Estimates the errors of the row that is being filled in; h_min is at `node`. */
 void ehl_results_errors(ehl_results *r, const ehl_march *m, size_t node, double h_central,
                         double p_max);
+
+/* What the cells and the steps add to h_min and h_central of the newest film, by the transport of
+   its errors: bars, m, negative of a film that is too thin. */
+typedef struct ehl_transported {
+    double by_cells[EHL_PEAK], by_steps[EHL_PEAK];
+} ehl_transported;
+
+ehl_transported ehl_results_transported(ehl_results *r, const ehl_march *m);
 
 /* Keeps the newest film of the march; f->change has room for its nodes. */
 void ehl_space_keep(const ehl_march *m, ehl_instant_film *f);

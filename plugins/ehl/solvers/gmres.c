@@ -19,6 +19,9 @@ enum { LEAST_STRIDE = 16, LEAST_CORNERS = 16, MOST_CORNERS = 128 };
  * the flow through the contact. An imbalance counts if both are exceeded. */
 static const double MOST_IMBALANCE_LEFT = 0.3, IMBALANCE_NOTICED = 0.01;
 
+/* The same for an answer to rows that are no residual. */
+static const double ANSWER_IMBALANCE = 0.1;
+
 /* A linear system is solved at least to this share of its first residual. The second value applies
  * to rough flanks, whose contacts the rest may turn, and to light loads, where a norm of the
  * pressure says little about the film. */
@@ -283,12 +286,25 @@ static double forcing_term(const ehl_solver *s, double change, int careful)
     return fmin(s->reynolds->touching ? SHARED_REDUCTION : least, left);
 }
 
+/* Returns the share of the preconditioned residual `first` that may be left for that accuracy: the
+   residual has the norm of what it adds to the answer. */
+static double share_left(const ehl_accuracy *accuracy, double first, size_t rows, double weight)
+{
+    double most = first;
+    for (size_t k = 0; k < sizeof accuracy->over / sizeof accuracy->over[0]; k++) {
+        const ehl_answer *e = accuracy->over[k];
+        if (e)
+            most = ehl_greater(hypot(sqrt(dot(e->p, e->p, rows)), e->h00 * weight), most);
+    }
+    return first > 0 ? accuracy->share * most / first : 1;
+}
+
 /* Solves J (dp, dh00) = (product, missing) until the preconditioned residual is below the share of
- * the first one that forcing_term allows. Left preconditioning makes the norm measure the error of
- * the pressure. A norm of the balances would let short waves of the pressure grow from step to
- * step, since they hardly change the balances. */
+ * the first one that forcing_term allows, or within `accuracy`, if not NULL. Left preconditioning
+ * makes the norm measure the error of the pressure. A norm of the balances would let short waves of
+ * the pressure grow from step to step, since they hardly change the balances. */
 static ff_status gmres(ehl_solver *s, const ehl_film *film, int loaded, double missing,
-                       double *dh00)
+                       const ehl_accuracy *accuracy, double *dh00)
 {
     ehl_linear *w = s->self;
     const ehl_grid *g = s->grid;
@@ -306,9 +322,9 @@ static ff_status gmres(ehl_solver *s, const ehl_film *film, int loaded, double m
     memset(w->basis[0] + rows, 0, (nodes - rows) * sizeof *w->basis[0]);
     w->basis[0][0] = *dh00 * weight;
     double first = sqrt(dot(w->basis[0], w->basis[0], rows)), norm = first;
-    if (!isfinite(first))
-        return FF_NOCONV;
-    double reduction = forcing_term(s, ehl_greatest_size(rows, w->basis[0]) / p_max, careful);
+    double reduction = accuracy
+                           ? share_left(accuracy, first, rows, weight)
+                           : forcing_term(s, ehl_greatest_size(rows, w->basis[0]) / p_max, careful);
     scale(w->basis[0], first > 0 ? 1 / first : 0, rows);
     q.rest[0] = first;
     while (k < EHL_KRYLOV && norm > reduction * first) {
@@ -331,11 +347,11 @@ static ff_status gmres(ehl_solver *s, const ehl_film *film, int loaded, double m
     return isfinite(norm) ? FF_OK : FF_NOCONV;
 }
 
-/* Returns 1 if the step leaves the flow unbalanced although GMRES's norm is small. Where the blocks
- * of the coarse grid are wider than the contact, M^-1 almost annihilates some waves of the
+/* Returns 1 if the solution leaves the flow unbalanced although GMRES's norm is small. Where the
+ * blocks of the coarse grid are wider than the contact, M^-1 almost annihilates some waves of the
  * balances, and a left-preconditioned norm does not see them. */
 static int misses_imbalance(const ehl_solver *s, const ehl_step *step, const ehl_film *film,
-                            double dh00)
+                            double most_share, double noticed, double dh00)
 {
     ehl_linear *w = s->self;
     const ehl_reynolds *r = s->reynolds;
@@ -343,23 +359,45 @@ static int misses_imbalance(const ehl_solver *s, const ehl_step *step, const ehl
     shift(w->v_step, dh00, w->h_step, r->last + 1);
     apply_jacobian(r, w->p_step, w->h_step, w->left);
     for (size_t i = 1; i < r->last; i++) {
-        flow -= film->full[i] ? r->residual[i] : 0;
-        left -= film->full[i] ? r->residual[i] + w->left[i] : 0;
+        flow += film->full[i] ? w->asked[i] : 0;
+        left += film->full[i] ? w->asked[i] - w->left[i] : 0;
         most = ehl_greater(fabs(flow), most);
         most_left = ehl_greater(fabs(left), most_left);
     }
     double passing = r->oil.density * thin * (step->entrainment + step->rate * s->grid->half_width);
     w->unbalanced = most_left / passing;
-    return most_left > MOST_IMBALANCE_LEFT * most && w->unbalanced > IMBALANCE_NOTICED;
+    return most_left > most_share * most && w->unbalanced > noticed;
 }
 
 /* Fills the right-hand side of rows 1 ... last - 1 at the nodes where ehl_is_solved holds. */
 FF_SIMD
 static void negate_solved(size_t last, int all, const unsigned char *restrict full,
-                          const double *restrict residual, double *restrict product)
+                          const double *restrict residual, double *restrict asked)
 {
     for (size_t i = 1; i < last; i++)
-        product[i] = (full[i] | all) ? -residual[i] : 0;
+        asked[i] = (full[i] | all) ? -residual[i] : 0;
+}
+
+/* Solves for what w->asked says. `accuracy`: gmres. */
+static ff_status solve_for_asked(ehl_solver *s, const ehl_step *step, const ehl_film *film,
+                                 double sum, const ehl_accuracy *accuracy, double *dh00)
+{
+    ehl_linear *w = s->self;
+    const ehl_reynolds *r = s->reynolds;
+    const double most = accuracy ? ANSWER_IMBALANCE : MOST_IMBALANCE_LEFT,
+                 noticed = accuracy ? 0 : IMBALANCE_NOTICED;
+    for (w->split = w->coarse != NULL;;
+         w->split = 0) { /* the band alone is slower, but misses no wave */
+        memcpy(w->product + 1, w->asked + 1, (r->last - 1) * sizeof *w->product);
+        ff_status status = gmres(s, film, step->loaded, sum, accuracy, dh00);
+        if (status != FF_OK) {
+            w->factored = 0; /* factors that are no numbers would look as if they still held */
+            return status;
+        }
+        w->unbalanced = 0;
+        if (!w->split || !misses_imbalance(s, step, film, most, noticed, *dh00))
+            return FF_OK;
+    }
 }
 
 ff_status ehl_linear_solve(ehl_solver *s, const ehl_step *step, const ehl_film *film, double *dh00)
@@ -368,22 +406,54 @@ ff_status ehl_linear_solve(ehl_solver *s, const ehl_step *step, const ehl_film *
     ehl_linear_factor(s, step, film);
     const ehl_reynolds *r = s->reynolds;
     double missing = (step->load - ehl_film_load(film, r->nodes, r->dx)) / r->dx;
-    for (w->split = w->coarse != NULL;;
-         w->split = 0) { /* the band alone is slower, but misses no wave */
-        negate_solved(r->last, r->conserving || r->statistical.law, film->full, r->residual,
-                      w->product);
-        ff_status status = gmres(s, film, step->loaded, missing, dh00);
-        if (status != FF_OK) {
-            w->factored = 0; /* overflowed factors would pass for valid ones */
-            return status;
-        }
-        w->unbalanced = 0;
-        if (!w->split || !misses_imbalance(s, step, film, *dh00))
-            break;
-    }
-    if (w->krylov_fresh == 0)
+    negate_solved(r->last, r->conserving || r->statistical.law, film->full, r->residual, w->asked);
+    ff_status status = solve_for_asked(s, step, film, missing, NULL, dh00);
+    if (status == FF_OK && w->krylov_fresh == 0)
         w->krylov_fresh = w->krylov;
-    return FF_OK;
+    return status;
+}
+
+/* Sets the guess to 0 where no equation holds, and its deflection to what is left. */
+static void fit_guess(ehl_solver *s, const ehl_step *step, const ehl_film *film, ehl_answer *e)
+{
+    const ehl_reynolds *r = s->reynolds;
+    int cut = 0;
+    for (size_t i = 0; i < r->nodes; i++)
+        if (fabs(e->p[i]) > 0 && !(i > 0 && i < r->last && ehl_is_solved(r, film, i))) {
+            e->p[i] = 0;
+            cut = 1;
+        }
+    if (cut)
+        ehl_linear_deflect(s, ehl_pressure_part(s, film, e->p), e->v);
+    if (!step->loaded)
+        e->h00 = 0;
+}
+
+ff_status ehl_linear_answer(ehl_solver *s, const ehl_step *step, const ehl_film *film,
+                            const double *rows, const ehl_accuracy *accuracy, ehl_answer *e)
+{
+    ehl_linear *w = s->self;
+    const ehl_reynolds *r = s->reynolds;
+    const ehl_linear before = *w;
+    const ehl_counters counters = s->counters;
+    fit_guess(s, step, film, e);
+    shift(e->v, e->h00, w->h_step, r->last + 1);
+    apply_jacobian(r, e->p, w->h_step, w->left);
+    for (size_t i = 1; i < r->last; i++)
+        w->asked[i] = ehl_is_solved(r, film, i) ? rows[i] - w->left[i] : 0;
+    ehl_linear_factor(s, step, film);
+    double dh00 = 0, sum = -ehl_sum(r->last - 1, ehl_pressure_part(s, film, e->p) + 1);
+    ff_status status = solve_for_asked(s, step, film, sum, accuracy, &dh00);
+    ehl_add(e->p, 1, w->p_step, r->nodes);
+    ehl_add(e->v, 1, w->v_step, r->nodes);
+    e->h00 += dh00;
+    w->krylov = before.krylov;
+    w->suffices = before.suffices;
+    w->reached = before.reached;
+    w->unbalanced = before.unbalanced;
+    w->careful = before.careful;
+    s->counters = counters;
+    return status;
 }
 
 ff_status ehl_linear_create(ehl_solver *s, ehl_linear *w)
@@ -398,11 +468,11 @@ ff_status ehl_linear_create(ehl_solver *s, ehl_linear *w)
     w->coarse = split ? ehl_coarse_create(n, stride, s->kernel) : NULL;
     w->factored_kind = calloc(2 * n, 1);
     w->kind = w->factored_kind ? w->factored_kind + n : NULL;
-    double *next = w->memory = calloc((2 * (size_t)EHL_KRYLOV + 8) * n, sizeof *next);
+    double *next = w->memory = calloc((2 * (size_t)EHL_KRYLOV + 9) * n, sizeof *next);
     if (!w->fft || !w->band || (split && !w->coarse) || !w->memory || !w->factored_kind)
         return FF_NOMEM;
     double **line[] = {&w->product,  &w->p_step, &w->v_step, &w->h_step,
-                       &w->diagonal, &w->masked, &w->left};
+                       &w->diagonal, &w->masked, &w->left,   &w->asked};
     for (size_t k = 0; k < sizeof line / sizeof line[0]; k++, next += n)
         *line[k] = next;
     for (size_t k = 0; k <= EHL_KRYLOV; k++, next += n)

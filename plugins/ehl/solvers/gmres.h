@@ -13,6 +13,17 @@
 /* Most vectors of one linear solution. */
 enum { EHL_KRYLOV = 40 };
 
+/* A solution of the linear system, Pa and m; v is the deflection of p. */
+typedef struct ehl_answer {
+    double *p, *v, h00;
+} ehl_answer;
+
+/* Error that an answer may have, as a share of the largest answer listed. */
+typedef struct ehl_accuracy {
+    double share;
+    const ehl_answer *over[2]; /* NULL: none */
+} ehl_accuracy;
+
 /* Work space of the linear solver: the first member of a solver's `self`. */
 typedef struct ehl_linear {
     ehl_fft *fft;
@@ -21,6 +32,7 @@ typedef struct ehl_linear {
     int split;          /* 1: the coarse grid takes part in the current solution */
     double *memory;
     double *basis[EHL_KRYLOV + 1], *deflection[EHL_KRYLOV];
+    double *asked;   /* right-hand side */
     double *product; /* Jacobian times a vector, or the right-hand side */
     double *p_step, *v_step, *h_step, *diagonal, *masked, *left;
     unsigned char *factored_kind, *kind;
@@ -49,6 +61,12 @@ void ehl_linear_deflect(ehl_solver *s, const double *p, double *v);
 /* Solves for p_step, v_step and *dh00, after the residual and the derivatives of the equations.
  * FF_NOCONV: a number overflowed. */
 ff_status ehl_linear_solve(ehl_solver *s, const ehl_step *step, const ehl_film *film, double *dh00);
+
+/* Solves J (e->p, e->h00) = (rows, 0) with the derivatives that the equations have now, starting
+ * from the values in `e`. The last row is the balance of the load. Leaves the state of Newton's
+ * method and the counters as they were. FF_NOCONV: a number overflowed. */
+ff_status ehl_linear_answer(ehl_solver *s, const ehl_step *step, const ehl_film *film,
+                            const double *rows, const ehl_accuracy *accuracy, ehl_answer *e);
 
 /* Returns 1 if the last solution reached its accuracy within EHL_KRYLOV vectors, or reached
  * `suffices`. */

@@ -27,6 +27,7 @@ void ehl_run_destroy(ehl_run *r)
 {
     ehl_results_destroy(&r->results);
     ehl_step_control_destroy(&r->control);
+    ehl_transport_destroy(&r->transport);
     ehl_march_destroy(&r->march);
     ehl_heat_destroy(&r->heat);
     ehl_thermal_destroy(&r->thermal);
@@ -192,6 +193,23 @@ static ff_status solver_create(const ehl_model *m, ehl_run *r)
     return status;
 }
 
+/* Whether the errors of such films are found by their transport. A matrix that knows no temperature
+   does not tell those of a heated film (docs/theory.md, 12). */
+static int has_transport(const ehl_model *m, const ehl_run *r)
+{
+    const int steady = r->history.count == 1;
+    return r->solver.maker == ehl_newton_krylov && m->thermal == 0 && r->rough.count == 0 &&
+           (steady || (m->errors == EHL_TRANSPORT && !r->reynolds.conserving));
+}
+
+static ff_status transport_create(const ehl_model *m, uint64_t wanted, ehl_run *r)
+{
+    if (!has_transport(m, r) || !(ehl_wants_h_min(wanted) || ehl_wants_h_central(wanted)))
+        return FF_OK;
+    r->march.transport = &r->transport;
+    return ehl_transport_create(&r->transport, r->grid.nodes);
+}
+
 ff_status ehl_run_surface(const ehl_model *m, const ff_array *in, ehl_run *r)
 {
     ehl_roughness_destroy(&r->rough);
@@ -199,7 +217,7 @@ ff_status ehl_run_surface(const ehl_model *m, const ff_array *in, ehl_run *r)
     return status == FF_OK ? cut_surface(m, r) : status;
 }
 
-ff_status ehl_run_create(const ehl_model *m, const ff_array *in, ehl_run *r)
+ff_status ehl_run_create(const ehl_model *m, uint64_t wanted, const ff_array *in, ehl_run *r)
 {
     ff_status status = read_surface(m, in, r);
     if (status == FF_OK)
@@ -216,5 +234,5 @@ ff_status ehl_run_create(const ehl_model *m, const ff_array *in, ehl_run *r)
         return status;
     status = ehl_march_create(&r->march, &r->history, &r->solver, m->time_scheme);
     r->march.rough = r->rough.count > 0 ? &r->rough : NULL;
-    return status;
+    return status == FF_OK ? transport_create(m, wanted, r) : status;
 }

@@ -9,6 +9,7 @@
 #include "../contact/surface.h"
 #include "../heat/heat.h"
 #include "../heat/thermal.h"
+#include "../time/error-transport.h"
 #include "../time/step-control.h"
 
 /* In the order in which they are made. Starts zeroed. */
@@ -23,6 +24,7 @@ typedef struct ehl_run {
     double *kernel;
     ehl_solver solver;
     ehl_march march;
+    ehl_transport transport;
     ehl_heat heat;
     ehl_thermal thermal;
     ehl_step_control control;
@@ -37,7 +39,7 @@ double ehl_first_tolerance(const ehl_model *m, const ehl_run *r);
 
 /* Makes all parts but heat, step control and results from r->history, which has been read. To be
    destroyed in any case. */
-ff_status ehl_run_create(const ehl_model *m, const ff_array *in, ehl_run *r);
+ff_status ehl_run_create(const ehl_model *m, uint64_t wanted, const ff_array *in, ehl_run *r);
 /* Makes the rough flanks anew, for the engagement that r->history has now. */
 ff_status ehl_run_surface(const ehl_model *m, const ff_array *in, ehl_run *r);
 void ehl_run_destroy(ehl_run *r);

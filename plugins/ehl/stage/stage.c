@@ -62,6 +62,11 @@ ff_status ehl_ready(void *self)
                                    : smooth,
                *cold = "thermal is not full";
     const int full = m->thermal == EHL_THERMAL_FULL;
+    const char *untold = m->maker != ehl_newton_krylov || m->outside ? "this film has bounds alone"
+                         : m->thermal                                ? "a film with heat has bounds"
+                         : !flat                           ? "rough flanks have no estimate"
+                         : m->cavitation == EHL_CONSERVING ? "with mass-conserving it has bounds"
+                                                           : NULL;
     const ff_serving rows[] = {
         {m->steps > 0, "time_tolerance", "", NULL, "the time steps are given, and equal"},
         {!any, "roughness", "", NULL, smooth},
@@ -72,6 +77,7 @@ ff_status ehl_ready(void *self)
         {flat, "valleys", "", NULL, why},
         {flat || m->valleys != EHL_VENTILATED, "valley_length", "", NULL,
          flat ? why : "valleys is sealed"},
+        {untold != NULL, "errors", "", NULL, untold},
         {!flat && m->cavitation != EHL_CONSERVING, "cavitation", "", NULL,
          "rough flanks take mass-conserving"},
         {!flat && m->wedge > 0, "wedge", "", NULL, "rough flanks take the first order"},
@@ -298,7 +304,7 @@ static ff_status evaluate(ehl_model *m, uint64_t wanted, const ff_array *in)
                               bulk);
     if (status != FF_OK)
         return status;
-    status = ehl_run_create(m, in, &r);
+    status = ehl_run_create(m, wanted, in, &r);
     if (status == FF_OK)
         status = ehl_stage_heat(m, in, &r.march, &r.heat, &r.thermal);
     if (status == FF_OK)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Finds the steady film that the marching begins with. */
 #include "start.h"
+#include "error-transport.h"
 
 #include "../heat/heat.h"
 #include "../heat/thermal.h"
@@ -195,6 +196,8 @@ void ehl_march_restart(ehl_march *m)
 {
     size_t n = m->solver->grid->nodes;
     m->known = m->smooth = 0;
+    if (m->transport)
+        ehl_transport_restart(m->transport);
     m->good_steps = m->contact_lost = 0;
     m->moved = m->last_good_step = 0;
     memset(m->accumulated_error, 0, n * sizeof *m->accumulated_error);

@@ -8,6 +8,7 @@
 #include "../equations/asperities.h"
 #include "../heat/heat.h"
 #include "../solvers/grid-level.h"
+#include "error-transport.h"
 #include "truncation.h"
 
 #include <flankfilm/simd.h>
@@ -36,6 +37,8 @@ void ehl_march_accept(ehl_march *m)
     m->trial.time = m->trial_at.time;
     m->trial.moved = m->moved;
     m->trial.loaded = m->trial_step.loaded;
+    if (m->transport)
+        ehl_transport_step(m);
     if (m->known > 0) {
         double length = 2 * m->solver->grid->half_width, before = m->distance;
         m->distance += m->trial_step.entrainment * dt;

@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * The error transport equation: what the cells and the time steps have made of a film, at all nodes
+ * of all instants, by one linear equation for each cause with the matrix of Newton's method,
+ *   J e = -tau - what the errors of the films before it leave in the change in time,
+ * with tau the residual that the exact film would leave in the discrete equations (Skeel 1986,
+ * Numer. Math. 48; Banks et al. 2012, Comput. Methods Appl. Mech. Eng. 213; docs/theory.md, 12.13).
+ */
+#ifndef EHL_ERROR_TRANSPORT_H
+#define EHL_ERROR_TRANSPORT_H
+
+#include "../equations/march.h"
+#include "../solvers/gmres.h"
+
+enum { EHL_BY_CELLS, EHL_BY_STEPS, EHL_CAUSES };
+
+/* What one cause has made of the newest film: the film that was computed less the exact one. */
+typedef struct ehl_film_error {
+    ehl_answer now, before;   /* before: of the film before it */
+    double *h;                /* m */
+    double *mass[EHL_STATES]; /* kg/m2, of the newest films, newest first */
+} ehl_film_error;
+
+typedef struct ehl_transport {
+    double *memory;
+    size_t nodes;
+    double accuracy; /* of the linear solutions, over the larger of both errors */
+    ehl_film_error of[EHL_CAUSES];
+    double *tau, *rows, *flow;
+    double last_step; /* s, before the newest film; 0: none */
+    int known;        /* the newest film has errors */
+    int lost;         /* they were not found once, so that those that follow are not known */
+} ehl_transport;
+
+/* FF_NOMEM */
+ff_status ehl_transport_create(ehl_transport *t, size_t nodes);
+void ehl_transport_destroy(ehl_transport *t);
+
+/* Forgets all errors before another engagement starts. */
+void ehl_transport_restart(ehl_transport *t);
+
+/* Finds the errors of the trial, before it becomes the newest state. */
+void ehl_transport_step(ehl_march *m);
+
+#endif
