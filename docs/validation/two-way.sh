@@ -223,7 +223,7 @@ TEXT
     refined
     cat <<'TEXT'
 
-What is left with the finest of them, 1.0e-3 to 1.2e-3, is known term by term (16 half widths, 1000 steps, the wedge in flight). A film begins loaded at
+What is left with the finest of them, 1.1e-3 to 1.3e-3, is known term by term (16 half widths, 1000 steps, the wedge in flight). A film begins loaded at
 the start of active profile, where k(t) steps: with less elastic energy than the contact of Hertz by which `separation` measures it, which is given
 as the pair enters and never taken, and with compressed oil, which gives back what nobody put in. The error of the cells falls with their square:
 
@@ -231,8 +231,8 @@ TEXT
     python3 "$here/two-way-books.py" "$build/flankfilm" "$configs/two-way.yaml"
     cat <<'TEXT'
 
-The loop takes three films at most at I and II, and at III six to 1e-4: from the third round on `separation` of the flanks that land falls to a
-seventh in each. Anderson's method with one past round, tried in the engine, saves none of the six, with or without squeeze in flight; with the wedge in flight it takes
+The loop takes two to four films at I and II, and at III up to six to 1e-4: from the third round on `separation` of the flanks that land falls to a
+seventh in each. Anderson's method with one past round, tried in the engine, saves none of them, with or without squeeze in flight; with the wedge in flight it takes
 five for seven. What keeps it from saving more was not measured; that the instant at which flanks part changes from the second round to the third may be why. It was left out.
 
 ## Where oil ends the branch of parted flanks

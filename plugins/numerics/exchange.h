@@ -121,10 +121,13 @@ static inline double numerics_exchange_value(const numerics_exchange *x, const c
         return -v / x->ratio;
     if (!strcmp(item, "speed"))
         return v * x->ratio;
+    if (!strcmp(item, "fluctuation_order"))
+        return v / x->ratio;
     if (!strcmp(item, "pinion"))
         return 3 - v;
     /* friction has the sign of u_1 - u_2 */
     return !strcmp(item, "line_force") || !strcmp(item, "traction") ||
+                   !strcmp(item, "fluctuation_cosine") || !strcmp(item, "fluctuation_sine") ||
                    !strcmp(item, "friction_coefficient")
                ? -v
                : v;

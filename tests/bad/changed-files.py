@@ -16,7 +16,7 @@ import tempfile
 import yaml
 
 FILES = ["own-gear.yaml", "mesh-losses.yaml", "fzg-a-scuffing.yaml", "fzg-cgf-micropitting.yaml", "li-kahraman-2011.yaml",
-         "gearbox-stage.yaml", "line-contact.yaml", "oil-measured.yaml", "one-oil.yaml", "profile-relief.yaml", "rattle.yaml",
+         "gearbox-stage.yaml", "idle.yaml", "line-contact.yaml", "oil-measured.yaml", "one-oil.yaml", "profile-relief.yaml", "rattle.yaml",
          "rough-flanks.yaml", "table-contact.yaml", "thermal.yaml", "mixed-film.yaml", "two-way.yaml",
          "studies/film-map.yaml", "studies/speed-sweep.yaml", "studies/oils-over-temperature.yaml", "studies/ratings.yaml"]
 # so that a film, where it is reached, ends soon: a run that takes longer has passed its input

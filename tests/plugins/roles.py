@@ -171,7 +171,7 @@ EXCEPT = {
     '*.slide_roll_ratio': 'minus', '*.friction_coefficient': 'minus', '*.traction': 'minus', '*.roll_*': 'place',
     '*.engagement_roll': 'place', '*_at': 'place', '*.time': 'time', '*.phase': 'skip', '*.breakpoints': 'phases',
     '*.worst_teeth': 'teeth', '*.worst_mesh_cycle': 'cycles', '*.hunting_hertz_pressure': 'cycles',
-    '*.hunting_transmission_error': 'hunting',
+    '*.hunting_transmission_error': 'hunting', 'duty.fluctuation_[cos]*': 'skip',
 }
 ENDS = {'roll_sap': 'roll_tip', 'roll_lpstc': 'roll_hpstc', 'roll_tip': 'roll_sap', 'roll_hpstc': 'roll_lpstc'}
 

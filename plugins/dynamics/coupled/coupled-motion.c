@@ -254,7 +254,7 @@ static ff_status follow_and_glide(dynamics_coupled_run *run, const dynamics_coup
 static ff_status begin(dynamics_coupled_run *run, const dynamics_coupled *pair,
                        const dynamics_settling *how, dynamics_coupled_orbit *orbit)
 {
-    orbit->frequency = dynamics_sweep_from(how->branch, 2 * M_PI / how->T);
+    orbit->frequency = dynamics_sweep_from(how->branch, pair->excitation, 2 * M_PI / how->T);
     double T = 2 * M_PI / orbit->frequency;
     ff_status status = shoot_in_contact(run, pair, how, orbit);
     if (status != FF_NOCONV)

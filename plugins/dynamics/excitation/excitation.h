@@ -58,7 +58,9 @@ typedef struct dynamics_excitation {
     int damping;
     int on_chord; /* whether k is to be the chord where the stiffness is the slope (spring.h) */
     int shared;   /* whether the spring follows the mesh force at all loads (spring.h) */
-    int fed_back; /* whether a film gave drag and thickness; all pieces then have the full degree */
+    int drags;   /* whether pieces have a drag: of a film that is wired back, with its thickness, or
+                    of a force that swings; all then have the full degree */
+    double span; /* mesh cycles in one cycle of the pieces; 0: one */
     double length, stiffness, omega; /* units: m, N/m, rad/s */
     dynamics_representation represented;
     const struct dynamics_film *film; /* the oil between parted flanks; NULL: none */

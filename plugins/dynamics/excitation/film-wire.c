@@ -260,7 +260,7 @@ static ff_status build(const ff_host *host, const dynamics_film_history *y, dyna
     free(x->pieces);
     x->pieces = b.pieces;
     x->count = b.count;
-    x->fed_back = 1;
+    x->drags = 1;
     dynamics_excitation_mark_jumps(x);
     report(host, y, &b);
     return FF_OK;
@@ -275,7 +275,9 @@ ff_status dynamics_film_wire_read(const ff_host *host, const ff_array *in,
     *powers = (dynamics_film_powers){0, NAN};
     if (!dynamics_film_is_wired(in))
         return FF_OK;
-    ff_status status = check_gear(host, in, inputs->stations);
+    ff_status status = dynamics_refuse_fluctuation(host, inputs, "a film that is wired back");
+    if (status == FF_OK)
+        status = check_gear(host, in, inputs->stations);
     if (status == FF_OK)
         status = dynamics_film_history_read(host, in, inputs, &y);
     if (status == FF_OK) {

@@ -93,7 +93,36 @@
                                      .doc = "force at which stiffness and sharing are those of "   \
                                             "the stiffness; none or 0: the line force",            \
                                      .dims = "",                                                   \
-                                     .flags = FF_OPTIONAL}
+                                     .flags = FF_OPTIONAL},                                        \
+    [DYNAMICS_IN_FLUCTUATION_ORDER] =                                                              \
+        {.name = "operating.fluctuation_order",                                                    \
+         .unit = "1",                                                                              \
+         .doc = "orders of what the line force swings by, per turn of gear 1",                     \
+         .dims = "fluctuation",                                                                    \
+         .flags = FF_OPTIONAL},                                                                    \
+    [DYNAMICS_IN_FLUCTUATION_COSINE] =                                                             \
+        {.name = "operating.fluctuation_cosine",                                                   \
+         .unit = "N",                                                                              \
+         .doc = "of each the force in phase with its order times the angle of gear 1",             \
+         .dims = "fluctuation",                                                                    \
+         .flags = FF_OPTIONAL},                                                                    \
+    [DYNAMICS_IN_FLUCTUATION_SINE] = {.name = "operating.fluctuation_sine",                        \
+                                      .unit = "N",                                                 \
+                                      .doc = "of each the force a quarter of its period later",    \
+                                      .dims = "fluctuation",                                       \
+                                      .flags = FF_OPTIONAL},                                       \
+    [DYNAMICS_IN_FLUCTUATION_PERIOD] =                                                             \
+        {.name = "operating.fluctuation_period",                                                   \
+         .unit = "1",                                                                              \
+         .doc = "mesh cycles after which force and mesh repeat themselves together",               \
+         .dims = "",                                                                               \
+         .flags = FF_OPTIONAL},                                                                    \
+    [DYNAMICS_IN_DRIVEN_MASS] = {.name = "operating.driven_mass",                                  \
+                                 .unit = "kg",                                                     \
+                                 .doc = "mass that the mesh spring sees where the speed of gear "  \
+                                        "1 is given; none or 0: equivalent_mass",                  \
+                                 .dims = "",                                                       \
+                                 .flags = FF_OPTIONAL}
 
 const ff_port dynamics_input_ports[DYNAMICS_COUPLED_INPUT_COUNT] = {
     COMMON_ROWS,

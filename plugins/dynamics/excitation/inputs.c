@@ -247,7 +247,7 @@ ff_status dynamics_atlas_bounds(const ff_host *host, double natural, double *fro
 
 /* The unit of length is the size of what moves the gears: the static deflection, or else the range
    of the excitation, or else a small part of the gap. */
-static double length_unit(const ff_array *in, double stiffness)
+static double length_unit(const ff_array *in, double force, double stiffness)
 {
     double low = 0, high = 0, gap = in[DYNAMICS_IN_BACKLASH].data[0] / 2;
     const double *e = in[DYNAMICS_IN_TRANSMISSION_ERROR].data;
@@ -255,7 +255,7 @@ static double length_unit(const ff_array *in, double stiffness)
         low = i ? fmin(low, e[i]) : e[i];
         high = i ? fmax(high, e[i]) : e[i];
     }
-    double unit = fmax(in[DYNAMICS_IN_LINE_FORCE].data[0] / stiffness, high - low);
+    double unit = fmax(force / stiffness, high - low);
     unit = fmax(unit, 1e-6 * gap);
     return unit > 1e-15 ? unit : 1e-6;
 }
@@ -409,7 +409,19 @@ int dynamics_floats(const dynamics_inputs *inputs, const dynamics_excitation *ex
     double highest = 0;
     for (size_t i = 0; c->error && i < c->count; i++)
         highest = fmax(highest, fabs(c->error[i]));
-    return inputs->line_force == 0 && highest < excitation->half_gap * excitation->length;
+    return inputs->line_force == 0 && inputs->fluctuation.count == 0 &&
+           highest < excitation->half_gap * excitation->length;
+}
+
+ff_status dynamics_refuse_fluctuation(const ff_host *host, const dynamics_inputs *inputs,
+                                      const char *what)
+{
+    return inputs->fluctuation.count == 0
+               ? FF_OK
+               : ff_failf(host, FF_UNSUPPORTED, name_of(DYNAMICS_IN_FLUCTUATION_ORDER),
+                          "torque or speed fluctuate, and %s follows a mesh cycle that repeats "
+                          "itself: take dynamics/shooting or dynamics/time-integration",
+                          what);
 }
 
 void dynamics_floating_line(const ff_host *host)
@@ -473,8 +485,14 @@ ff_status dynamics_inputs_read(const ff_host *host, const ff_array *in,
     inputs->mesh_frequency = in[DYNAMICS_IN_MESH_FREQUENCY].data[0];
     status = check_stations(host, inputs);
     if (status == FF_OK)
-        status = dynamics_natural_frequency(host, inertia, &in[DYNAMICS_IN_EQUIVALENT_MASS],
-                                            stiffness, &inputs->natural_frequency);
+        status = dynamics_fluctuation_read(host, in, in[DYNAMICS_IN_TEETH].data[0],
+                                           &inputs->fluctuation, &inputs->span);
+    const ff_array *driven = &in[DYNAMICS_IN_DRIVEN_MASS],
+                   *mass = driven->data && driven->data[0] > 0 ? driven
+                                                               : &in[DYNAMICS_IN_EQUIVALENT_MASS];
+    if (status == FF_OK)
+        status =
+            dynamics_natural_frequency(host, inertia, mass, stiffness, &inputs->natural_frequency);
     if (status != FF_OK)
         return status;
     if (!(inputs->natural_frequency > 0))
@@ -483,9 +501,15 @@ ff_status dynamics_inputs_read(const ff_host *host, const ff_array *in,
                         "gear that offers equivalent_mass");
     excitation->stiffness = stiffness;
     excitation->omega = 2 * M_PI * inputs->natural_frequency;
-    excitation->length = length_unit(in, stiffness);
+    inputs->unit_frequency = inputs->natural_frequency * (double)inputs->span;
+    excitation->length = length_unit(
+        in, inputs->line_force + dynamics_fluctuation_size(&inputs->fluctuation), stiffness);
     excitation->half_gap = in[DYNAMICS_IN_BACKLASH].data[0] / 2 / excitation->length;
     excitation->load = inputs->line_force / stiffness / excitation->length;
     inputs->shared = excitation->shared;
-    return build_excitation(host, in, inputs, excitation);
+    status = build_excitation(host, in, inputs, excitation);
+    if (status == FF_OK && inputs->fluctuation.count > 0 &&
+        !dynamics_excitation_fluctuate(excitation, &inputs->fluctuation, inputs->span))
+        status = FF_NOMEM;
+    return status;
 }

@@ -4,6 +4,7 @@
 #define DYNAMICS_INPUTS_H
 
 #include "excitation.h"
+#include "fluctuation.h"
 #include "spring.h"
 
 #include <flankfilm/author.h>
@@ -28,6 +29,11 @@ enum {
     DYNAMICS_IN_LEVEL_STIFFNESS,
     DYNAMICS_IN_LEVEL_TOOTH_FORCE,
     DYNAMICS_IN_REFERENCE_FORCE,
+    DYNAMICS_IN_FLUCTUATION_ORDER,
+    DYNAMICS_IN_FLUCTUATION_COSINE,
+    DYNAMICS_IN_FLUCTUATION_SINE,
+    DYNAMICS_IN_FLUCTUATION_PERIOD,
+    DYNAMICS_IN_DRIVEN_MASS,
     DYNAMICS_INPUT_COUNT,
     /* read only by a model whose gears move on their bearings */
     DYNAMICS_IN_BASE_RADIUS = DYNAMICS_INPUT_COUNT,
@@ -91,6 +97,10 @@ typedef struct dynamics_inertia {
 typedef struct dynamics_inputs {
     double line_force, mesh_frequency, natural_frequency; /* N, Hz, Hz */
     double reference; /* N, at which curves and shares of the mesh are taken */
+    dynamics_fluctuation fluctuation;
+    size_t span;           /* mesh cycles that the excitation repeats itself after; as one of its
+                              cycles they have the phases 0 to 1 */
+    double unit_frequency; /* Hz: mesh frequency at which that takes 2 pi rad of the natural one */
     size_t stations;
     const double *roll_angle, *tooth_force, *load_share; /* load_share may be NULL */
     dynamics_mesh_curves curves;
@@ -122,10 +132,27 @@ ff_status dynamics_inputs_read(const ff_host *host, const ff_array *in,
 int dynamics_floats(const dynamics_inputs *inputs, const dynamics_excitation *excitation);
 void dynamics_floating_line(const ff_host *host);
 
+/* FF_UNSUPPORTED where torque or speed fluctuate; `what` follows a mesh cycle that repeats itself.
+ */
+ff_status dynamics_refuse_fluctuation(const ff_host *host, const dynamics_inputs *inputs,
+                                      const char *what);
+
 /* A parameter that is a number or `auto`: -1, which becomes 0. */
 static inline size_t dynamics_count_or_auto(int64_t value)
 {
     return value < 0 ? 0 : (size_t)value;
+}
+
+/* Mesh cycles in one cycle of the excitation. */
+static inline size_t dynamics_span(const dynamics_inputs *inputs)
+{
+    return inputs->span > 1 ? inputs->span : 1;
+}
+
+/* At least so many mesh cycles, in cycles of the excitation. */
+static inline size_t dynamics_cycles(const dynamics_inputs *inputs, int64_t mesh_cycles)
+{
+    return ((size_t)mesh_cycles + dynamics_span(inputs) - 1) / dynamics_span(inputs);
 }
 
 /* Fills in the ends of an atlas that are not given (0), Hz, by the natural frequency. */

@@ -176,7 +176,7 @@ static int prepare(const dynamics_radau *r, dynamics_landing *step, stages *g)
             dynamics_piece_bend(step->piece->e, step->piece->degree, phase - step->piece->start) /
             (step->T * step->T);
         g->load[i] = x->load - g->bend[i];
-        if (x->fed_back) {
+        if (x->drags) {
             double since = phase - step->piece->start;
             g->thicken[i] =
                 dynamics_piece_slope(step->piece->film, step->piece->degree, since) / step->T;
@@ -296,7 +296,9 @@ static double last_coefficients(const dynamics_radau *r, const double *value)
 
 static double find_doubt(const stages *g, const dynamics_landing *step)
 {
-    double unit = step->excitation->load, least = INFINITY, doubt = 0;
+    /* without a mean load the unit of force is that of the swings */
+    double unit = step->excitation->load > 0 ? step->excitation->load : 1;
+    double least = INFINITY, doubt = 0;
     for (int i = 0; i < DYNAMICS_NODES; i++)
         unit = fmax(unit, fabs(step->rate[i]));
     doubt = last_coefficients(g->r, step->rate) / unit;
@@ -484,7 +486,7 @@ dynamics_landing_energy dynamics_landing_energies(const dynamics_radau *r,
         double k_rate = dynamics_piece_slope(p->k, p->degree, phase - p->start) / step->T;
         double e_rate = dynamics_piece_slope(p->e, p->degree, phase - p->start) / step->T;
         double thicken = 0;
-        if (step->excitation->fed_back) {
+        if (step->excitation->drags) {
             thicken = dynamics_piece_slope(p->film, p->degree, phase - p->start) / step->T;
             sum.drag += weight * dynamics_piece_value(p->drag, p->degree, phase - p->start) *
                         (rate + e_rate);

@@ -294,7 +294,7 @@ ff_status dynamics_attract_branch(const dynamics_flow *flow, dynamics_branch bra
                                   const dynamics_search *search, const ff_host *host,
                                   dynamics_attractor *a)
 {
-    way w = {.from = log(dynamics_sweep_from(branch, exp(search->lambda))),
+    way w = {.from = log(dynamics_sweep_from(branch, flow->excitation, exp(search->lambda))),
              .seeks_contact = branch == DYNAMICS_BRANCH_LOWER,
              .settles = 1};
     a->x[0] = dynamics_rest_deflection(flow->excitation);

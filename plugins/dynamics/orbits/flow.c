@@ -67,7 +67,7 @@ int dynamics_flow_init(dynamics_flow *flow, const dynamics_excitation *excitatio
     for (size_t i = excitation->count; i-- > 0;) {
         const dynamics_piece *p = &excitation->pieces[i];
         int last = i + 1 == excitation->count;
-        flow->free_until[i] = last || excitation->fed_back || bends_after(p)
+        flow->free_until[i] = last || excitation->drags || bends_after(p)
                                   ? dynamics_piece_end(excitation, p)
                                   : flow->free_until[i + 1];
     }
@@ -368,7 +368,7 @@ static double plan_step(const dynamics_run *r, dynamics_piece_equation *q)
     *q = (dynamics_piece_equation){.load = r->excitation->load,
                                    .damper = damper_acts(r) ? 2 * r->excitation->zeta : 0};
     double since = r->at - r->piece->start;
-    q->drags = r->excitation->fed_back;
+    q->drags = r->excitation->drags;
     q->degree = r->pressed || q->drags || !is_straight(r->piece) ? r->piece->degree : 1;
     if (r->pressed)
         dynamics_piece_shift(dynamics_spring_slope(r->piece, r->band), q->degree, since, 1 / r->T,

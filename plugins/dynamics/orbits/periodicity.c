@@ -23,9 +23,10 @@ static void report_line(const ff_host *host, const char *name, double value, dou
     host->quality(host->ctx, name, value, limit, value <= limit ? FF_GOOD : FF_DOUBTFUL, text);
 }
 
-static void report_aperiodic(const dynamics_attractor *a, double zeta, int max_period,
-                             const ff_host *host)
+static void report_aperiodic(const dynamics_attractor *a, const dynamics_excitation *excitation,
+                             int max_period, const ff_host *host)
 {
+    const double zeta = excitation->zeta, span = fmax(excitation->span, 1);
     char text[320];
     if (a->period == DYNAMICS_UNBOUNDED) {
         host->quality(host->ctx, "periodicity", 1, 0, FF_BAD,
@@ -40,14 +41,14 @@ static void report_aperiodic(const dynamics_attractor *a, double zeta, int max_p
             "of 0.002 does not go on down to %g; what is shown depends on the start",
             zeta);
     else if (a->growth > dynamics_chaotic_growth) {
-        dynamics_chaos_line(exp(a->growth), host);
+        dynamics_chaos_line(exp(a->growth / span), host);
         return;
     } else
         snprintf(
             text, sizeof text,
-            "the motion did not repeat itself within %d mesh cycles after %zu of them: a longer "
+            "the motion did not repeat itself within %g mesh cycles after %g of them: a longer "
             "period, or it needs more cycles_settle",
-            max_period, a->cycles);
+            max_period * span, (double)a->cycles * span);
     host->quality(host->ctx, "periodicity", 1, 0, FF_DOUBTFUL, text);
 }
 
@@ -69,7 +70,7 @@ void dynamics_periodicity_report(const dynamics_attractor *a, const dynamics_mot
 {
     const dynamics_excitation *excitation = motion->excitation;
     if (a->period < 1) {
-        report_aperiodic(a, excitation->zeta, max_period, host);
+        report_aperiodic(a, excitation, max_period, host);
     } else {
         double largest = dynamics_largest_multiplier(&a->orbit);
         report_line(host, "periodicity", dynamics_orbit_residual(excitation, &a->orbit), 1e-10,

@@ -53,7 +53,7 @@ static moment moment_at(const dynamics_step *f, double x)
         m.spring = dynamics_spring_at(f->piece, phase, f->T, z[0], f->band);
     if (f->landing)
         bend_in_oil(f, x, phase, &m);
-    if (f->excitation->fed_back) {
+    if (f->excitation->drags) {
         m.drag = dynamics_piece_value(f->piece->drag, f->piece->degree, phase);
         m.film_rate = dynamics_piece_slope(f->piece->film, f->piece->degree, phase) / f->T;
     }

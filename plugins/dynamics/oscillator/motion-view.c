@@ -77,7 +77,8 @@ size_t dynamics_motion_view_before(const dynamics_motion_view *view, double phas
 
 double dynamics_station_phase(const dynamics_inputs *inputs, size_t station)
 {
-    return fmax((inputs->roll_angle[station] - inputs->roll_sap) / inputs->pitch, 0);
+    return fmax((inputs->roll_angle[station] - inputs->roll_sap) / inputs->pitch, 0) /
+           (double)dynamics_span(inputs);
 }
 
 /* Of two stations at one place the first gets the value before the jump. So does the tip. */
@@ -93,22 +94,24 @@ static ff_status put_engagements(const dynamics_motion_view *view,
                                  const dynamics_inputs *inputs, const ff_host *host)
 {
     const double newton = excitation->stiffness * excitation->length;
-    size_t shape[2] = {view->cycles, inputs->stations};
-    uint32_t rank = view->cycles > 1 ? 2 : 1;
+    const size_t engagements = view->cycles * dynamics_span(inputs),
+                 shape[2] = {engagements, inputs->stations};
+    const uint32_t rank = engagements > 1 ? 2 : 1;
     double *force = host->output(host->ctx, DYNAMICS_OUT_TOOTH_FORCE, rank, &shape[2 - rank]);
     double *gap = host->output(host->ctx, DYNAMICS_OUT_GAP, rank, &shape[2 - rank]);
     if (!force || !gap)
         return FF_NOMEM;
-    for (size_t cycle = 0, i = 0; cycle < view->cycles; cycle++)
+    for (size_t cycle = 0, i = 0; cycle < engagements; cycle++)
         for (size_t station = 0; station < inputs->stations; station++, i++) {
-            double phase = (double)cycle + dynamics_station_phase(inputs, station), dmf;
+            double begin = (double)cycle / (double)dynamics_span(inputs), dmf;
+            double phase = begin + dynamics_station_phase(inputs, station);
             view->look_up(view->self, phase, is_left(inputs, station), &dmf, &gap[i]);
             double share = dynamics_share(inputs, station, dmf * newton);
             force[i] = share * dmf * excitation->stiffness * excitation->length;
             gap[i] *= excitation->length;
         }
-    dynamics_put_stations(force, inputs->stations, view->cycles * inputs->stations, inputs->back);
-    dynamics_put_stations(gap, inputs->stations, view->cycles * inputs->stations, inputs->back);
+    dynamics_put_stations(force, inputs->stations, engagements * inputs->stations, inputs->back);
+    dynamics_put_stations(gap, inputs->stations, engagements * inputs->stations, inputs->back);
     return FF_OK;
 }
 
@@ -132,7 +135,7 @@ static dynamics_between look_between(const dynamics_motion_view *view, double ne
                                      const dynamics_inputs *inputs, size_t parts)
 {
     dynamics_between found = {0, 0};
-    for (size_t cycle = 0; cycle < view->cycles; cycle++)
+    for (size_t cycle = 0; cycle < view->cycles * dynamics_span(inputs); cycle++)
         for (size_t j = 0; j < (inputs->stations - 1) * parts; j++) {
             size_t i = j / parts;
             double from = (double)(j % parts) / (double)parts, part = 1 / (double)parts;
@@ -142,8 +145,9 @@ static dynamics_between look_between(const dynamics_motion_view *view, double ne
                 continue;
             for (int k = 0; k < 3; k++) {
                 double at = from + 0.5 * k * part;
-                view->look_up(view->self, (double)cycle + begin + at * way, k == 2, &force[k],
-                              &gap);
+                view->look_up(view->self,
+                              (double)cycle / (double)dynamics_span(inputs) + begin + at * way,
+                              k == 2, &force[k], &gap);
                 double share = dynamics_share(inputs, i, force[k] * newton);
                 double next = dynamics_share(inputs, i + 1, force[k] * newton);
                 force[k] *= share + at * (next - share);
@@ -240,7 +244,8 @@ ff_status dynamics_motion_view_put(const dynamics_motion_view *view, const dynam
         {DYNAMICS_OUT_CONTACT_LOSS, fmin(view->parted / time, 1)},
         {DYNAMICS_OUT_BACK_CONTACT, fmin(view->back / time, 1)},
         {DYNAMICS_OUT_NATURAL_FREQUENCY, inputs->natural_frequency},
-        {DYNAMICS_OUT_PERIOD, view->period},
+        {DYNAMICS_OUT_PERIOD,
+         view->period > 0 ? view->period * (double)dynamics_span(inputs) : view->period},
     };
     for (size_t i = 0; i < sizeof scalars / sizeof scalars[0] && status == FF_OK; i++)
         status = ff_put_scalar(host, scalars[i].output, scalars[i].value);

@@ -342,10 +342,11 @@ static void force_and_gap_at(const void *self, double phase, int left, double *f
     *gap = excitation->half_gap > 0 ? fmax(excitation->half_gap - delta, 0) : 0;
 }
 
-static ff_status put_cycle(const dynamics_motion *motion, int back, const ff_host *host)
+static ff_status put_cycle(const dynamics_motion *motion, const dynamics_inputs *inputs,
+                           const ff_host *host)
 {
     const dynamics_excitation *excitation = motion->excitation;
-    const double length = back ? -excitation->length : excitation->length;
+    const double length = inputs->back ? -excitation->length : excitation->length;
     dynamics_motion_view view = view_of(motion);
     size_t count = dynamics_motion_view_count(&view);
     double *phase = ff_put_series(host, DYNAMICS_OUT_PHASE, count);
@@ -356,7 +357,7 @@ static ff_status put_cycle(const dynamics_motion *motion, int back, const ff_hos
         return FF_NOMEM;
     for (size_t i = 0; i < count; i++) {
         const dynamics_sample *s = &motion->record.samples[i];
-        phase[i] = s->phase;
+        phase[i] = s->phase * (double)dynamics_span(inputs);
         dte[i] = s->s * length;
         velocity[i] = s->s_rate * length * excitation->omega;
         force[i] = s->force * length * excitation->stiffness;
@@ -385,7 +386,8 @@ static double fourier_integrand(const dynamics_motion *motion, const dynamics_sa
 
 /* Fourier's integrals a_n, b_n = 2 int s (cos, sin)(2 pi n phase) d phase by the Euler-Maclaurin
    rule: the trapezium with the slopes at its ends. */
-static ff_status put_harmonics(const dynamics_motion *motion, const ff_host *host)
+static ff_status put_harmonics(const dynamics_motion *motion, const dynamics_inputs *inputs,
+                               const ff_host *host)
 {
     const dynamics_sample *s = motion->record.samples;
     dynamics_motion_view view = view_of(motion);
@@ -394,12 +396,13 @@ static ff_status put_harmonics(const dynamics_motion *motion, const ff_host *hos
     if (!out)
         return FF_NOMEM;
     for (int n = 1; n <= HARMONICS; n++) {
+        const int order = n * (int)dynamics_span(inputs);
         double sum[2] = {0}, slope, end_slope;
         for (size_t i = 0; i + 1 < count; i++)
             for (int k = 0; k < 2; k++) {
                 double h = s[i + 1].phase - s[i].phase;
-                double a = fourier_integrand(motion, &s[i], n, k, &slope);
-                double z = fourier_integrand(motion, &s[i + 1], n, k, &end_slope);
+                double a = fourier_integrand(motion, &s[i], order, k, &slope);
+                double z = fourier_integrand(motion, &s[i + 1], order, k, &end_slope);
                 sum[k] += h * (a + z) / 2 + h * h * (slope - end_slope) / 12;
             }
         out[n - 1] =
@@ -413,11 +416,11 @@ ff_status dynamics_motion_put(const dynamics_motion *motion, const dynamics_inpu
 {
     dynamics_motion_view view = view_of(motion);
     dynamics_statistics st = dynamics_motion_view_statistics(&view);
-    ff_status status = put_cycle(motion, inputs->back, host);
+    ff_status status = put_cycle(motion, inputs, host);
     if (status == FF_OK)
         status = put_multipliers(motion, host);
     if (status == FF_OK)
-        status = put_harmonics(motion, host);
+        status = put_harmonics(motion, inputs, host);
     if (status == FF_OK)
         status = dynamics_landings_put(&view, motion->excitation, DYNAMICS_OUT_LANDING_TIME,
                                        DYNAMICS_OUT_LANDING_SPEED, host);
@@ -456,19 +459,20 @@ ff_status dynamics_motion_put_powers(const dynamics_motion *motion,
     const dynamics_excitation *x = motion->excitation;
     double unit =
         x->stiffness * x->length * x->length * x->omega / ((double)motion->cycles * motion->T);
+    const int swings = x->drags && isnan(film->loss); /* the drag is then that of the torque */
     const double power[DYNAMICS_POWER_OUTPUT_COUNT] = {
         [DYNAMICS_OUT_DAMPER_LOSS] = unit * (motion->loss - motion->squeeze),
         [DYNAMICS_OUT_SQUEEZE_LOSS] = unit * motion->squeeze,
         [DYNAMICS_OUT_EXCITATION_POWER] = unit * (motion->work - motion->thickness),
-        [DYNAMICS_OUT_TORQUE_POWER] = film->torques,
-        [DYNAMICS_OUT_FRICTION_WORK] = unit * motion->drag,
+        [DYNAMICS_OUT_TORQUE_POWER] = film->torques - (swings ? unit * motion->drag : 0),
+        [DYNAMICS_OUT_FRICTION_WORK] = swings ? 0 : unit * motion->drag,
         [DYNAMICS_OUT_FILM_POWER] = unit * motion->thickness,
     };
     ff_status status = FF_OK;
     for (uint32_t i = DYNAMICS_OUT_DAMPER_LOSS; i < DYNAMICS_POWER_OUTPUT_COUNT; i++)
         if (status == FF_OK)
             status = ff_put_scalar(host, i, power[i]);
-    if (status == FF_OK && x->fed_back && motion->period > 0)
+    if (status == FF_OK && !isnan(film->loss) && motion->period > 0)
         check_powers(power, film->loss, x->film != NULL, host);
     return status;
 }

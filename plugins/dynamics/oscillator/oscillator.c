@@ -102,9 +102,8 @@ static double error_rate_at(const dynamics_oscillator *o, double t)
 
 static double drag_at(const dynamics_oscillator *o, double t)
 {
-    return o->excitation->fed_back
-               ? dynamics_piece_value(o->piece->drag, o->piece->degree, t / o->T)
-               : 0;
+    return o->excitation->drags ? dynamics_piece_value(o->piece->drag, o->piece->degree, t / o->T)
+                                : 0;
 }
 
 /* Returns the force that drives delta: the load less the drag and e''. */

@@ -31,10 +31,16 @@ static void start_at_rest(const dynamics_follower *follower, const dynamics_exci
 /* Keeps the relative change of the mesh frequency per cycle well below the damping, so that the
  * motion follows. Below a tenth of the natural frequency the resonances are of high order and weak;
  * there the change per time is kept instead. */
+/* Mesh cycles in one cycle of the excitation, in which a frequency counts. */
+static double span_of(const dynamics_excitation *excitation)
+{
+    return fmax(excitation->span, 1);
+}
+
 double dynamics_sweep_rate(const dynamics_excitation *excitation, double frequency)
 {
-    double rate = fmin(fmax(0.1 * excitation->zeta, 1e-4), 1e-3);
-    return fmin(rate * fmax(1, 0.1 / frequency), 0.1);
+    double rate = fmin(fmax(0.1 * excitation->zeta, 1e-4), 1e-3) * span_of(excitation);
+    return fmin(rate * fmax(1, 0.1 / (frequency * span_of(excitation))), 0.1);
 }
 
 static ff_status stopped(const ff_host *host, double share)
@@ -57,9 +63,11 @@ size_t dynamics_sweep_start_cycles(const dynamics_excitation *excitation, double
     return decay > 5.0 / START_CYCLES ? (size_t)ceil(5 / decay) : START_CYCLES;
 }
 
-double dynamics_sweep_from(dynamics_branch branch, double frequency)
+double dynamics_sweep_from(dynamics_branch branch, const dynamics_excitation *excitation,
+                           double frequency)
 {
-    return branch == DYNAMICS_BRANCH_UPPER ? fmax(top, frequency) : bottom * frequency;
+    return branch == DYNAMICS_BRANCH_UPPER ? fmax(top / span_of(excitation), frequency)
+                                           : bottom * frequency;
 }
 
 /* Sweeps from one frequency to another (both relative to the natural frequency), from the
@@ -187,7 +195,8 @@ ff_status dynamics_settle(const dynamics_follower *follower, const dynamics_exci
     ff_status status = stopped(how->host, 0);
     if (status != FF_OK)
         return status;
-    double frequency = 2 * M_PI / how->T, from = dynamics_sweep_from(how->branch, frequency);
+    double frequency = 2 * M_PI / how->T,
+           from = dynamics_sweep_from(how->branch, excitation, frequency);
     double delta, rate;
     ff_status contact = FF_NOCONV;
     if (how->from <= 0 && how->branch == DYNAMICS_BRANCH_LOWER)

@@ -56,7 +56,8 @@ typedef struct dynamics_follower {
 /* The sweep that leads to a branch, for models that integrate in another way. The three functions
  * give its start frequency for a mesh frequency (both relative to the natural frequency), the
  * relative change of the frequency per cycle, and the cycles at the start. */
-double dynamics_sweep_from(dynamics_branch branch, double frequency);
+double dynamics_sweep_from(dynamics_branch branch, const dynamics_excitation *excitation,
+                           double frequency);
 double dynamics_sweep_rate(const dynamics_excitation *excitation, double frequency);
 size_t dynamics_sweep_start_cycles(const dynamics_excitation *excitation, double T);
 

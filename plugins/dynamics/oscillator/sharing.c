@@ -136,6 +136,12 @@ double dynamics_level_error(const dynamics_inputs *inputs, double least, double 
     return worst < 0 ? -1 : fmax(worst, beyond) / inputs->reference;
 }
 
+/* The load at which the curves of the stiffness were taken. */
+static const char *load_of(const dynamics_inputs *inputs)
+{
+    return inputs->reference == inputs->line_force ? "mean" : "reference";
+}
+
 static void report_levels(const dynamics_inputs *inputs, double least, double largest,
                           const ff_host *host)
 {
@@ -145,10 +151,10 @@ static void report_levels(const dynamics_inputs *inputs, double least, double la
     int known = largest <= l->force[l->count - 1];
     char text[320];
     snprintf(text, sizeof text,
-             "change of mesh and tooth forces, over the mean load, when every second of the %zu "
+             "change of mesh and tooth forces, over the %s load, when every second of the %zu "
              "forces of the stiffness is left out; the motion reaches %.3g to %.3g times that "
              "load%s%s",
-             l->count, least / mean, largest / mean,
+             load_of(inputs), l->count, least / mean, largest / mean,
              known ? "" : ", beyond the largest, which is left out there, too",
              l->tooth_force ? ""
                             : "; tooth forces at these are not known, those of the mean load "
@@ -227,10 +233,11 @@ static void report_slope(const dynamics_inputs *inputs, int on_chord, double lea
     char text[320];
     snprintf(text, sizeof text,
              "between the least and the largest mesh force of the motion the mesh is on the mean "
-             "%.3g %% %s than the spring of the mean load that the motion takes, so that its "
+             "%.3g %% %s than the spring of the %s load that the motion takes, so that its "
              "resonances lie some %.2g %% %s%s",
-             100 * fabs(change), change < 0 ? "softer" : "steeper", 50 * fabs(change),
-             change < 0 ? "lower" : "higher", known ? "" : "; larger forces are not known");
+             100 * fabs(change), change < 0 ? "softer" : "steeper", load_of(inputs),
+             50 * fabs(change), change < 0 ? "lower" : "higher",
+             known ? "" : "; larger forces are not known");
     host->quality(host->ctx, "slope_change", fabs(change), limit,
                   fabs(change) <= limit && known ? FF_GOOD : FF_RANGE, text);
 }
@@ -257,11 +264,12 @@ void dynamics_sharing_report(const dynamics_inputs *inputs, int on_chord, double
     double share = fmax(low.share, high.share), slope = fmax(low.slope, high.slope);
     int known = largest <= l->force[l->count - 1];
     snprintf(text, sizeof text,
-             "largest change of the share of a pair between the mean load, whose sharing and slope "
+             "largest change of the share of a pair between the %s load, whose sharing and slope "
              "the motion takes, and its mesh forces, %.3g to %.3g times that load; the slope of "
              "the mesh changes by up to %.3g %%%s",
-             fmax(least, l->force[1]) / mean, fmin(largest, l->force[l->count - 1]) / mean,
-             100 * slope, known ? "" : "; larger forces are not known");
+             load_of(inputs), fmax(least, l->force[1]) / mean,
+             fmin(largest, l->force[l->count - 1]) / mean, 100 * slope,
+             known ? "" : "; larger forces are not known");
     host->quality(host->ctx, "sharing_change", share, limit,
                   share <= limit && known ? FF_GOOD : FF_RANGE, text);
 }

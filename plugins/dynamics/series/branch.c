@@ -178,7 +178,8 @@ static const double slowest = 0.1;
 static ff_status trace_to_speed(const search *s, const dynamics_flow *flow, dynamics_attractor *a)
 {
     const dynamics_branch_request *request = s->request;
-    double start = log(dynamics_sweep_from(request->branch, request->w)), end = log(request->w);
+    double start = log(dynamics_sweep_from(request->branch, request->excitation, request->w)),
+           end = log(request->w);
     dynamics_continuation_range range = {.flow = flow,
                                          .low = fmin(start, end),
                                          .high = fmax(start, end),

@@ -280,6 +280,8 @@ static ff_status evaluate_driving(void *self, uint64_t wanted, const ff_array *i
     ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &inputs, &excitation);
     inputs.wanted = wanted;
     inputs.back = back;
+    if (status == FF_OK)
+        status = dynamics_refuse_fluctuation(m->host, &inputs, "a series of the mesh cycle");
     const int floats = status == FF_OK && dynamics_floats(&inputs, &excitation);
     if (floats)
         status = dynamics_motion_put_floating(&inputs, &excitation, m->host);

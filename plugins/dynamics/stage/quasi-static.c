@@ -36,7 +36,8 @@ enum {
     I_STIFFNESS_MEAN,
     I_TOOTH_FORCE,
     I_MESH_FREQUENCY,
-    I_REFERENCE
+    I_REFERENCE,
+    I_FLUCTUATION
 };
 
 static const ff_port inputs[] = {
@@ -76,6 +77,11 @@ static const ff_port inputs[] = {
      .unit = "N",
      .doc = "force under which the loaded transmission error is given; none or 0: the line force",
      .dims = "",
+     .flags = FF_OPTIONAL},
+    {.name = "operating.fluctuation_order",
+     .unit = "1",
+     .doc = "orders of what the line force swings by, none of which is followed",
+     .dims = "fluctuation",
      .flags = FF_OPTIONAL},
 };
 
@@ -284,6 +290,11 @@ static ff_status evaluate_driving(void *self, uint64_t wanted, const ff_array *i
                         "the loaded transmission error is that of %g N, and the line force is %g "
                         "N: leave reference_torque of the duty out",
                         in[I_REFERENCE].data[0], force);
+    const dynamics_inputs swings = {
+        .fluctuation.count = in[I_FLUCTUATION].rank == 1 ? in[I_FLUCTUATION].shape[0] : 0};
+    status = dynamics_refuse_fluctuation(m->host, &swings, "the loaded transmission error");
+    if (status != FF_OK)
+        return status;
     if (floats)
         dynamics_floating_line(m->host);
     double *s = calloc(count, sizeof *s);

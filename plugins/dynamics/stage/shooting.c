@@ -148,13 +148,14 @@ typedef struct job {
 static ff_status build_atlas(job *j)
 {
     const model *m = j->m;
-    double natural = j->inputs.natural_frequency, from = m->atlas_from, to = m->atlas_to;
-    ff_status status = dynamics_atlas_bounds(m->host, natural, &from, &to);
+    double natural = j->inputs.unit_frequency, from = m->atlas_from, to = m->atlas_to;
+    ff_status status = dynamics_atlas_bounds(m->host, j->inputs.natural_frequency, &from, &to);
     if (status != FF_OK)
         return status;
     if (dynamics_cycle_duration(log(from / natural)) > 0.1 * dynamics_longest_cycle)
         return ff_failf(m->host, FF_INVALID, "atlas.from",
-                        "%g Hz is too far below the natural frequency, %g Hz", from, natural);
+                        "%g Hz is too far below the natural frequency, %g Hz", from,
+                        j->inputs.natural_frequency);
     dynamics_atlas_request request = {
         .low = log(from / natural),
         .high = log(to / natural),
@@ -177,7 +178,7 @@ static ff_status find_named(const job *j, dynamics_attractor *a)
         return FF_OK;
     }
     char names[400], where[80] = "is not in the atlas";
-    double natural = j->inputs.natural_frequency;
+    double natural = j->inputs.unit_frequency;
     dynamics_atlas_list(&j->flow, &j->atlas, j->lambda, names, sizeof names);
     if (branch)
         snprintf(where, sizeof where, "runs from %.6g to %.6g Hz", natural * exp(branch->low),
@@ -220,7 +221,7 @@ static ff_status find_motion(job *j, dynamics_attractor *a)
     if (m->from.mesh_frequency > 0 && (!m->largest || j->in_loop)) {
         dynamics_orbit from = {.period = m->from.period <= DYNAMICS_PERIOD_MAX ? (int)m->from.period
                                                                                : DYNAMICS_APERIODIC,
-                               .lambda = log(m->from.mesh_frequency / j->inputs.natural_frequency)};
+                               .lambda = log(m->from.mesh_frequency / j->inputs.unit_frequency)};
         dynamics_warm_start_state(&m->from, &j->excitation, from.x);
         if (dynamics_cycle_duration(from.lambda) <= dynamics_longest_cycle)
             return dynamics_attract_from(&j->flow, &from, &search, m->host, a);
@@ -238,13 +239,14 @@ static ff_status output_motion(const job *j, const dynamics_attractor *a)
     const model *m = j->m;
     dynamics_motion motion = {
         .excitation = &j->excitation, .period = a->period, .T = dynamics_cycle_duration(j->lambda)};
-    motion.cycles = a->period > 0 ? (size_t)a->period : (size_t)m->cycles_measured;
+    motion.cycles =
+        a->period > 0 ? (size_t)a->period : dynamics_cycles(&j->inputs, m->cycles_measured);
     if (a->period == DYNAMICS_UNBOUNDED)
         motion.cycles = 1;
     if (j->excitation.film)
         motion.films = a->period > 0 ? a->orbit.films.film : NULL;
-    ff_status status =
-        dynamics_trajectory_record(&j->flow, &j->inputs, (size_t)m->steps_per_cycle, a->x, &motion);
+    ff_status status = dynamics_trajectory_record(
+        &j->flow, &j->inputs, (size_t)m->steps_per_cycle * j->inputs.span, a->x, &motion);
     if (status == FF_OK)
         dynamics_periodicity_report(a, &motion, (int)m->max_period, m->host);
     if (status == FF_OK)
@@ -281,7 +283,7 @@ static const double near_fold = 0.005;
 static void report_jump(const job *j, const dynamics_jump *jump)
 {
     const ff_host *host = j->m->host;
-    double micron = 1e6 * j->excitation.length, natural = j->inputs.natural_frequency;
+    double micron = 1e6 * j->excitation.length, natural = j->inputs.unit_frequency;
     double distance = fabs(expm1(jump->lambda - j->lambda));
     char text[320];
     snprintf(text, sizeof text,
@@ -335,7 +337,7 @@ static void report_frozen_films(const job *j)
 static void report_end(const job *j, const dynamics_attractor *a)
 {
     const model *m = j->m;
-    double natural = j->inputs.natural_frequency, end = natural * exp(a->ended);
+    double natural = j->inputs.unit_frequency, end = natural * exp(a->ended);
     char text[200];
     if (m->by_name || a->ends == 0)
         return;
@@ -394,7 +396,7 @@ static ff_status evaluate_job(job *j)
     int needs_known = (j->wanted & FF_BIT(DYNAMICS_OUT_STABLE_MOTIONS)) != 0;
     int knows_atlas = m->knows == KNOWS_ATLAS && (needs_known || (needs_motion && m->largest));
     ff_status status = FF_OK;
-    j->lambda = log(j->inputs.mesh_frequency / j->inputs.natural_frequency);
+    j->lambda = log(j->inputs.mesh_frequency / j->inputs.unit_frequency);
     if (needs_motion && dynamics_cycle_duration(j->lambda) > dynamics_longest_cycle)
         return fail_too_slow(j);
     if (dynamics_floats(&j->inputs, &j->excitation))
@@ -421,11 +423,10 @@ static ff_status evaluate_job(job *j)
     if (status == FF_OK && j->atlas.curves)
         dynamics_atlas_report(&j->flow, &j->atlas, j->lambda, a.period > 0 ? &a.orbit : NULL,
                               m->host);
-    if (needs_atlas && j->excitation.fed_back)
+    if (needs_atlas && j->in_loop)
         report_frozen_films(j);
     if (status == FF_OK && needs_atlas)
-        status =
-            dynamics_atlas_put(&j->atlas, &j->excitation, j->inputs.natural_frequency, m->host);
+        status = dynamics_atlas_put(&j->atlas, &j->excitation, j->inputs.unit_frequency, m->host);
     return status;
 }
 

@@ -187,16 +187,18 @@ static ff_status output_motion(const model *m, const dynamics_excitation *excita
 {
     const double x[2] = {settled->delta, settled->rate};
     dynamics_motion motion = {.excitation = excitation, .period = settled->period, .T = T};
-    motion.cycles = settled->period > 0 ? (size_t)settled->period : (size_t)m->cycles_measured;
+    motion.cycles =
+        settled->period > 0 ? (size_t)settled->period : dynamics_cycles(inputs, m->cycles_measured);
     if (settled->period == DYNAMICS_UNBOUNDED)
         motion.cycles = 1;
     double multipliers[4], error = 0;
     if (oil && settled->period != DYNAMICS_UNBOUNDED)
         motion.films = oil->y.oil.film;
     ff_status status =
-        oil ? dynamics_trajectory_record(&oil->flow, inputs, (size_t)m->steps_per_cycle, x, &motion)
-            : dynamics_motion_record(&motion, inputs, m->tolerance, (size_t)m->steps_per_cycle,
-                                     x[0], x[1]);
+        oil ? dynamics_trajectory_record(&oil->flow, inputs,
+                                         (size_t)m->steps_per_cycle * inputs->span, x, &motion)
+            : dynamics_motion_record(&motion, inputs, m->tolerance,
+                                     (size_t)m->steps_per_cycle * inputs->span, x[0], x[1]);
     double largest = status == FF_OK ? dynamics_motion_multipliers(&motion, multipliers) : 0;
     if (status == FF_OK && settled->period > 0 && !oil)
         status = step_error(m, excitation, &motion, settled, largest, &error);
@@ -235,7 +237,7 @@ static ff_status evaluate_job(job *j, uint64_t wanted)
     const dynamics_inputs *inputs = &j->inputs;
     dynamics_settling how = {
         .branch = (dynamics_branch)m->branch,
-        .T = 2 * M_PI * inputs->natural_frequency / inputs->mesh_frequency,
+        .T = 2 * M_PI * inputs->unit_frequency / inputs->mesh_frequency,
         .cycles = dynamics_count_or_auto(m->cycles_settle),
         .tolerance = m->settle_tolerance,
         .step_tolerance = m->tolerance,
@@ -249,7 +251,7 @@ static ff_status evaluate_job(job *j, uint64_t wanted)
         return put == FF_OK ? ff_put_scalar(m->host, DYNAMICS_OUT_STABLE_MOTIONS, 0) : put;
     }
     if (m->from.mesh_frequency > 0) {
-        how.from = m->from.mesh_frequency / inputs->natural_frequency;
+        how.from = m->from.mesh_frequency / inputs->unit_frequency;
         dynamics_warm_start_state(&m->from, &j->excitation, how.start);
     }
     if (fmax(how.T, how.from > 0 ? 2 * M_PI / how.from : 0) > dynamics_longest_cycle)
@@ -265,7 +267,7 @@ static ff_status evaluate_job(job *j, uint64_t wanted)
                                            settled.delta, settled.rate);
     if (status == FF_OK && wanted & FF_BIT(DYNAMICS_OUT_STABLE_MOTIONS))
         status = dynamics_stable_motions_put(
-            &j->excitation, inputs->mesh_frequency / inputs->natural_frequency, m->host);
+            &j->excitation, inputs->mesh_frequency / inputs->unit_frequency, m->host);
     return status == FF_NOCONV ? fail_too_many_steps(m->host, inputs) : status;
 }
 

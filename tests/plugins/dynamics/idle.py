@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Gears without a torque: they float, with no force and no loss, and what a reference torque stands for.
+"""Gears without a torque, which float, and gears whose torque or speed swings.
+
+Without a torque: no force, no loss, and what a reference torque stands for. Swings: when flanks stay together under F + F_1 cos w t, in
+closed form, and under a given speed in the rigid limit; a torque of both signs against small steps of a twin; the exchanged pair; energy.
 
 idle.py FLANKFILM SOURCE
 """
 import json
+import math
 import subprocess
 import sys
 import tempfile
@@ -61,6 +65,150 @@ def check(what, found, expected, limit):
     report(off <= limit, f"{what}: off by {off:.2g}, at most {limit:g}")
 
 
+K, TEETH, BASE = 2e8, (27, 52), (27 * math.cos(math.radians(20)) * 1e-3, 52 * math.cos(math.radians(20)) * 1e-3)
+
+
+def swing(duty, motion="shooting, damping_ratio: 0.1", gap=100e-6, names=(), mass="equivalent_mass: 0.4 kg", inertia=""):
+    """A motion with a constant stiffness and no error."""
+    with tempfile.NamedTemporaryFile("w", suffix=".csv") as table, tempfile.NamedTemporaryFile("w", suffix=".yaml") as file:
+        table.write(f"phase; stiffness [N/m]\n0; {K}\n1; {K}\n")
+        table.flush()
+        file.write(f"""format: 2
+pipeline:
+  gears: {{use: gear/involute-spur, module: 2 mm, face_width: 20 mm, teeth: {list(TEETH)}, backlash: {gap} m{inertia}}}
+  duty: {{use: operating/steady, {duty}}}
+  mesh: {{use: stiffness/table, file: {table.name}, load_share: rigid}}
+  motion: {{use: dynamics/{motion}{', ' + mass if mass else ''}}}
+outputs: [motion.period, motion.dte_rms, motion.contact_loss, motion.back_contact, motion.mesh_force, motion.natural_frequency,
+  gears.backlash, gears.equivalent_mass, gears.inertia{''.join(', ' + name for name in names)}]
+""")
+        file.flush()
+        answer = json.loads(subprocess.run([program, "run", file.name, "--json", "--arrays"], stdout=subprocess.PIPE).stdout)
+    if answer["exit"]:
+        return answer["errors"][0]["message"]
+    return {name: o.get("value", o.get("data")) for name, o in answer["outputs"].items()}
+
+
+def together():
+    """k constant, e = 0: the deflection is F_0 + F_1 cos(w t - ..)/sqrt(D) in units of k, D = (1 - r^2)^2 + (2 zeta r)^2. Flanks stay
+    together (damping: always) where it stays above 0; they never pull (clipped) where the mesh force does not."""
+    zeta, frequency = 0.1, 1900
+    natural = math.sqrt(K / 0.4) / (2 * math.pi)
+    for order, period in (27, 1), (9, 3), (2, 27):
+        r = order / 27 * frequency / natural
+        D = (1 - r * r) ** 2 + (2 * zeta * r) ** 2
+        for damping, share in ("always", 1 / math.sqrt(D)), ("clipped", math.sqrt((1 + (2 * zeta * r) ** 2) / D)):
+            for more, stays in (1.005, True), (0.995, False):
+                found = swing(f"torque: {10 * share * more} N m, mesh_frequency: {frequency} Hz, torque_fluctuation: {{amplitude: [10 N m], order: [{order}]}}",
+                              f"shooting, damping_ratio: {zeta}, damping: {damping}")
+                what = f"order {order}, {damping}, {more} of the limit"
+                report((found["motion.contact_loss"] == 0) == stays, f"{what}: {'together' if stays else 'apart'}")
+                if stays:
+                    report(found["motion.period"] == period, f"{what}: period {period}")
+                    check(f"{what}: rms", found["motion.dte_rms"], 10 / BASE[0] / K / math.sqrt(2 * D), 1e-9)
+
+
+def driven():
+    """Stiff teeth whose gear 1 turns as it is told: they stay together where the drag slows gear 2 as fast as gear 1 ever slows down."""
+    inertia, rpm, order = 1e-2, 600, 2
+    omega, most = rpm * math.pi / 30, 20 * math.pi / 30
+    slowing = most * order * omega
+    for more, stays in (1.02, True), (0.98, False):
+        drag = inertia * BASE[0] / BASE[1] * slowing * more  # on gear 2
+        found = swing(f"torque: {drag * TEETH[0] / TEETH[1]} N m, speed: {rpm} rpm, speed_fluctuation: {{amplitude: [20 rpm], order: [{order}]}}",
+                      "shooting, damping_ratio: 0.5", mass="", inertia=f", inertia: [1e-2 kg m2, {inertia} kg m2]")
+        report((found["motion.contact_loss"] == 0) == stays, f"a drag of {more} of the limit: {'together' if stays else 'apart'}")
+        check("the mass that swings is that of gear 2", found["motion.natural_frequency"], math.sqrt(K * BASE[1] ** 2 / inertia) / (2 * math.pi), 1e-9)
+
+
+def twin(mean, swings, frequency, zeta, half_gap, cycles, steps=4000):
+    """rms of s and least and largest mesh force by Runge and Kutta's method, after a tenth of the cycles; swings: (N, order, rad)."""
+    m, c = 0.4, 2 * zeta * math.sqrt(K * 0.4)
+
+    def force(s, v):
+        over = abs(s) - half_gap
+        return (math.copysign(K * over, s) if over > 0 else 0) + c * v
+
+    def rate(t, s, v):
+        return (mean + sum(a * math.cos(2 * math.pi * n / TEETH[0] * frequency * t + p) for a, n, p in swings) - force(s, v)) / m
+    s, v, h, sums, low, high = half_gap, 0, 1 / frequency / steps, [0, 0, 0], 0, 0
+    begin = cycles - TEETH[0]
+    for i in range(cycles * steps):
+        t = i * h
+        a1 = rate(t, s, v)
+        a2 = rate(t + h / 2, s + h / 2 * v, v + h / 2 * a1)
+        a3 = rate(t + h / 2, s + h / 2 * v + h * h / 4 * a1, v + h / 2 * a2)
+        a4 = rate(t + h, s + h * v + h * h / 2 * a2, v + h * a3)
+        s, v = s + h * v + h * h / 6 * (a1 + a2 + a3), v + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
+        if i >= begin * steps:
+            f = force(s, v)
+            sums = [sums[0] + 1, sums[1] + s, sums[2] + s * s]
+            low, high = min(low, f), max(high, f)
+    return math.sqrt(sums[2] / sums[0] - (sums[1] / sums[0]) ** 2), low, high
+
+
+def both_signs():
+    """A torque that crosses 0 loads both flanks in turn."""
+    duty = "torque: 4 N m, mesh_frequency: 6000 Hz, torque_fluctuation: {amplitude: [30 N m, 12 N m], order: [1, 2], phase: [0 deg, 70 deg]}"
+    expected = twin(4 / BASE[0], [(30 / BASE[0], 1, 0), (12 / BASE[0], 2, math.radians(70))], 6000, 0.3, 10e-6, 81, 400)
+    for motion in "shooting", "time-integration":
+        powers = ("motion.torque_power", "motion.damper_loss", "motion.excitation_power") if motion == "shooting" else ()
+        found = swing(duty, f"{motion}, damping_ratio: 0.3", 20e-6, ("motion.tooth_force", "motion.phase") + powers)
+        if powers:
+            check("the damper takes what the torque swings in", found[powers[0]] + found[powers[2]], found[powers[1]], 1e-9)
+            report(found[powers[0]] > 100 * abs(found[powers[2]]), "since neither k nor e changes")
+        report(found["motion.period"] == 27 and found["motion.back_contact"] > 0.1, f"{motion}: both flanks bear, period {found['motion.period']}")
+        check(f"{motion}: rms of the twin", found["motion.dte_rms"], expected[0], 1e-3)
+        check(f"{motion}: its least force", min(found["motion.mesh_force"]), expected[1], 2e-3)
+        check(f"{motion}: its largest", max(found["motion.mesh_force"]), expected[2], 2e-3)
+        force, phase = found["motion.mesh_force"], found["motion.phase"]
+        mean = sum((z - a) * (f + g) / 2 for a, z, f, g in zip(phase, phase[1:], force, force[1:])) / phase[-1]
+        check(f"{motion}: its mean is the line force", mean, 4 / BASE[0], 1e-5)
+        teeth = flat(found["motion.tooth_force"])
+        report(len(teeth) % 27 == 0 and min(teeth) < -0.5 * max(teeth), f"{motion}: tooth forces of 27 pairs, {min(teeth):.0f} to {max(teeth):.0f} N, below 0 on the back flanks")
+    report("take dynamics/shooting" in swing(duty, "harmonic-balance"), "a series of the mesh cycle is refused")
+    report("take dynamics/shooting" in swing(duty, "quasi-static", mass=""), "and the loaded error")
+
+
+def exchanged():
+    """Gear 2 written first: the same motion, its swings those of the other gear. Their angle counts from a pair at the start of the profile of
+    gear 1, which with a torque below 0 is its end: the contact ratio apart."""
+    names = ["gears.contact_ratio", "motion.dte_rms", "motion.mesh_force", "motion.dynamic_factor_mesh", "losses.power_loss_mean", "film.h_min_lowest"]
+
+    def pair(first, second, torque, swings, order, phase):
+        global GEARS
+        GEARS = (f"gears: {{use: gear/involute-spur, module: 2 mm, face_width: 20 mm, centre_distance: 81 mm, teeth: [{first}, {second}], "
+                 f"profile_shift: [{'0.5, 0.55' if first < second else '0.55, 0.5'}], backlash: 0.1 mm, stations: 6000, "
+                 f"{'tip_relief: 12 um, back_relief' if first < second else 'back_relief: 12 um, tip_relief'}: [{'10 um, 15 um' if first < second else '15 um, 10 um'}]}}")
+        return run(names, f"{torque} N m", mesh="load-distribution, compliance: analytical, points: 6000",
+                   more=f", torque_fluctuation: {{amplitude: [{swings} N m], order: [{order}], phase: [{phase} deg]}}")
+    one = pair(27, 52, -30, 12, 27, 40)
+    other = pair(52, 27, 30 * 52 / 27, 12 * 52 / 27, 52, math.remainder(40 - 180 - 360 * one[names[0]], 360))
+    for name in names[1:]:
+        limit = 1e-3 if name.startswith("film") else 1e-4
+        check(f"exchanged, {name}", *(max(map(abs, flat(x[name] if isinstance(x[name], list) else [x[name]]))) for x in (one, other)), limit)
+
+
+def idle():
+    """The file that is shipped: by small steps, too, and with its energies."""
+    found = []
+    for motion in "shooting", "time-integration":
+        names = "motion.period, motion.dte_rms, motion.back_contact" + (", motion.torque_power, motion.damper_loss, motion.excitation_power" if motion == "shooting" else "")
+        done = subprocess.run([program, "run", source + "/configs/idle.yaml", "--json", "--set", f"motion.use=dynamics/{motion}", "--set", f"outputs=[{names}]"], stdout=subprocess.PIPE)
+        answer = json.loads(done.stdout)
+        found.append({name: o["value"] for name, o in answer["outputs"].items()})
+    report(all(x["motion.period"] == 27 and x["motion.back_contact"] > 0.05 for x in found), "idle.yaml rattles on both flanks, with period 27")
+    check("idle.yaml by small steps", found[1]["motion.dte_rms"], found[0]["motion.dte_rms"], 1e-6)
+    check("what swings and mesh bring in the damper takes", found[0]["motion.torque_power"] + found[0]["motion.excitation_power"], found[0]["motion.damper_loss"], 1e-9)
+
+
+def wrong():
+    for more, hint in ((", torque_fluctuation: {amplitude: [1 N m, 2 N m], order: [1]}", "one order for each"), (", speed_fluctuation: {order: [1]}", "one order for each"),
+                       (", torque_fluctuation: {amplitude: [1 N m], order: [1.5]}", "whole")):
+        text = run(["motion.dte_rms"], "90 N m", more=more)
+        report(isinstance(text, str) and hint in text, f"{more[2:]}: {text if isinstance(text, str) else 'taken'}")
+
+
 def floats():
     for motion in "shooting", "time-integration", "harmonic-balance", "quasi-static":
         found = run(FLOATING, motion=motion)
@@ -81,6 +229,10 @@ def reference():
     loaded, at_rest = run(names, "90 N m"), run(names, more=", reference_torque: 90 N m")
     for name in names:
         report(loaded[name] == at_rest[name], f"{name} of the reference torque")
+    names = ["mesh.stiffness_mean", "mesh.load_share"]
+    swings = run(names, more=", torque_fluctuation: {amplitude: [30 N m, 60 N m], order: [1, 3]}")
+    for name in names:
+        check(f"of swings about 0 it is the largest torque, {name}", sum(flat([swings[name]])), sum(flat([loaded[name]])), 1e-8)
     names = ["motion.dte_rms", "mesh.tooth_force"]
     same, other = run(names, "90 N m"), run(names, "90 N m", more=", reference_torque: 180 N m")
     report(run(names, "90 N m", more=", reference_torque: 90 N m") == same, "the torque itself is the preset")
@@ -92,4 +244,10 @@ def reference():
 
 floats()
 reference()
+together()
+driven()
+both_signs()
+idle()
+wrong()
+exchanged()
 sys.exit(failed)

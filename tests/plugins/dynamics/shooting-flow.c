@@ -322,8 +322,26 @@ static void test_reduce(void)
     close_mesh(&f);
 }
 
+/* Without a load and a damper a motion between the flanks passes the gap of 2 b twice, and turns
+   back from each flank in half a period of the spring: period 4 b/v + 2 pi. */
+static void test_between_flanks(void)
+{
+    const double speeds[] = {0.1, 1, 7};
+    for (int i = 0; i < 3; i++) {
+        fixture f;
+        cosine(&f, 1, 0, 0, 64);
+        f.mesh.half_gap = 1;
+        dynamics_state y = pass(&f, 4 / speeds[i] + 2 * M_PI, 0, speeds[i], 1);
+        check_below("comes back", hypot(y.delta, (y.rate - speeds[i]) / speeds[i]), 1e-13);
+        y = pass(&f, 2 / speeds[i] + M_PI, 0, speeds[i], 1);
+        check_below("half way", hypot(y.delta, (y.rate + speeds[i]) / speeds[i]), 1e-13);
+        close_mesh(&f);
+    }
+}
+
 int main(void)
 {
+    test_between_flanks();
     test_reduce();
     test_mathieu();
     test_damped_tongue();

@@ -1,0 +1,142 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fluctuation.h"
+
+#include "inputs.h"
+#include "smooth-piece.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+/* The angle, rad, by which an order turns within a piece: a polynomial of degree 7 then misses its
+   cosine by (0.25)^8/(2^7 8!) = 3e-12. */
+static const double longest_part = 0.5;
+
+enum { SAMPLES = 32, MOST_CYCLES = 4096 };
+
+static const char *name_of(int input)
+{
+    return dynamics_input_ports[input].name;
+}
+
+ff_status dynamics_fluctuation_read(const ff_host *host, const ff_array *in, double teeth,
+                                    dynamics_fluctuation *f, size_t *span)
+{
+    const ff_array *order = &in[DYNAMICS_IN_FLUCTUATION_ORDER];
+    *f = (dynamics_fluctuation){.teeth = teeth, .count = order->rank == 1 ? order->shape[0] : 0};
+    *span = 1;
+    if (f->count == 0)
+        return FF_OK;
+    for (int i = DYNAMICS_IN_FLUCTUATION_COSINE; i <= DYNAMICS_IN_FLUCTUATION_SINE; i++)
+        if (!in[i].data || in[i].rank != 1 || in[i].shape[0] != f->count)
+            return ff_failf(host, FF_INVALID, name_of(i),
+                            "must have a value for each of %zu orders", f->count);
+    f->order = order->data;
+    f->cosine = in[DYNAMICS_IN_FLUCTUATION_COSINE].data;
+    f->sine = in[DYNAMICS_IN_FLUCTUATION_SINE].data;
+    const double *period = in[DYNAMICS_IN_FLUCTUATION_PERIOD].data;
+    if (!period || !(*period >= 1 && *period <= MOST_CYCLES && *period == floor(*period)))
+        return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_FLUCTUATION_PERIOD),
+                        "must be a whole number of mesh cycles up to %d", MOST_CYCLES);
+    *span = (size_t)*period;
+    for (size_t i = 0; i < f->count; i++) {
+        double turns = f->order[i] / teeth * *period;
+        if (!(f->order[i] > 0 && fabs(turns - round(turns)) <= 1e-9 * turns))
+            return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_FLUCTUATION_ORDER),
+                            "order %g of a gear of %g teeth does not repeat itself after %g mesh "
+                            "cycles",
+                            f->order[i], teeth, *period);
+    }
+    return FF_OK;
+}
+
+double dynamics_fluctuation_size(const dynamics_fluctuation *f)
+{
+    double size = 0;
+    for (size_t i = 0; i < f->count; i++)
+        size += hypot(f->cosine[i], f->sine[i]);
+    return size;
+}
+
+static double force_at(const dynamics_fluctuation *f, double cycles)
+{
+    double force = 0;
+    for (size_t i = 0; i < f->count; i++) {
+        double a = 2 * M_PI * f->order[i] / f->teeth * cycles;
+        force += f->cosine[i] * cos(a) + f->sine[i] * sin(a);
+    }
+    return force;
+}
+
+static size_t parts_of(const dynamics_fluctuation *f, const dynamics_piece *p)
+{
+    double fastest = 0;
+    for (size_t i = 0; i < f->count; i++)
+        fastest = fmax(fastest, 2 * M_PI * f->order[i] / f->teeth);
+    return (size_t)fmax(ceil(fastest * p->length / longest_part), 1);
+}
+
+/* Sets the drag of a piece that begins `begin` mesh cycles behind the start and is `length` long.
+ */
+static void set_drag(const dynamics_excitation *x, const dynamics_fluctuation *f, double begin,
+                     double length, dynamics_piece *p)
+{
+    double phase[SAMPLES + 1], value[SAMPLES + 1], newton = x->stiffness * x->length;
+    double unit = dynamics_fluctuation_size(f) / newton;
+    for (int i = 0; i <= SAMPLES; i++) {
+        double part = (double)i / SAMPLES;
+        phase[i] = part * p->length;
+        value[i] = -force_at(f, begin + part * length) / newton;
+    }
+    if (!(unit > 0))
+        return;
+    dynamics_smooth_series(phase, value, SAMPLES + 1, unit, p->drag);
+    for (int i = 0; i <= DYNAMICS_DEGREE; i++)
+        p->drag[i] *= unit;
+}
+
+/* A part of a piece of the mesh cycle, in the phases of the long one. */
+static void set_part(const dynamics_piece *from, double since, double span, dynamics_piece *to)
+{
+    to->degree = DYNAMICS_DEGREE;
+    dynamics_piece_shift(from->k, from->degree, since, span, to->k);
+    dynamics_piece_shift(from->e, from->degree, since, span, to->e);
+    to->lines = from->lines;
+    for (int i = 0; i < from->lines; i++) {
+        dynamics_piece_shift(from->line[i].slope, from->degree, since, span, to->line[i].slope);
+        dynamics_piece_shift(from->line[i].offset, from->degree, since, span, to->line[i].offset);
+    }
+}
+
+int dynamics_excitation_fluctuate(dynamics_excitation *x, const dynamics_fluctuation *f,
+                                  size_t span)
+{
+    size_t count = 0, n = 0;
+    for (size_t i = 0; i < x->count; i++)
+        count += span * parts_of(f, &x->pieces[i]);
+    dynamics_piece *pieces = calloc(count, sizeof *pieces);
+    if (!pieces)
+        return 0;
+    for (size_t cycle = 0; cycle < span; cycle++)
+        for (size_t i = 0; i < x->count; i++) {
+            const dynamics_piece *from = &x->pieces[i];
+            const size_t parts = parts_of(f, from);
+            const double length = from->length / (double)parts;
+            for (size_t k = 0; k < parts; k++, n++) {
+                const double since = length * (double)k,
+                             begin = (double)cycle + from->start + since;
+                pieces[n].start = begin / (double)span;
+                pieces[n].length = length / (double)span;
+                set_part(from, since, (double)span, &pieces[n]);
+                set_drag(x, f, begin, length, &pieces[n]);
+            }
+        }
+    free(x->pieces);
+    x->pieces = pieces;
+    x->count = count;
+    x->span = (double)span;
+    x->drags = 1;
+    dynamics_excitation_mark_jumps(x);
+    return 1;
+}
