@@ -48,13 +48,14 @@ static const ff_param params[] = {
 static ff_status ready(void *self)
 {
     dowson_higginson *d = self;
-    return density_softening_ready(d->host, &d->softening);
+    return density_softening_ready(d, &d->softening);
 }
 
 FF_DENSITY_LAW(density_dowson_higginson, dowson_higginson, eval, .id = "density/dowson-higginson",
                .version = "1.0.0",
                .summary = "density of mineral oil under pressure, at most 35 % denser",
                .reference = "Dowson & Higginson 1966, Elasto-hydrodynamic Lubrication, Pergamon",
-               .bibtex = BIB_DowsonHigginson1966, .licence = "GPL-3.0-or-later",
-               .params = FF_TABLE(params), .inputs = FF_TABLE(density_inputs), .wire = density_wire,
-               .ready = ready, .cost = 4e-3);
+               .bibtex = BIB_DowsonHigginson1966 "\n" BIB_Anderson1967,
+               .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
+               .inputs = FF_TABLE(density_inputs), .wire = density_wire, .ready = ready,
+               .cost = 4e-3);

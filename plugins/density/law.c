@@ -113,39 +113,66 @@ static ff_status eval_cold(const void *law, const density_shape *shape, size_t n
     return density_end(law, &ambient, outside ? FF_DOMAIN : FF_OK, n, T, rho, drho_dp, drho_dT);
 }
 
-/* Pressures p exp[decay (T - at)], and that factor. Returns whether T was outside the range of the
-   softening, 150 to 700 K, beyond which the law stays as it is. */
-static int soften(const density_softening *by, size_t n, const double *p, const double *T,
-                  double same, double *scaled, double *factor)
+/* How an oil expands at `at`, and the exponent of density_softening. */
+typedef struct expansion {
+    double rho0, exponent;
+    int known;
+} expansion;
+
+static expansion expansion_at(const ff_liquid *liquid, const density_softening *by)
 {
-    int outside = 0;
-    for (size_t i = 0; i < n; i++) {
-        double t = T ? T[i] : same, in = fmin(fmax(t, 150), 700);
-        int known = i && (!T || (T[i] >= T[i - 1] && T[i] <= T[i - 1]));
-        factor[i] = known ? factor[i - 1] : exp(by->decay * (in - by->at));
-        scaled[i] = factor[i] * p[i];
-        outside |= in < t || in > t;
-    }
-    return outside;
+    expansion e = {0};
+    double slope;
+    numerics_liquid_values(liquid, FF_LIQUID_RHO0, 1, &by->at, &e.rho0, &slope);
+    e.known = e.rho0 > 0 && slope < 0;
+    e.exponent = e.known ? -by->decay * e.rho0 / slope : 1;
+    return e;
 }
 
-/* At n <= BLOCK points: rho/rho0 being a function of that pressure, it follows temperature by decay
-   p drho_dp. */
+/* At n <= BLOCK points, whose rho and by_p are those of rho0 = 1 at `at`; `s` is (rho0(at)/rho0)^n
+   of (6.26). Below ambient pressure the tangent of the law is bent. */
+static void scale(const density_shape *shape, double exponent, size_t n, const double *p,
+                  const double *rho0, const double *slope, const double *s, double *rho,
+                  double *by_p, double *by_T)
+{
+    for (size_t i = 0; i < n; i++) {
+        double f = rho[i], to_p = by_p[i], of_T = 1;
+        if (p[i] >= 0) {
+            double e = pow(f, -exponent), z = s[i] + (1 - s[i]) * e,
+                   root = f * pow(z, 1 / exponent);
+            to_p *= root / f * s[i] / z;
+            of_T = root * e / z;
+            f = root;
+        } else {
+            double y = 1 + s[i] * p[i] / shape->K0, bend = density_tension_slope(y);
+            f = density_tension(y);
+            to_p = bend * s[i] / shape->K0;
+            of_T = f - exponent * (y - 1) * bend;
+        }
+        rho[i] = rho0[i] * f;
+        by_p[i] = rho0[i] * to_p;
+        if (by_T)
+            by_T[i] = slope[i] * of_T;
+    }
+}
+
+/* At n <= BLOCK points. */
 static ff_status eval_soft(const void *law, const density_shape *shape, size_t n, const double *p,
                            const double *T, double *rho, double *drho_dp, double *drho_dT)
 {
-    double scaled[BLOCK], factor[BLOCK], by_p[BLOCK], decay = shape->softening.decay;
+    double rho0[BLOCK], slope[BLOCK], s[BLOCK], unwanted[BLOCK], lowest = 1;
     const ff_liquid *liquid = ((const density_law *)law)->liquid;
-    double same = liquid ? numerics_reference_temperature(liquid) : shape->softening.at;
-    int outside = soften(&shape->softening, n, p, T, same, scaled, factor);
-    ff_status status = eval_cold(law, shape, n, scaled, T, rho, by_p, drho_dT);
+    const expansion e = expansion_at(liquid, &shape->softening);
+    ff_status status = numerics_liquid_values(liquid, FF_LIQUID_RHO0, n, T, rho0, slope);
     for (size_t i = 0; i < n; i++) {
-        double t = T ? T[i] : same;
-        if (drho_dT && t >= 150 && t <= 700)
-            drho_dT[i] += decay * scaled[i] * by_p[i];
-        if (drho_dp)
-            drho_dp[i] = factor[i] * by_p[i];
+        int same = i && rho0[i] >= rho0[i - 1] && rho0[i] <= rho0[i - 1];
+        s[i] = same ? s[i - 1] : e.known && rho0[i] > 0 ? pow(e.rho0 / rho0[i], e.exponent) : 1;
+        lowest = fmin(lowest, s[i] * p[i] / shape->K0);
     }
+    double *by_p = drho_dp ? drho_dp : unwanted;
+    shape->curve(law, 1, n, p, rho, by_p);
+    scale(shape, e.exponent, n, p, rho0, slope, s, rho, by_p, drho_dT);
+    int outside = !e.known || lowest < -0.5 || any_outside(n, p, -HUGE_VAL, shape->highest);
     return status == FF_OK && outside ? FF_DOMAIN : status;
 }
 
@@ -153,7 +180,7 @@ ff_status density_eval(const void *law, const density_shape *shape, size_t n, co
                        const double *T, double *rho, double *drho_dp, double *drho_dT)
 {
     ff_status worst = FF_OK;
-    if (!(shape->softening.decay < 0 || shape->softening.decay > 0))
+    if (!(shape->softening.decay > 0))
         return eval_cold(law, shape, n, p, T, rho, drho_dp, drho_dT);
     for (size_t from = 0; from < n; from += BLOCK) {
         size_t count = n - from < BLOCK ? n - from : BLOCK;
@@ -165,13 +192,18 @@ ff_status density_eval(const void *law, const density_shape *shape, size_t n, co
     return worst;
 }
 
-ff_status density_softening_ready(const ff_host *host, density_softening *softening)
+ff_status density_softening_ready(const void *self, density_softening *softening)
 {
-    int given = !isnan(softening->at), flat = softening->decay <= 0 && softening->decay >= 0;
+    const density_law *law = self;
+    int given = !isnan(softening->at), flat = softening->decay <= 0;
     if (!given)
         softening->at = 313.15; /* of no effect */
+    if (!flat && !law->liquid)
+        return ff_failf(law->host, FF_INVALID, "K0_decay",
+                        "K0_decay goes with the expansion of an oil: wire one (oil) in place of "
+                        "rho0");
     return given || flat ? FF_OK
-                         : ff_failf(host, FF_INVALID, "at",
+                         : ff_failf(law->host, FF_INVALID, "at",
                                     "K0_decay needs the temperature that the other constants of "
                                     "the law hold at: at");
 }

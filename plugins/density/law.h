@@ -16,23 +16,23 @@ typedef struct density_law {
 } density_law;
 
 /*
- * How temperature softens a law whose rho/rho0 is a function of p/K0 alone: ln(K0) falls by
- * `decay`, 1/K, from `at`, K, on. At T the law is that of `at` at the pressure p exp[decay (T -
- * at)].
+ * How temperature softens a law whose constants hold at `at`, K: ln(K0) falls there by `decay`,
+ * 1/K, and the expansion of the oil falls under pressure as (rho/rho0)^-n, n = decay/expansion:
+ * (6.26), Anderson 1967.
  */
 typedef struct density_softening {
     double decay, at;
 } density_softening;
 
 #define DENSITY_SOFTENING_ROWS(type, member)                                                       \
-    FF_QUANTITY("K0_decay", "1/K", type, member.decay, 0, "0 1/K", NULL, -0.02, 0.05, 0, 0.009,    \
+    FF_QUANTITY("K0_decay", "1/K", type, member.decay, 0, "0 1/K", NULL, 0, 0.05, 0, 0.009,        \
                 "fall of the logarithm of the bulk modulus with temperature, from `at` on"),       \
         FF_QUANTITY_OR("auto", "at", "degC", type, member.at, 0, "auto", NULL, -150, 500, -20,     \
                        150,                                                                        \
                        "temperature that the constants of the law hold at; auto: at any, which "   \
                        "K0_decay contradicts")
 /* Refuses a decay without `at`; makes `at` a number. */
-ff_status density_softening_ready(const ff_host *host, density_softening *softening);
+ff_status density_softening_ready(const void *law, density_softening *softening);
 
 #define DENSITY_RHO0_ROW(type, doc)                                                                \
     FF_QUANTITY_UNLESS("oil", "rho0", "kg/m3", type, rho0, FF_REQUIRED, NULL, NULL, 1, 1e5, 600,   \

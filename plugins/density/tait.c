@@ -58,12 +58,13 @@ static ff_status ready(void *self)
     tait *d = self;
     double k = 1 + d->K0_prime;
     d->cap = d->K0 * expm1(k / 2) / k;
-    return density_softening_ready(d->host, &d->softening);
+    return density_softening_ready(d, &d->softening);
 }
 
 FF_DENSITY_LAW(density_tait, tait, eval, .id = "density/tait", .version = "1.0.0",
                .summary = "density by the Tait equation of state",
                .reference = "Dymond & Malhotra 1988, Int. J. Thermophysics 9, 941-951",
-               .bibtex = BIB_DymondMalhotra1988, .licence = "GPL-3.0-or-later",
-               .params = FF_TABLE(params), .inputs = FF_TABLE(density_inputs), .wire = density_wire,
-               .ready = ready, .cost = 1.3e-2);
+               .bibtex = BIB_DymondMalhotra1988 "\n" BIB_Anderson1967,
+               .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
+               .inputs = FF_TABLE(density_inputs), .wire = density_wire, .ready = ready,
+               .cost = 1.3e-2);

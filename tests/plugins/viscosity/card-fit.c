@@ -148,13 +148,6 @@ static stage *open_viscosity(const char *id, double eta0)
     return s;
 }
 
-static stage *open_density(const char *id)
-{
-    stage *s = open_law(id);
-    stage_set_text(s, "rho0", "900 kg/m3");
-    return s;
-}
-
 static double ln_eta(const ff_viscosity *v, double p)
 {
     double value;
@@ -270,11 +263,15 @@ static void check_density(void)
 {
     static const char *const density[] = {"density/dowson-higginson", "density/tait",
                                           "density/incompressible"};
+    stage *oil = stage_open("lubricant/grade");
+    stage_set_text(oil, "grade", "ISO VG 100");
     for (int i = 0; i < 3; i++) {
-        stage *s = open_density(density[i]);
+        stage *s = open_law(density[i]);
+        stage_link(s, "oil", oil);
         check_true("  is complete", stage_ready(s) == FF_OK);
         stage_close(s);
     }
+    stage_close(oil);
 }
 
 /* eta0 and alpha of the correlations that give no more: ADORE, T in K. */
