@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "lead.h"
 
+#include "suspect.h"
+
 #include <assert.h>
 #include <dirent.h>
 #include <errno.h>
@@ -233,15 +235,6 @@ static int wait_for_child(void)
     }
 }
 
-/* Several plugins may be at fault for a crash: one has overrun memory of another. */
-static void add_advice(char *sentence, size_t size)
-{
-    size_t length = strlen(sentence);
-    if (strstr(sentence, ", or one that serves it ("))
-        snprintf(sentence + length, size - length,
-                 "; flankfilm verify tells of each whether it writes where it must not");
-}
-
 /* Fills code and sentence for a child that ended with this status. */
 static void judge(int status, crash_end *end)
 {
@@ -259,7 +252,7 @@ static void judge(int status, crash_end *end)
         crash_describe(&words->running, status, end->sentence, sizeof end->sentence)) {
         end->code = FF_FAULT_PLUGIN;
         if (number && crash_fault_name(number))
-            add_advice(end->sentence, sizeof end->sentence);
+            crash_add_suspect(end->sentence, sizeof end->sentence);
     } else if (number) {
         signal(number, SIG_DFL);
         raise(number);

@@ -43,6 +43,16 @@ static double slope_factor(void)
     return asked ? atof(misdeed + sizeof begin - 1) : 1;
 }
 
+/* "law eval past 4000": so many numbers behind those that were asked for. */
+static void write_past(double *end)
+{
+    static const char begin[] = "law eval past ";
+    const char *misdeed = getenv("FLANKFILM_MISDEED");
+    bool asked = misdeed && !strncmp(misdeed, begin, sizeof begin - 1);
+    for (long left = asked ? atol(misdeed + sizeof begin - 1) : 0; left > 0; left--)
+        *(volatile double *)end++ = -1;
+}
+
 static ff_status eval(const void *self, size_t n, const double *p, const double *T, double *ln_eta,
                       double *dln_dp, double *dln_dT)
 {
@@ -57,6 +67,7 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
         if (dln_dT)
             dln_dT[i] = 0;
     }
+    write_past(ln_eta + n);
     return status_of_eval();
 }
 
