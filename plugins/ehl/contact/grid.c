@@ -120,6 +120,37 @@ static void reach(ehl_grid *g, const ehl_instant *at, double modulus, double fil
     g->outlet = fmax(g->outlet, a + 2 * s);
 }
 
+/* Returns the gap that a Hertzian contact of half-width `from` has at x = a, times 2 R. */
+static double gap_times_2R(double from, double a)
+{
+    if (!(from > 0))
+        return a * a;
+    double s = a / from, y = sqrt((s - 1) * (s + 1));
+    return from * from * (s * y - log(s + y)); /* acosh s = ln(s + y) */
+}
+
+/*
+ * A contact that swells faster than the oil leaves draws oil in at its outlet, too. The film that
+ * it draws in there is that of a contact which the oil enters at the difference of both speeds, and
+ * no thicker than the gap that was there. The outlet reaches twice sqrt(2 R h) of it beyond the
+ * contact, as far as that of a film that leaves.
+ */
+static void reach_swelling(ehl_grid *g, const ehl_history *h, size_t row, const ehl_oil *oil)
+{
+    ehl_instant at = ehl_history_row(h, row), before = ehl_history_row(h, row - 1);
+    double a = ehl_hertz_half_width(at.load, at.radius, h->modulus),
+           from = ehl_hertz_half_width(before.load, before.radius, h->modulus);
+    double dt = at.time - before.time, square = gap_times_2R(from, fmax(a, from));
+    int together = !h->engagement || !(fabs(h->engagement[row] - h->engagement[row - 1]) > 0);
+    if (!together || !(a - from > at.entrainment * dt))
+        return;
+    if (dt > 0) {
+        at.entrainment = (a - from) / dt - at.entrainment;
+        square = fmin(square, 2 * at.radius * ehl_moes_film(&at, h->modulus, oil));
+    }
+    g->drawn = fmax(g->drawn, a + 2 * sqrt(square));
+}
+
 /* Extends the inlet for a gap that is squeezed at rest: ten lengths sqrt(2 R gap) hold 99.9 % of
  * the force of a cylinder. */
 static void fit_squeezed_gap(ehl_grid *g, const ehl_instant *at, double half_width)
@@ -148,11 +179,14 @@ void ehl_grid_fit(ehl_grid *g, size_t cells, double inlet, double outlet, const 
         g->pressure = fmax(g->pressure, ehl_hertz_pressure(at.load, at.radius, h->modulus));
         if (at.load >= EHL_LIGHT_LOAD * h->load_max)
             reach(g, &at, h->modulus, ehl_row_film(h, i, oil), at.load >= 0.5 * h->load_max);
+        if (i > 0 && at.load >= EHL_LIGHT_LOAD * h->load_max)
+            reach_swelling(g, h, i, oil);
         if (rq > 0)
             fit_roughness(g, &at, h->modulus, rq);
         if (!(at.entrainment > 0))
             fit_squeezed_gap(g, &at, a);
     }
+    g->outlet = fmax(g->outlet, g->drawn);
     if (inlet > 0)
         g->inlet = inlet * g->half_width;
     if (outlet > 0)

@@ -12,6 +12,7 @@ typedef struct ehl_grid {
     double half_width;    /* m, largest Hertz half-width a */
     double pressure;      /* Pa, largest Hertz pressure */
     double inlet, outlet; /* m, distances of the ends from x = 0 */
+    double drawn;         /* m, the shortest outlet where it draws oil in; 0: it never does */
     int fed;              /* 1: the oil before the inlet has the pressure of a longer inlet */
 } ehl_grid;
 

@@ -292,8 +292,14 @@ static double change_of_film(const ehl_march *m, const contact *c, const ehl_cre
     return way > 0 ? most * c->a / way : INFINITY;
 }
 
+/* What p_max may be beyond its highest node. */
+typedef struct narrow_peak {
+    double tip; /* Pa, beyond it */
+    int climbs; /* 1: it climbs with each halving of the cells, and has no bound */
+} narrow_peak;
+
 /*
- * Records by how much the highest pressure may exceed p_max where the film is far from a steady
+ * Returns by how much the highest pressure may exceed p_max where the film is far from a steady
  * one, of which the bounds are: by half of what p falls by within two nodes of a maximum above half
  * of it, about what it falls by within a cell, times two. Where the film is squeezed, changing by
  * more than three times itself, a maximum in front of the outlet that falls by more than 4 % of it
@@ -301,20 +307,35 @@ static double change_of_film(const ehl_march *m, const contact *c, const ehl_cre
  * may be as high as it likes. A spike of the outlet has an end, which is known where it was looked
  * at.
  */
-static void record_narrow(ehl_results *r, const ehl_march *m, const contact *c, const ehl_crest *of)
+static narrow_peak narrow_peak_of(const ehl_march *m, const contact *c, const ehl_crest *of)
 {
     const double steady = 0.3, squeezed = 3, broad = 0.04, *p = of->p;
     const double change = change_of_film(m, c, of);
     const size_t outlet = outlet_from(m->solver->reynolds, c);
-    double *narrow = &r->row_in_space[EHL_NARROW], *tip = &r->row_in_space[EHL_TIP];
+    narrow_peak most = {0};
     for (size_t i = 2; i + 2 < m->solver->grid->nodes && change > steady; i++) {
         if (!(p[i] > of->p_max / 2 && p[i] >= p[i - 1] && p[i] > p[i + 1]))
             continue;
         double fall = p[i] - (p[i - 2] + p[i + 2]) / 2;
-        *tip = fmax(*tip, p[i] + fall / 2 - of->p_max);
-        if (i < outlet && fall > broad * p[i] && change > squeezed)
-            *narrow = INFINITY;
+        most.tip = fmax(most.tip, p[i] + fall / 2 - of->p_max);
+        most.climbs |= i < outlet && fall > broad * p[i] && change > squeezed;
     }
+    return most;
+}
+
+double ehl_peak_bound(const ehl_march *m)
+{
+    const ehl_reynolds *eq = m->solver->reynolds;
+    const ehl_state *now = &m->state[0];
+    const ehl_crest of = {now->film.p, ehl_central_film(m->solver->grid, eq), now->highest};
+    if (!ehl_march_is_loaded(m))
+        return (double)INFINITY;
+    const contact c = contact_at(eq, &m->at, m->history->modulus, of.h_central);
+    double bound = spike_at(eq, &c, &of).error * of.p_max;
+    if (!(m->step.past && m->known > 1))
+        return bound;
+    const narrow_peak narrow = narrow_peak_of(m, &c, &of);
+    return narrow.climbs ? (double)INFINITY : fmax(bound, narrow.tip);
 }
 
 /* carried: what the cells have made of h_min and h_central on the film's way, relative. */
@@ -330,8 +351,11 @@ static void record_bounds(ehl_results *r, const ehl_march *m, double h_central, 
     r->row_in_space[EHL_CENTRAL] =
         (e.of[EHL_CENTRAL] + carried[EHL_CENTRAL]) * r->row[EHL_H_CENTRAL];
     r->row_in_space[EHL_PEAK] = e.of[EHL_PEAK] * p_max;
-    if (ehl_wants_p_max(r->wanted) && !m->rough && m->step.past && m->known > 1)
-        record_narrow(r, m, c, &of);
+    if (ehl_wants_p_max(r->wanted) && !m->rough && m->step.past && m->known > 1) {
+        const narrow_peak narrow = narrow_peak_of(m, c, &of);
+        r->row_in_space[EHL_TIP] = narrow.tip;
+        r->row_in_space[EHL_NARROW] = narrow.climbs ? (double)INFINITY : 0;
+    }
 }
 
 /* Puts the errors by the cells in place of what bounds them. The film of a rigid cylinder feels its

@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* h_min and h_central of the rows that are looked at. */
-typedef double (*films)[EHL_PEAK];
+/* Films of the rows that are looked at. */
+typedef double (*films)[EHL_PASSED];
 
 /* Steps join those of the run to this share of a cell. */
 static const double joined = 0.2;
@@ -125,8 +125,8 @@ static int joins(const ehl_results *r, const ehl_passage *p, double way)
     return 0;
 }
 
-/* Marches to the last row and keeps h_min and h_central of those that a step leads to, from the
-   first one on; of the last one how it changes, too, unless `at_last` is NULL. */
+/* Marches to the last row and keeps the films of those that a step leads to, from the first one on;
+ * of the last one how it changes, too, unless `at_last` is NULL. */
 static ff_status pass(const ehl_results *r, const ehl_march *run, const ehl_passage *p, double way,
                       ehl_grid_level *l, films film, ehl_instant_film *at_last)
 {
@@ -145,6 +145,8 @@ static ff_status pass(const ehl_results *r, const ehl_march *run, const ehl_pass
             ehl_reynolds_gap(&l->reynolds, m.at.radius, &m.state[0].film);
             film[row - p->first][EHL_LEAST] = ehl_least_film(&l->reynolds, &node);
             film[row - p->first][EHL_CENTRAL] = ehl_central_film(&l->grid, &l->reynolds);
+            film[row - p->first][EHL_PEAK] = m.state[0].highest;
+            film[row - p->first][EHL_PEAK_BOUND] = ehl_peak_bound(&m);
         }
         if (row == p->last && at_last)
             ehl_space_keep(&m, at_last);
@@ -292,10 +294,20 @@ ff_status ehl_passage_to(const ehl_results *r, const ehl_march *m, ehl_passage *
 {
     const ehl_history h = engagement_of(r, p, row);
     const double length = length_of_passage(r, m, &h, row);
-    double film[1][EHL_PEAK];
+    double film[1][EHL_PASSED];
     p->first = p->last = row;
     p->begin = row_away(r, &h, row, length, 0);
     return pass_on(r, m, p, joined * m->solver->grid->dx, times, film, f);
+}
+
+ff_status ehl_passage_again(const ehl_results *r, const ehl_march *m, ehl_passage *p, size_t first,
+                            size_t last, size_t times, double (*film)[EHL_PASSED])
+{
+    const ehl_history h = engagement_of(r, p, first);
+    p->first = first;
+    p->last = last;
+    p->begin = row_away(r, &h, first, length_of_passage(r, m, &h, first), 0);
+    return pass_on(r, m, p, 0, times, film, NULL);
 }
 
 void ehl_passage_destroy(ehl_passage *p)

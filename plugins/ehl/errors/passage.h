@@ -9,6 +9,9 @@
 
 #include "results.h"
 
+/* Columns of a film on more cells: those of EHL_BOUNDS, and what bounds the error of its peak. */
+enum { EHL_PEAK_BOUND = EHL_BOUNDS, EHL_PASSED };
+
 typedef struct ehl_passage {
     const ehl_history *whole;  /* of all engagements */
     int equal;                 /* the lengths of the steps were given */
@@ -18,7 +21,7 @@ typedef struct ehl_passage {
        relative, positive where the film is too thick. NaN where the film on the cells of the run
        is not that of the run within a quarter of the error or of its limit, or, with heat, ten
        times of these: where it remembers more than a passage. */
-    double (*film)[EHL_PEAK], (*error)[EHL_PEAK];
+    double (*film)[EHL_PASSED], (*error)[EHL_PASSED];
 } ehl_passage;
 
 /* Whether a row counts for the error of an output. */
@@ -45,6 +48,11 @@ ff_status ehl_passage_refine(const ehl_results *r, const ehl_march *m, ehl_passa
    there; f->change has room for its nodes. */
 ff_status ehl_passage_to(const ehl_results *r, const ehl_march *m, ehl_passage *p, size_t row,
                          size_t times, ehl_instant_film *f);
+
+/* Marches from a passage before row `first` to `last`, on so many times the cells of the run, and
+   fills in the films of all rows from the first one on. */
+ff_status ehl_passage_again(const ehl_results *r, const ehl_march *m, ehl_passage *p, size_t first,
+                            size_t last, size_t times, double (*film)[EHL_PASSED]);
 
 void ehl_passage_destroy(ehl_passage *p);
 

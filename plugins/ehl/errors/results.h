@@ -11,7 +11,8 @@
 
 /* Columns of the errors by the cells: those of EHL_BOUNDS, m and Pa, bounds or, of films, where
    EHL_MEASURED + EHL_LEAST or EHL_CENTRAL is 1, what they are, negative of a film that is too thin.
-   EHL_NARROW: of p_max, infinite where the cells do not resolve a peak, else 0. EHL_TIP: of p_max,
+   EHL_NARROW: of p_max, infinite where the cells do not resolve a peak, what is left of that error
+   where more cells did, else 0. EHL_TIP: of p_max,
    Pa, no error of it is less where the film is not looked at on more cells. */
 enum { EHL_MEASURED = EHL_BOUNDS, EHL_NARROW = EHL_MEASURED + EHL_BOUNDS, EHL_TIP, EHL_SPACE };
 
@@ -63,8 +64,9 @@ typedef struct ehl_results {
     int transported;        /* errors of h_min and h_central are those of their transport */
     int measured[EHL_PEAK]; /* 1: h_min, h_central were measured at some rows */
     int finest;             /* the most cells at which, over those of the run */
-    ehl_rows space;         /* what the cells add to h_min, h_central, p_max */
-    double *row_in_space;   /* its row that is being filled in */
+    size_t narrow;        /* the most for narrow peaks, over those of the run; 0: there are none */
+    ehl_rows space;       /* what the cells add to h_min, h_central, p_max */
+    double *row_in_space; /* its row that is being filled in */
     double worst_gap_excess, widest_gap;                    /* while the contact is lost, m */
     double share_sum, ratio_sum, trapped_sum, worst_supply; /* sums over rough, loaded instants */
     double least_gap;                                       /* of statistical flanks, over sigma */
@@ -98,6 +100,10 @@ typedef struct ehl_transported {
 
 ehl_transported ehl_results_transported(ehl_results *r, const ehl_march *m);
 
+/* Returns what bounds the error of p_max by the cells in the newest film of the march, Pa, infinite
+   where they do not resolve its peak. The gap is that of the film. */
+double ehl_peak_bound(const ehl_march *m);
+
 /* Keeps the newest film of the march; f->change has room for its nodes. */
 void ehl_space_keep(const ehl_march *m, ehl_instant_film *f);
 
@@ -118,6 +124,7 @@ int ehl_wants_highest_alone(uint64_t wanted);
 int ehl_wants_h_min(uint64_t wanted);
 int ehl_wants_h_central(uint64_t wanted);
 int ehl_wants_p_max(uint64_t wanted);
+int ehl_wants_p_max_itself(uint64_t wanted); /* not its distribution, nor a friction alone */
 
 /* The least film, by a parabola, with its node in *at; that at x = 0; of the gap that r has. */
 double ehl_least_film(const ehl_reynolds *r, size_t *at);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "passage.h"
+#include "narrow.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -369,6 +369,8 @@ ff_status ehl_results_measure(ehl_results *r, const ehl_march *m, const ehl_hist
         status = measure_film(r, m, &p, EHL_LEAST);
     if (status == FF_OK && bounded && ehl_wants_h_central(r->wanted))
         status = measure_film(r, m, &p, EHL_CENTRAL);
+    if (status == FF_OK && ehl_wants_p_max_itself(r->wanted) && !m->heat && !m->thermal)
+        status = ehl_narrow_peaks(r, m, &p);
     return status == FF_OK && count >= LEAST_COUNT ? measure_peaks(r, m, &p) : status;
 }
 
@@ -389,7 +391,10 @@ static void report_cells(const ehl_results *r, const ehl_march *m, int kind, con
     if (kind != EHL_PEAK && isinf(error))
         error = NAN; /* not known, nor from which side */
     char how[128] = "", enough[96] = "", text[400];
-    if (kind == EHL_PEAK && fabs(r->share - 1) > 0)
+    if (kind == EHL_PEAK && r->narrow > 0)
+        snprintf(how, sizeof how,
+                 "; peaks as narrow as a few cells are those of %zu times the cells", r->narrow);
+    else if (kind == EHL_PEAK && fabs(r->share - 1) > 0)
         snprintf(how, sizeof how, "; by its film on %d times the cells %.3g of what bounds it",
                  r->finest, r->share);
     else if (kind != EHL_PEAK && r->transported)

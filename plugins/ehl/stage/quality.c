@@ -281,7 +281,7 @@ static void report_end_of_film(const ehl_results *r, const ehl_march *m)
             "complementarity");
 }
 
-static void report_ends(const ehl_results *r)
+static void report_ends(const ehl_results *r, const ehl_grid *g)
 {
     report_at_least(r, "inlet_length", r->least_inlet, r->fed ? EHL_FED_LENGTHS : 4,
                     r->fed
@@ -302,6 +302,12 @@ static void report_ends(const ehl_results *r)
         "share of the load next to the outlet's end, within a quarter of sqrt(2 R h), where "
         "the film reaches it, mean over a passage; above 0.0025 its exit is cut off and h_min too "
         "low: move the outlet out");
+    if (g->drawn > 0)
+        report_at_least(r, "outlet_length", g->outlet / g->drawn, 0.99,
+                        "length of the outlet over what it takes where the contact swells faster "
+                        "than the oil leaves, and oil is "
+                        "drawn in there; below 1 too little of it comes, and p_max is too low: "
+                        "move the outlet out");
 }
 
 /* Where no error of a film by the cells is estimated. */
@@ -545,7 +551,7 @@ void ehl_results_quality(const ehl_results *r, const ehl_march *m)
     report_end_of_film(r, m);
     report_inlet_tail(r);
     report_end_of_inlet(r);
-    report_ends(r);
+    report_ends(r, m->solver->grid);
     report_resolution(r);
     ehl_results_report_cells(r, m);
     report_time_errors(r, m);

@@ -3,8 +3,9 @@
  * What is stated of the errors by the cells at each instant, against the film on twice as many: of
  * a load that falls to a thirtieth and comes back within a passage, and of flanks that stop under
  * load and go on, of both discretisations. Of a load on a film that hardly moves the highest
- * pressure is known from below alone. Where the load is below 2 % of the largest, the film is off
- * by as much as those before and behind. On cells that are longer than the inlet nothing is known.
+ * pressure is known from below alone, unless it settles on more cells. Where the load is below 2 %
+ * of the largest, the film is off by as much as those before and behind. On cells that are longer
+ * than the inlet nothing is known.
  */
 #include "check.h"
 #include "line.h"
@@ -29,7 +30,12 @@ static const scene few = {
     "few cells", {0, 100, 200, 300}, {0.02, 0.02, 0.02, 0.02}, {100, 100, 100, 100}};
 static const scene blow = {"blow", {0, 50, 100, 120}, {0.05, 0.05, 0.05, 0.05}, {2, 152, 152, 152}};
 
-static void run(line *c, const scene *s, const char *model, double cells)
+static const scene squeezed = {
+    "squeezed", {0, 50, 100, 120}, {0.05, 0.05, 0.05, 0.05}, {2, 150, 150, 150}};
+
+/* inlet, outlet 0: auto */
+static void run_in(line *c, const scene *s, const char *model, double cells, double inlet,
+                   double outlet)
 {
     line_open(c, model);
     line_oil(c, "viscosity/barus", 10e-3, 15e-9);
@@ -40,11 +46,18 @@ static void run(line *c, const scene *s, const char *model, double cells)
         c->load[k] = 1e3 * s->load[k];
     }
     stage_set(c->film, "cells", cells);
-    stage_set(c->film, "inlet", 4);
-    stage_set(c->film, "outlet", 2);
+    if (inlet > 0)
+        stage_set(c->film, "inlet", inlet);
+    if (outlet > 0)
+        stage_set(c->film, "outlet", outlet);
     check_true("runs",
                line_run(c, "time p_max p_max_error h_min h_min_error h_central h_central_error") ==
                    FF_OK);
+}
+
+static void run(line *c, const scene *s, const char *model, double cells)
+{
+    run_in(c, s, model, cells, 4, 2);
 }
 
 /* Nearly all bars hold, and none is short by more than `most` of the value: under the least load
@@ -93,6 +106,24 @@ static void test_not_known(const char *model)
     line_close(&c);
 }
 
+/* Peaks of a squeezed film, some um wide, of which 512 cells show 92 and 80 %: those of more cells
+   are near the pressures that 16384 have on the same domain, and their bars hold them. Where the
+   outlet is short one peak is missing. */
+static void test_squeezed(double outlet, double truth, double within)
+{
+    line c;
+    size_t n;
+    run_in(&c, &squeezed, models[0], 512, 2.41, outlet);
+    const double *p = stage_get(c.film, "p_max", &n), *e = stage_get(c.film, "p_max_error", NULL);
+    double off = fabs(truth / p[n - 1] - 1), bar = e[n - 1] / p[n - 1];
+    printf("squeezed, outlet %g: %.1f MPa, off by %.4f, bar %.4f\n", outlet, 1e-6 * p[n - 1], off,
+           bar);
+    check_below("p_max off", off, within);
+    check_below("its bar holds", off, bar);
+    check_below("and is within the limit", bar, 0.1);
+    line_close(&c);
+}
+
 /* A film of few cells in front of the contact: what twice as many make of it is no measure. */
 static void test_few_cells(const char *model)
 {
@@ -113,6 +144,8 @@ int main(void)
 {
     test_bars(&light, models[0]);
     test_few_cells(models[0]);
+    test_squeezed(1.273, 820.0e6, 0.02);
+    test_squeezed(0, 938.8e6, 0.02);
     for (int k = 0; k < 2; k++) {
         test_bars(&valley, models[k]);
         test_bars(&standstill, models[k]);
