@@ -1,6 +1,6 @@
 #!/bin/sh
-# Plugins compiled against the headers of interfaces 1.0, 1.2 and 1.3 keep today's rules and run in today's
-# program; one that needs a newer interface is refused in one sentence;
+# Plugins compiled against the headers of interfaces 1.0, 1.2 and 1.3, now and when these were frozen (kept/, for
+# x86-64), keep today's rules and run in today's program; one that needs a newer interface is refused in one sentence;
 # docs/abi.md has a section for today's version and names every public header.
 # run.sh FLANKFILM SOURCE_ROOT
 set -eu
@@ -15,10 +15,18 @@ build() { # FILE FOLDER NAME INCLUDE [OPTION]
     ${CC:-cc} -std=c11 -O2 -Wall -Wextra -Werror -fPIC -shared -fvisibility=hidden -I "$include" "$@" \
         -DFROZEN_NAME="\"$name\"" "$source/tests/abi/$file.c" -o "$lab/$folder/$name.so" -lm
 }
-for minor in 0 2 3; do
+plugins="0 2 3 kept-0 kept-2 kept-3"
+[ "$(uname -m)" = x86_64 ] || plugins="0 2 3"
+for plugin in $plugins; do
+    minor=${plugin#kept-}
     name=of-1-$minor
-    build law viscosity $name "$source/tests/abi/1.$minor" -DFROZEN_MINOR=$minor
-    build stage lab $name "$source/tests/abi/1.$minor" -DFROZEN_MINOR=$minor
+    if [ "$plugin" = "$minor" ]; then
+        build law viscosity $name "$source/tests/abi/1.$minor" -DFROZEN_MINOR=$minor
+        build stage lab $name "$source/tests/abi/1.$minor" -DFROZEN_MINOR=$minor
+    else
+        cp "$source/tests/abi/kept/law-1.$minor.so" "$lab/viscosity/$name.so"
+        cp "$source/tests/abi/kept/stage-1.$minor.so" "$lab/lab/$name.so"
+    fi
     cat >"$lab/case.yaml" <<END
 format: 2
 pipeline:
