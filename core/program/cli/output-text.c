@@ -4,33 +4,33 @@
 #include "../accuracy/axis.h"
 #include "../accuracy/lines.h"
 #include "../results/extremes.h"
-#include "../results/number.h"
+#include "../study/kinds/answer/number.h"
 
 #include <math.h>
 #include <string.h>
 
 static const double noise = 1e-9; /* relative; figures show 5 digits at most */
 
-static results_readable unit_of(const ff_port *row, double most)
+static study_readable unit_of(const ff_port *row, double most)
 {
-    return results_readable_output(row->name, row->unit, most);
+    return study_readable_output(row->name, row->unit, most);
 }
 
 /* Numbers of one quantity; what is noise beside the greatest of them is 0. */
 static void print_range(const ff_result *result, double a, double b, char *out, size_t size)
 {
     const double most = fmax(fabs(a), fabs(b)), least = fmin(fabs(a), fabs(b));
-    const results_readable unit = unit_of(result->row, most);
+    const study_readable unit = unit_of(result->row, most);
     /* a number that is small beside the other reads well in a unit of its own */
-    const results_readable first =
+    const study_readable first =
         least >= noise * most && least < 1e-3 * most ? unit_of(result->row, fabs(a)) : unit;
     const char *between = strcmp(first.unit, unit.unit) ? " " : "";
-    char low[RESULTS_NUMBER_SIZE], high[RESULTS_NUMBER_SIZE];
+    char low[STUDY_NUMBER_SIZE], high[STUDY_NUMBER_SIZE];
     const bool constant = b - a <= noise * most;
     a = fabs(a) < noise * most ? first.offset : a * first.factor + first.offset;
     b = fabs(b) < noise * most ? unit.offset : b * unit.factor + unit.offset;
-    results_number_text(a, 4, " ", low);
-    results_number_text(b, constant ? 5 : 4, " ", high);
+    study_number_text(a, 4, " ", low);
+    study_number_text(b, constant ? 5 : 4, " ", high);
     snprintf(out, size, "%s%s%s%s%s%s%s", constant ? "" : low, constant ? "" : between,
              constant || !*between ? "" : first.unit, constant ? "" : " to ", high,
              *unit.unit ? " " : "", unit.unit);
@@ -50,7 +50,7 @@ static void print_where(const ff_pipeline *pipeline, const ff_stage *stage, size
         return;
     }
     double a = axis->data[least], b = axis->data[greatest];
-    results_readable unit = results_readable_unit(axis->row->unit, fmax(fabs(a), fabs(b)));
+    study_readable unit = study_readable_unit(axis->row->unit, fmax(fabs(a), fabs(b)));
     const char *gap = *unit.unit ? " " : "";
     if (briefly)
         snprintf(out, size, "at %.3g and %.3g%s%s", a * unit.factor, b * unit.factor, gap,
@@ -75,10 +75,10 @@ static bool print_pair(const ff_result *result, char *out, size_t size)
     if (result->rank != 1 || result->count != 2)
         return false;
     double a = result->data[0], b = result->data[1];
-    results_readable unit = unit_of(result->row, fmax(fabs(a), fabs(b)));
-    char one[RESULTS_NUMBER_SIZE], other[RESULTS_NUMBER_SIZE];
-    results_number_text(a * unit.factor + unit.offset, 5, " ", one);
-    results_number_text(b * unit.factor + unit.offset, 5, " ", other);
+    study_readable unit = unit_of(result->row, fmax(fabs(a), fabs(b)));
+    char one[STUDY_NUMBER_SIZE], other[STUDY_NUMBER_SIZE];
+    study_number_text(a * unit.factor + unit.offset, 5, " ", one);
+    study_number_text(b * unit.factor + unit.offset, 5, " ", other);
     snprintf(out, size, "[%s, %s]%s%s", one, other, *unit.unit ? " " : "", unit.unit);
     return true;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "spectrum.h"
 
-#include "../results/number.h"
+#include "../study/kinds/answer/number.h"
 #include "../study/kinds/answer/text.h"
 #include "../study/store/journal.h"
 #include "../terminal/terminal.h"
@@ -12,7 +12,7 @@
 
 const char cli_spectrum_files[] = "spectrum.json, spectrum.figure.json, ";
 
-enum { TEXT = RESULTS_QUANTITY_SIZE, NAME = 32, MEAN = 14, EXTREME = 23 }; /* columns */
+enum { TEXT = STUDY_QUANTITY_SIZE, NAME = 32, MEAN = 14, EXTREME = 23 }; /* columns */
 
 static const char *last_word(const char *path)
 {
@@ -20,22 +20,22 @@ static const char *last_word(const char *path)
     return dot ? dot + 1 : path;
 }
 
-static results_readable unit_for(const char *name, const json_t *of)
+static study_readable unit_for(const char *name, const json_t *of)
 {
     double most = fmax(fabs(study_number_of(of, "lowest")), fabs(study_number_of(of, "highest")));
-    return results_readable_output(last_word(name), json_string_value(json_object_get(of, "unit")),
-                                   most);
+    return study_readable_output(last_word(name), json_string_value(json_object_get(of, "unit")),
+                                 most);
 }
 
-static void write_number(double si, results_readable unit, char out[TEXT])
+static void write_number(double si, study_readable unit, char out[TEXT])
 {
-    results_quantity_text(si, &unit, 4, " ", out);
+    study_quantity_text(si, &unit, 4, " ", out);
     if (!isfinite(si))
         strcpy(out, "-");
 }
 
 /* "0.2341 um in row 7" */
-static void write_extreme(const json_t *of, const char *key, results_readable unit, char out[TEXT])
+static void write_extreme(const json_t *of, const char *key, study_readable unit, char out[TEXT])
 {
     char member[32];
     snprintf(member, sizeof member, "%s_row", key);
@@ -50,9 +50,9 @@ static void write_energy(double joule, char out[TEXT])
     if (!isfinite(joule))
         *out = '\0';
     else if (fabs(joule) < 3.6e6)
-        write_number(joule, (results_readable){1e-3, 0, "kJ"}, out);
+        write_number(joule, (study_readable){1e-3, 0, "kJ"}, out);
     else
-        write_number(joule, (results_readable){1 / 3.6e6, 0, "kWh"}, out);
+        write_number(joule, (study_readable){1 / 3.6e6, 0, "kWh"}, out);
 }
 
 static void write_time(const json_t *sums, char out[TEXT])
@@ -62,9 +62,9 @@ static void write_time(const json_t *sums, char out[TEXT])
     if (shares)
         *out = '\0';
     else if (time < 3600)
-        write_number(time, (results_readable){1, 0, "s"}, out);
+        write_number(time, (study_readable){1, 0, "s"}, out);
     else
-        write_number(time, (results_readable){1.0 / 3600, 0, "h"}, out);
+        write_number(time, (study_readable){1.0 / 3600, 0, "h"}, out);
 }
 
 /* The table of the page: a list of name, mean, lowest, highest and energy for each output. */
@@ -75,7 +75,7 @@ static json_t *rows_of(const json_t *sums)
     json_object_foreach(json_object_get(sums, "outputs"), name, of)
     {
         char mean[TEXT], low[TEXT], high[TEXT], energy[TEXT];
-        results_readable unit = unit_for(name, of);
+        study_readable unit = unit_for(name, of);
         write_number(study_number_of(of, "mean"), unit, mean);
         write_extreme(of, "lowest", unit, low);
         write_extreme(of, "highest", unit, high);
@@ -116,9 +116,9 @@ static void print_below(const json_t *sums)
         const char *name = json_string_value(json_object_get(one, "output"));
         double value = study_number_of(one, "limit");
         write_number(value,
-                     results_readable_output(last_word(name),
-                                             json_string_value(json_object_get(one, "unit")),
-                                             fabs(value)),
+                     study_readable_output(last_word(name),
+                                           json_string_value(json_object_get(one, "unit")),
+                                           fabs(value)),
                      limit);
         printf("  %s is below %s for %.4g %% of the time, in %lld of %lld rows\n", name, limit,
                100 * study_number_of(one, "share"),
@@ -191,7 +191,7 @@ typedef struct step {
 } step;
 
 /* For how much of the time an output is below a value. */
-static json_t *curve_of(const study_run *run, const json_t *values, results_readable unit)
+static json_t *curve_of(const study_run *run, const json_t *values, study_readable unit)
 {
     const study_spectrum *s = run->study->spectrum;
     step *steps = memory_alloc((s->count + 1) * sizeof *steps);
@@ -224,7 +224,7 @@ static json_t *figures_of(const study_run *run, const json_t *sums)
     json_object_foreach(json_object_get(sums, "outputs"), name, of)
     {
         const json_t *values = json_object_get(of, "values");
-        results_readable unit = unit_for(name, of);
+        study_readable unit = unit_for(name, of);
         char label[160];
         snprintf(label, sizeof label, *unit.unit ? "%.100s (%.30s)" : "%.100s", last_word(name),
                  unit.unit);

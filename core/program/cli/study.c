@@ -8,10 +8,10 @@
 #include "../memory/memory.h"
 #include "../results/json.h"
 #include "../results/made.h"
-#include "../results/number.h"
 #include "../results/write.h"
 #include "../study/cases/case.h"
 #include "../study/cases/rows.h"
+#include "../study/kinds/answer/number.h"
 #include "../terminal/answer.h"
 
 #include <flankfilm/executor.h>
@@ -148,7 +148,6 @@ static study_run run_of(const cli_session *session, const cli_options *options, 
                               : options->rerun_failed ? STUDY_RERUN_FAILED
                                                       : STUDY_RERUN_NONE,
                      .fail_fast = cli_option(options, "fail-fast") != NULL,
-                     .readable = results_readable_output,
                      .against = results_against};
     if (!options->shards && !session->study->streams)
         cli_shard_find(&run, executor != NULL, session->report);

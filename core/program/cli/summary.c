@@ -8,7 +8,7 @@
 #include "../accuracy/lines.h"
 #include "../memory/memory.h"
 #include "../results/label.h"
-#include "../results/number.h"
+#include "../study/kinds/answer/number.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -61,7 +61,7 @@ static int worst_verdict(const ff_stage *stage)
 
 static void print_stage(paper *page, const ff_stage *stage)
 {
-    results_readable time = results_readable_unit("s", stage->seconds);
+    study_readable time = study_readable_unit("s", stage->seconds);
     int verdict = worst_verdict(stage);
     const char *word = verdict < 0 ? "" : ff_verdict_name(verdict);
     if (stage->status != FF_OK) {
@@ -198,7 +198,7 @@ static void print_limits(const paper *page, const limits_verdict *limits)
     for (size_t i = 0; i < limits->count; i++) {
         const limits_row *row = &limits->rows[i];
         const ff_port *port = row->stage->results[row->output].row;
-        results_readable unit = results_readable_output(port->name, port->unit, fabs(row->value));
+        study_readable unit = study_readable_output(port->name, port->unit, fabs(row->value));
         if (row->standing == LIMITS_MET)
             continue;
         printf("  %s: ", row->name);
@@ -208,10 +208,10 @@ static void print_limits(const paper *page, const limits_verdict *limits)
             puts("not known");
             continue;
         }
-        char number[RESULTS_NUMBER_SIZE];
-        results_number_text(row->value * unit.factor + unit.offset, 5, " ", number);
+        char number[STUDY_NUMBER_SIZE];
+        study_number_text(row->value * unit.factor + unit.offset, 5, " ", number);
         printf("%s%s", isinf(row->bar) ? ">= " : "", number);
-        results_number_text(row->bar * unit.factor, 2, " ", number);
+        study_number_text(row->bar * unit.factor, 2, " ", number);
         if (row->bar > 0 && !isinf(row->bar))
             printf(" +- %s", number);
         printf("%s%s\n", *unit.unit ? " " : "", unit.unit);
@@ -228,8 +228,8 @@ static void print_quality(paper *page, const ff_stage *stage, bool range)
         if (line->verdict == FF_GOOD || line->range != range)
             continue;
         start_line(page);
-        char value[RESULTS_NUMBER_SIZE];
-        results_number_short(line->value, value);
+        char value[STUDY_NUMBER_SIZE];
+        study_number_short(line->value, value);
         int column =
             printf("  %s.%s = %s, held to %.3g: ", stage->name, line->name, value, line->limit);
         if (!range) {
@@ -248,8 +248,8 @@ static void print_accepted(paper *page, const ff_stage *stage)
         if (!line->accepted)
             continue;
         start_line(page);
-        char value[RESULTS_NUMBER_SIZE];
-        results_number_short(line->value, value);
+        char value[STUDY_NUMBER_SIZE];
+        study_number_short(line->value, value);
         terminal_print_wrapped(
             line->accepted,
             printf("  %s.%s = %s, held to %.3g: ", stage->name, line->name, value, line->limit), 4);

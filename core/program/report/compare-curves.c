@@ -70,7 +70,7 @@ static series read_series(report_page *page, size_t index, const char *name)
 }
 
 static json_t *curve_of(const report_design *design, const series *s,
-                        const bool known[REPORT_MARKS], size_t rank, const results_readable *unit)
+                        const bool known[REPORT_MARKS], size_t rank, const study_readable *unit)
 {
     json_t *x = json_array(), *y = json_array();
     const size_t count = report_array_size(&s->y), step = count / 800 + 1;
@@ -100,7 +100,7 @@ static bool draw(study_answer *answer, const results_view_variable *of,
                  const report_design *designs, size_t count, const bool known[REPORT_MARKS])
 {
     json_t *curves = json_array();
-    results_readable unit = {1, 0, of->unit};
+    study_readable unit = {1, 0, of->unit};
     bool good = true;
     for (size_t i = 0; i < count && good; i++) {
         report_page page = {.view = designs[i].view};

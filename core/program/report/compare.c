@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ROOM = 3 * RESULTS_NUMBER_SIZE };
+enum { ROOM = 3 * STUDY_NUMBER_SIZE };
 static const double noise = 1e-12; /* relative, of sums in another order */
 
 /* A number of a design. */
@@ -94,18 +94,18 @@ static bool read_number(const report_design *design, const char *name, part what
 }
 
 /* Prints a number, with its error, in the unit of the row: "0.2481 +- 0.003". */
-static void print_number(number n, const results_readable *unit, bool signs, char out[ROOM])
+static void print_number(number n, const study_readable *unit, bool signs, char out[ROOM])
 {
-    char value[RESULTS_NUMBER_SIZE], bar[RESULTS_NUMBER_SIZE];
-    results_number_text(n.value * unit->factor + (signs ? 0 : unit->offset), 4, " ", value);
-    results_number_text(n.bar * unit->factor, 2, " ", bar);
+    char value[STUDY_NUMBER_SIZE], bar[STUDY_NUMBER_SIZE];
+    study_number_text(n.value * unit->factor + (signs ? 0 : unit->offset), 4, " ", value);
+    study_number_text(n.bar * unit->factor, 2, " ", bar);
     snprintf(out, ROOM, "%s%s%s%s", signs && n.value > 0 ? "+" : "", isnan(n.value) ? "-" : value,
              n.bar > 0 ? " +- " : "", n.bar > 0 ? bar : "");
 }
 
 /* What the difference of a design to the first one is: the bars of both add up, since errors of
    one kind have one sign as often as not. */
-static void print_difference(number first, number other, const results_readable *unit,
+static void print_difference(number first, number other, const study_readable *unit,
                              char out[2 * ROOM])
 {
     const number d = {other.value - first.value, first.bar + other.bar};
@@ -116,8 +116,8 @@ static void print_difference(number first, number other, const results_readable 
     print_number(d, unit, true, text);
     const double share = d.value / fabs(first.value);
     const bool plain = unit->offset == 0 && first.value != 0 && isfinite(share);
-    char percent[RESULTS_NUMBER_SIZE];
-    results_number_text(100 * share, 3, " ", percent);
+    char percent[STUDY_NUMBER_SIZE];
+    study_number_text(100 * share, 3, " ", percent);
     if (fabs(d.value) <= noise * fabs(first.value))
         snprintf(out, 2 * ROOM, "the same");
     else if (fabs(d.value) <= d.bar)
@@ -148,7 +148,7 @@ static bool add_row(json_t *rows, const results_view_variable *of, part what,
         good = read_number(&designs[i], of->name, what, &numbers[i]);
         most = fmax(most, fabs(numbers[i].value));
     }
-    const results_readable unit = results_readable_output(of->output, of->unit, most);
+    const study_readable unit = study_readable_output(of->output, of->unit, most);
     json_t *row = json_pack("{s:s+, s:s, s:s}", "output", of->name, words[what], "unit", unit.unit,
                             "si", of->unit);
     for (size_t i = 0; good && i < count; i++) {

@@ -14,8 +14,8 @@
 
 enum { COLUMNS = 700, MOST_DOTS = 3000, MOST_CELLS = 200 };
 
-report_curve *report_plot_add(report_plot *plot, const results_readable *x_unit, const double *x,
-                              const results_readable *y_unit, const double *y, size_t count)
+report_curve *report_plot_add(report_plot *plot, const study_readable *x_unit, const double *x,
+                              const study_readable *y_unit, const double *y, size_t count)
 {
     if (plot->count == REPORT_MOST_CURVES || count == 0)
         return NULL;
@@ -32,7 +32,7 @@ report_curve *report_plot_add(report_plot *plot, const results_readable *x_unit,
     return curve;
 }
 
-report_curve *report_plot_find(report_plot *plot, const results_readable *unit, const double *y,
+report_curve *report_plot_find(report_plot *plot, const study_readable *unit, const double *y,
                                size_t count, double share)
 {
     for (size_t k = 0; k < plot->count; k++) {
@@ -51,7 +51,7 @@ report_curve *report_plot_find(report_plot *plot, const results_readable *unit, 
     return NULL;
 }
 
-void report_curve_bar(report_curve *curve, const results_readable *y_unit, const double *bar)
+void report_curve_bar(report_curve *curve, const study_readable *y_unit, const double *bar)
 {
     curve->bar = memory_alloc(curve->count * sizeof *curve->bar);
     for (size_t i = 0; i < curve->count; i++)

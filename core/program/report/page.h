@@ -3,8 +3,8 @@
 #ifndef REPORT_PAGE_H
 #define REPORT_PAGE_H
 
-#include "../results/number.h"
 #include "../results/view.h"
+#include "../study/kinds/answer/number.h"
 
 #include <jansson.h>
 #include <stdbool.h>
@@ -47,8 +47,8 @@ void report_part_end(report_page *page, report_part *part);
 
 /* units.c writes numbers as engineers read them. `name` is that of an output or a parameter: it
    tells a temperature from a rise of it. */
-results_readable report_unit_for(const char *name, const char *si_unit, double magnitude);
-double report_convert(const results_readable *unit, double si);
+study_readable report_unit_for(const char *name, const char *si_unit, double magnitude);
+double report_convert(const study_readable *unit, double si);
 enum { REPORT_TEXT_SIZE = 200 };
 void report_number_text(double value, char out[REPORT_TEXT_SIZE]);
 /* Prints an SI value as "22.3 deg". */
@@ -76,7 +76,7 @@ void report_name_point(const results_view *view, size_t index, const bool *dims,
    of all dimensions but a and b, which may be -1. */
 size_t report_case_of(const results_view *view, const bool *dims, size_t k);
 size_t report_first_case(const results_view *view, size_t k, size_t a, int b);
-void report_label(const char *words, const results_readable *unit, char out[REPORT_TEXT_SIZE]);
+void report_label(const char *words, const study_readable *unit, char out[REPORT_TEXT_SIZE]);
 
 /* find.c: finds parts of the results; -1 when they are missing. */
 int report_find_output(const results_view *view, size_t stage, const char *output);
@@ -139,13 +139,13 @@ typedef struct report_plot {
 
 /* Copies the numbers in the units of the figure; returns the curve, or NULL when there is no room.
  */
-report_curve *report_plot_add(report_plot *plot, const results_readable *x_unit, const double *x,
-                              const results_readable *y_unit, const double *y, size_t count);
+report_curve *report_plot_add(report_plot *plot, const study_readable *x_unit, const double *x,
+                              const study_readable *y_unit, const double *y, size_t count);
 /* Finds a curve that is no further from such numbers than a share of its range; NULL: none. */
-report_curve *report_plot_find(report_plot *plot, const results_readable *unit, const double *y,
+report_curve *report_plot_find(report_plot *plot, const study_readable *unit, const double *y,
                                size_t count, double share);
 /* Gives a curve the error bars of its numbers, which are drawn as a band. */
-void report_curve_bar(report_curve *curve, const results_readable *y_unit, const double *bar);
+void report_curve_bar(report_curve *curve, const study_readable *y_unit, const double *bar);
 void report_plot_write(report_page *page, const report_plot *plot);
 void report_plot_free(report_plot *plot);
 
@@ -191,7 +191,7 @@ typedef struct report_scalar {
     size_t variable, count;
     double *values;
     double low, high; /* of those that are known; low > high: none is */
-    results_readable unit;
+    study_readable unit;
     char title[REPORT_TEXT_SIZE], label[REPORT_TEXT_SIZE];
 } report_scalar;
 /* Loads it; values are to be freed. */

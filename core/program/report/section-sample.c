@@ -88,7 +88,7 @@ static void draw_histogram(const report_scalar *f)
 {
     static const char *const names[] = {"5 %", "50 %", "95 %"};
     static const double percents[] = {5, 50, 95};
-    const results_readable one = {1, 0, ""};
+    const study_readable one = {1, 0, ""};
     size_t kept, bins;
     double *list = report_sort(f->values, f->count, &kept), x[MOST_BINS], y[MOST_BINS] = {0};
     report_plot plot = {.count = 0, .from_zero = true};
@@ -158,7 +158,7 @@ static void draw_bars(const report_scalar *f)
     double *x = memory_alloc(count * sizeof *x), *a = memory_alloc(count * sizeof *a);
     double *b = memory_alloc(count * sizeof *b), at[MOST_INPUTS], share[MOST_INPUTS];
     char names[MOST_INPUTS][REPORT_TEXT_SIZE], words[REPORT_TEXT_SIZE];
-    const results_readable one = {1, 0, ""};
+    const study_readable one = {1, 0, ""};
     report_plot plot = {.y0 = -1, .y1 = 1};
     for (size_t i = 0; i < count; i++)
         counts[i] = isfinite(f->values[i]);
@@ -202,7 +202,7 @@ static void draw_dots(const report_scalar *f, const results_view_axis *axis)
     }
     double number;
     const char *end = "";
-    results_readable unit = {1, 0, ""};
+    study_readable unit = {1, 0, ""};
     if (axis->values)
         unit = report_unit_for(axis->path, axis->unit, size);
     else if (ff_number_parse(axis->words[0], &number, &end))

@@ -52,7 +52,7 @@ static const group surface_groups[] = {
 typedef struct figure {
     report_page *page;
     report_plot plot;
-    results_readable x_unit, y_unit;
+    study_readable x_unit, y_unit;
     char x_si[40], y_si[40]; /* "" before the first curve */
     bool alternating;
     bool share;       /* some curve says little where its whole is next to nothing */
@@ -100,7 +100,7 @@ static bool choose_units(figure *d, size_t variable, int axis, const ff_array *x
     snprintf(d->x_si, sizeof d->x_si, "%s", x_si);
     snprintf(d->y_si, sizeof d->y_si, "%s", of->unit);
     d->x_unit = along ? report_unit_for(along->output, along->unit, magnitude(x))
-                      : (results_readable){1, 0, ""};
+                      : (study_readable){1, 0, ""};
     d->y_unit = report_unit_for(of->output, of->unit, magnitude(y));
     report_label(along ? report_output_words(along, words) : report_plain_name(of->dims[0], words),
                  &d->x_unit, d->plot.x_label);

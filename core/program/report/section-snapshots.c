@@ -106,7 +106,7 @@ static void put_base64(FILE *out, const unsigned char *data, size_t size)
 
 /* Writes chosen numbers as little-endian floats; of an array that is not there their ranks. */
 static void put_floats(FILE *out, const ff_array *from, const size_t *chosen, size_t count,
-                       const results_readable *unit)
+                       const study_readable *unit)
 {
     unsigned char *bytes = memory_alloc(4 * count);
     for (size_t i = 0; i < count; i++) {
@@ -125,8 +125,8 @@ static void put_floats(FILE *out, const ff_array *from, const size_t *chosen, si
 
 /* Writes the instants, the places and the fields of a stage. */
 static void put_stage(FILE *out, const stage_fields *m, size_t frames, size_t cells,
-                      const results_readable *at, const results_readable *x,
-                      const results_readable unit[FIELDS])
+                      const study_readable *at, const study_readable *x,
+                      const study_readable unit[FIELDS])
 {
     size_t *chosen = memory_alloc(frames * cells * sizeof *chosen);
     for (size_t k = 0; k < frames; k++)
@@ -191,7 +191,7 @@ static void widen_to_contact(const stage_fields *m, double *from, double *to)
 typedef struct snapshots {
     stage_fields stages[MOST_STAGES];
     size_t count, start; /* start: the frame at which the slider stands first */
-    results_readable x, at, unit[FIELDS];
+    study_readable x, at, unit[FIELDS];
     double film;   /* the largest film in the middle of a contact, SI */
     double x0, x1; /* in the units of the figures */
 } snapshots;
@@ -305,7 +305,7 @@ static void choose_view(snapshots *s)
     double from = INFINITY, to = -INFINITY;
     const report_extremes along = report_find_extremes(&first->x);
     const double reach = fmax(fabs(along.low), fabs(along.high));
-    s->x = first->x.data ? report_unit_for("", "m", reach) : (results_readable){1, 0, ""};
+    s->x = first->x.data ? report_unit_for("", "m", reach) : (study_readable){1, 0, ""};
     for (size_t m = 0; m < s->count; m++) {
         widen_to_contact(&s->stages[m], &from, &to);
         s->film = fmax(s->film, central_film(&s->stages[m]));

@@ -41,7 +41,7 @@ static bool is_stable(const atlas *a, size_t i)
 static void add_part(report_plot *plot, const atlas *a, int period, bool stable)
 {
     double *x = memory_alloc(2 * a->count * sizeof *x), *y = memory_alloc(2 * a->count * sizeof *y);
-    const results_readable hertz = {1, 0, "Hz"}, size = report_unit_for("", "m", 1e-6);
+    const study_readable hertz = {1, 0, "Hz"}, size = report_unit_for("", "m", 1e-6);
     size_t count = 0;
     bool any = false;
     for (size_t i = 0; i < a->count; i++) {
@@ -72,7 +72,7 @@ static void add_part(report_plot *plot, const atlas *a, int period, bool stable)
 static void write_atlas(report_page *page, const atlas *a, const char *stage)
 {
     report_plot plot = {.from_zero = true, .class = "broad"};
-    const results_readable size = report_unit_for("", "m", 1e-6);
+    const study_readable size = report_unit_for("", "m", 1e-6);
     double highest = 0, backlash = report_find_scalar(page, "backlash", 0);
     for (int period = 1; period <= MOST_PERIODS; period++) {
         add_part(&plot, a, period, true);

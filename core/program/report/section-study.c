@@ -46,14 +46,14 @@ static size_t stride_of(const results_view *view, size_t dimension)
 }
 
 /* Writes the label of an axis and returns its unit. */
-static results_readable show_axis(const results_view *view, const results_view_axis *axis,
-                                  char label[REPORT_TEXT_SIZE])
+static study_readable show_axis(const results_view *view, const results_view_axis *axis,
+                                char label[REPORT_TEXT_SIZE])
 {
     double size = 0;
     char words[REPORT_TEXT_SIZE];
     for (size_t i = 0; i < view->lengths[axis->dimension]; i++)
         size = fmax(size, fabs(axis->values[i]));
-    results_readable unit = report_unit_for(axis->path, axis->unit, size);
+    study_readable unit = report_unit_for(axis->path, axis->unit, size);
     report_label(report_plain_name(axis->path, words), &unit, label);
     return unit;
 }
@@ -75,7 +75,7 @@ static void draw_lines(const report_scalar *f, const results_view_axis *axis, si
     double *y = memory_alloc(points * sizeof *y);
     report_plot plot = {.count = 0};
     plot.decades = is_geometric(axis->values, points);
-    results_readable unit = show_axis(view, axis, plot.x_label);
+    study_readable unit = show_axis(view, axis, plot.x_label);
     snprintf(plot.title, sizeof plot.title, "%s", f->title);
     snprintf(plot.y_label, sizeof plot.y_label, "%s", f->label);
     plot.limit_name = report_limit_asked(view, f->variable);
@@ -121,8 +121,8 @@ static void draw_map(const report_scalar *f, const results_view_axis *x, const r
     double *xs = memory_alloc(map.columns * sizeof *xs), *ys = memory_alloc(map.rows * sizeof *ys);
     double *values = memory_alloc(map.columns * map.rows * sizeof *values);
     int32_t *standing = memory_alloc(map.columns * map.rows * sizeof *standing);
-    results_readable x_unit = show_axis(view, x, map.x_label),
-                     y_unit = show_axis(view, y, map.y_label);
+    study_readable x_unit = show_axis(view, x, map.x_label),
+                   y_unit = show_axis(view, y, map.y_label);
     report_name_case(view, first, x->dimension, (int)y->dimension, rest);
     snprintf(map.title, sizeof map.title, *rest ? "%.100s (%.90s)" : "%.100s%s", f->title, rest);
     snprintf(map.value_label, sizeof map.value_label, "%s", f->label);
@@ -170,7 +170,7 @@ static void draw_dots(const report_scalar *f)
     const results_view *view = f->page->view;
     report_plot plot = {.count = 0};
     double *x = memory_alloc(view->case_count * sizeof *x);
-    const results_readable unit = {1, 0, ""};
+    const study_readable unit = {1, 0, ""};
     snprintf(plot.x_label, sizeof plot.x_label, "case");
     for (size_t c = 0; c < view->case_count; c++)
         x[c] = (double)(c + 1);

@@ -13,19 +13,19 @@
 
 enum { ROOM = 44 }; /* of a figure's title */
 
-results_readable report_unit_for(const char *name, const char *si_unit, double magnitude)
+study_readable report_unit_for(const char *name, const char *si_unit, double magnitude)
 {
     static const char *const greek[][2] = {
         {"um", "µm"},       {"us", "µs"},       {"N/um", "N/µm"}, {"mm2/s", "mm²/s"},
         {"kg m2", "kg m²"}, {"kg/m3", "kg/m³"}, {"1/m2", "1/m²"}};
-    results_readable unit = results_readable_output(name, si_unit, fabs(magnitude));
+    study_readable unit = study_readable_output(name, si_unit, fabs(magnitude));
     for (size_t i = 0; i < sizeof greek / sizeof *greek; i++)
         if (!strcmp(unit.unit, greek[i][0]))
             unit.unit = greek[i][1];
     return unit;
 }
 
-double report_convert(const results_readable *unit, double si)
+double report_convert(const study_readable *unit, double si)
 {
     return si * unit->factor + unit->offset;
 }
@@ -33,23 +33,23 @@ double report_convert(const results_readable *unit, double si)
 void report_number_text(double value, char out[REPORT_TEXT_SIZE])
 {
     if (isfinite(value))
-        results_number_text(value, 4, "\u202f", out);
+        study_number_text(value, 4, "\u202f", out);
     else
         strcpy(out, "–");
 }
 
 void report_bar_text(const char *si_unit, double bar, char out[REPORT_TEXT_SIZE])
 {
-    const results_readable unit = report_unit_for("", si_unit, bar);
-    results_quantity_text(bar, &unit, 2, "\u202f", out);
+    const study_readable unit = report_unit_for("", si_unit, bar);
+    study_quantity_text(bar, &unit, 2, "\u202f", out);
 }
 
 void report_quantity_text(const char *name, const char *si_unit, double si,
                           char out[REPORT_TEXT_SIZE])
 {
-    const results_readable unit = report_unit_for(name, si_unit, si);
+    const study_readable unit = report_unit_for(name, si_unit, si);
     if (isfinite(si))
-        results_quantity_text(si, &unit, 4, "\u202f", out);
+        study_quantity_text(si, &unit, 4, "\u202f", out);
     else
         strcpy(out, "\u2013");
 }
@@ -102,7 +102,7 @@ const char *report_axis_word(const results_view_axis *axis, size_t point,
     return out;
 }
 
-void report_label(const char *words, const results_readable *unit, char out[REPORT_TEXT_SIZE])
+void report_label(const char *words, const study_readable *unit, char out[REPORT_TEXT_SIZE])
 {
     snprintf(out, REPORT_TEXT_SIZE, *unit->unit ? "%s (%s)" : "%s", words, unit->unit);
 }

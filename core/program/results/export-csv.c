@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "export-csv.h"
 
-#include "number.h"
+#include "../study/kinds/answer/number.h"
 
 #include "../memory/memory.h"
 #include "../study/cases/csv.h"
@@ -23,8 +23,8 @@ static void put_text(FILE *out, const char *text)
 
 static void put_number(FILE *out, double value)
 {
-    char text[RESULTS_NUMBER_SIZE];
-    results_number_exact(value, text);
+    char text[STUDY_NUMBER_SIZE];
+    study_number_exact(value, text);
     fputs(text, out);
 }
 

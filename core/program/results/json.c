@@ -2,9 +2,9 @@
 #include "json.h"
 
 #include "../memory/memory.h"
+#include "../study/kinds/answer/number.h"
 #include "../study/kinds/kinds.h"
 #include "../terminal/answer.h"
-#include "number.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -78,8 +78,8 @@ void results_json_add_doubts(json_t *answer, const ff_pipeline *pipeline)
             const ff_quality *line = &stage->quality[k];
             if (line->verdict != FF_DOUBTFUL)
                 continue;
-            char value[RESULTS_NUMBER_SIZE];
-            results_number_short(line->value, value);
+            char value[STUDY_NUMBER_SIZE];
+            study_number_short(line->value, value);
             char *text = memory_print_text("%s: doubtful: %s is %s, held to %.3g%s%s", stage->name,
                                            line->name, value, line->limit, line->text ? ": " : "",
                                            line->text ? line->text : "");

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Numbers as text that reads back, and in readable units. */
 #include "../../../core/program/results/label.h"
-#include "../../../core/program/results/number.h"
+#include "../../../core/program/study/kinds/answer/number.h"
 
 #include <check.h>
 #include <float.h>
@@ -13,14 +13,14 @@ static void test_exact(void)
 {
     static const double values[] = {0,       1,       -1,     0.1, 1.0 / 3, 1e23, 1.7e-7,
                                     DBL_MAX, DBL_MIN, 5e-324, 1e9, -2.1e9,  0.3,  0.1 + 0.2};
-    char text[RESULTS_NUMBER_SIZE];
+    char text[STUDY_NUMBER_SIZE];
     for (size_t i = 0; i < sizeof values / sizeof values[0]; i++) {
-        results_number_exact(values[i], text);
+        study_number_exact(values[i], text);
         check_true(text, strtod(text, NULL) == values[i]);
     }
-    results_number_exact(0.3, text);
+    study_number_exact(0.3, text);
     check_true("no more digits than it takes", strcmp(text, "0.3") == 0);
-    results_number_exact((double)NAN, text);
+    study_number_exact((double)NAN, text);
     check_true("none", strcmp(text, "nan") == 0);
 }
 
@@ -74,7 +74,7 @@ static void test_readable(void)
         {"m", 0, 0, "um"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        results_readable r = results_readable_unit(cases[i].si, cases[i].magnitude);
+        study_readable r = study_readable_unit(cases[i].si, cases[i].magnitude);
         check_true(cases[i].si, strcmp(r.unit, cases[i].unit) == 0 &&
                                     fabs(r.factor * cases[i].magnitude - cases[i].number) < 1e-9);
     }

@@ -123,12 +123,6 @@ size_t study_chain_case(const study_definition *study, size_t chain, size_t posi
 enum { STUDY_SOBOL_DIMENSIONS = 16 };
 double study_sobol(uint32_t index, uint32_t dimension, uint64_t seed);
 
-/* number = si * factor + offset, in the unit; "" for a pure number */
-typedef struct study_readable {
-    double factor, offset;
-    const char *unit;
-} study_readable;
-
 /* What to run, and how. */
 struct study_counters;
 typedef struct study_run {
@@ -169,8 +163,6 @@ typedef struct study_run {
     const study_definition *described;
     void (*describe)(void *ctx, const study_definition *study, const study_tally *tally, FILE *out);
     void (*say)(void *ctx, int indent, const char *line); /* prints a line of a driver */
-    /* The unit in which an output of that name and size reads well. */
-    study_readable (*readable)(const char *name, const char *si_unit, double magnitude);
     void (*progress)(void *ctx, const struct study_counters *counters); /* about every second */
     void *ctx;
 } study_run;

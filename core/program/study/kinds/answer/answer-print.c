@@ -2,6 +2,7 @@
 /* Prints a table on the terminal: heads and units above columns that are as wide as they must be.
  */
 #include "answer.h"
+#include "number.h"
 
 #include "../../../memory/memory.h"
 
@@ -25,9 +26,10 @@ static void put_cell(const study_column *c, const json_t *row, char text[CELL])
     bool yes = json_is_true(value);
     if (json_is_boolean(value))
         snprintf(text, CELL, "%s", c->words[yes] ? c->words[yes] : yes ? "1" : "0");
+    else if (json_is_number(value) && c->fixed)
+        snprintf(text, CELL, "%.*f", c->digits, number);
     else if (json_is_number(value))
-        snprintf(text, CELL, c->fixed ? "%.*f" : "%.*g", c->digits || c->fixed ? c->digits : 4,
-                 number);
+        study_number_text(number, c->digits ? c->digits : 4, " ", text);
     else
         snprintf(text, CELL, "%s",
                  json_is_string(value) ? json_string_value(value)

@@ -39,10 +39,10 @@ static json_t *bars_of(const json_t *histogram, study_readable unit)
                      "style", "bars", "x", x, "y", y, "from", from, "to", to);
 }
 
-static json_t *histogram_figure(const study_context *context, const char *name, const json_t *of)
+static json_t *histogram_figure(const char *name, const json_t *of)
 {
     const char *dot = strrchr(name, '.');
-    study_readable unit = study_uncertainty_unit(context, name, of);
+    study_readable unit = study_uncertainty_unit(name, of);
     char label[160];
     snprintf(label, sizeof label, *unit.unit ? "%.100s (%.30s)" : "%.100s", dot ? dot + 1 : name,
              unit.unit);
@@ -142,7 +142,7 @@ void study_uncertainty_draw_limits(study_answer *answer, const json_t *outputs)
 json_t *study_uncertainty_draw(study_answer *answer, const char *name, const json_t *of)
 {
     const json_t *result = answer->value;
-    json_t *figure = study_answer_draw(answer, histogram_figure(answer->context, name, of));
+    json_t *figure = study_answer_draw(answer, histogram_figure(name, of));
     if (json_object_size(json_object_get(of, "shares")))
         study_answer_draw(answer, shares_figure(name, of, study_text_of(result, "shares_by")));
     return figure;

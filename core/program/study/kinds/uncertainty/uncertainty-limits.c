@@ -9,22 +9,20 @@
 /* An error of a third of another adds only 5 % to it. */
 static const double counts_for_nothing = 1 / 3.;
 
-study_readable study_uncertainty_unit(const study_context *context, const char *name,
-                                      const json_t *of)
+study_readable study_uncertainty_unit(const char *name, const json_t *of)
 {
     const char *dot = strrchr(name, '.');
     double mean = study_number_of(json_object_get(of, "mean"), "value");
-    return context->run->readable(dot ? dot + 1 : name, study_text_of(of, "unit"),
-                                  isfinite(mean) ? fabs(mean) : 1);
+    return study_readable_output(dot ? dot + 1 : name, study_text_of(of, "unit"),
+                                 isfinite(mean) ? fabs(mean) : 1);
 }
 
 /* "126.1 nm" */
-static void print_number(const study_context *context, const char *name, const json_t *output,
-                         double si, char text[UNCERTAINTY_TEXT])
+static void print_number(const char *name, const json_t *output, double si,
+                         char text[UNCERTAINTY_TEXT])
 {
-    study_readable unit = study_uncertainty_unit(context, name, output);
-    snprintf(text, UNCERTAINTY_TEXT, "%.4g%s%s", si * unit.factor + unit.offset,
-             *unit.unit ? " " : "", unit.unit);
+    study_readable unit = study_uncertainty_unit(name, output);
+    study_quantity_text(si, &unit, 4, " ", text);
 }
 
 /* Adds the compared models with the difference of their answers, and those that could not be
@@ -153,9 +151,9 @@ json_t *study_uncertainty_limits(const study_uncertainty *u, size_t output, cons
     double by_model = add_models(u, output, nominal, limits, &model);
     char number[UNCERTAINTY_TEXT];
     study_line line = {0};
-    const bool point = !strcmp(study_uncertainty_unit(u->context, name, of).unit, "degC");
+    const bool point = !strcmp(study_uncertainty_unit(name, of).unit, "degC");
     const double kelvin = point ? nominal : (double)NAN;
-    print_number(u->context, name, of, nominal, number);
+    print_number(name, of, nominal, number);
     study_line_add(&line, "%s %s: ", name, isfinite(nominal) ? number : "not known at the medians");
     add_part(&line, numerical, kelvin, "numerical, ", "numerical error not known, ");
     add_part(&line, by_model, kelvin, "model", "no other model compared");

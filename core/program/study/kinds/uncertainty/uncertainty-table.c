@@ -37,12 +37,12 @@ typedef struct statistic {
 
 static json_t *interval_of(const json_t *e, study_readable as)
 {
-    char from[40] = "?", to[40] = "?";
+    char from[STUDY_NUMBER_SIZE] = "?", to[STUDY_NUMBER_SIZE] = "?";
     double low = study_number_of(e, "low"), high = study_number_of(e, "high");
     if (isfinite(low))
-        snprintf(from, sizeof from, "%.4g", low * as.factor + as.offset);
+        study_number_text(low * as.factor + as.offset, 4, " ", from);
     if (isfinite(high))
-        snprintf(to, sizeof to, "%.4g", high * as.factor + as.offset);
+        study_number_text(high * as.factor + as.offset, 4, " ", to);
     return json_sprintf("%9s to %s", from, to);
 }
 
@@ -80,9 +80,9 @@ static void add_shares(json_t *rows, const char *output, const char *input, cons
                                                     json_object_get(share, "total"), percent}));
 }
 
-static json_t *rows_of(const study_context *context, const char *name, const json_t *of)
+static json_t *rows_of(const char *name, const json_t *of)
 {
-    study_readable unit = study_uncertainty_unit(context, name, of), spread = unit;
+    study_readable unit = study_uncertainty_unit(name, of), spread = unit;
     const char *si = study_text_of(of, "unit"), *input;
     json_t *rows = json_array(), *one;
     size_t i;
@@ -131,7 +131,7 @@ static void tell_output(study_answer *answer, const char *name, const json_t *of
 {
     study_context *context = answer->context;
     json_int_t failed = json_integer_value(json_object_get(of, "failed"));
-    json_t *rows = rows_of(context, name, of);
+    json_t *rows = rows_of(name, of);
     json_array_extend(all, rows);
     study_context_print_line(context, 0, "");
     const char *title =

@@ -9,6 +9,7 @@
 #define STUDY_UNCERTAINTY_H
 
 #include "../answer/kind.h"
+#include "../answer/number.h"
 #include "../answer/text.h"
 #include "variate.h"
 
@@ -112,8 +113,7 @@ size_t study_uncertainty_of_word(const study_uncertainty *u, const estimate_samp
 json_t *study_uncertainty_limits(const study_uncertainty *u, size_t output, const json_t *of);
 
 /* The unit in which an output of that name is shown, by the size of its mean. */
-study_readable study_uncertainty_unit(const study_context *context, const char *name,
-                                      const json_t *of);
+study_readable study_uncertainty_unit(const char *name, const json_t *of);
 
 /* uncertainty-table.c: what a study found. */
 void study_uncertainty_reduce(void *study, study_answer *answer);

@@ -7,25 +7,25 @@
 #include <stdlib.h>
 #include <string.h>
 
-void results_number_exact(double value, char out[RESULTS_NUMBER_SIZE])
+void study_number_exact(double value, char out[STUDY_NUMBER_SIZE])
 {
     if (!isfinite(value)) {
         strcpy(out, "nan");
         return;
     }
     for (int digits = 15; digits <= 17; digits++) {
-        snprintf(out, RESULTS_NUMBER_SIZE, "%.*g", digits, value);
+        snprintf(out, STUDY_NUMBER_SIZE, "%.*g", digits, value);
         if (strtod(out, NULL) == value)
             return;
     }
 }
 
 /* Copies digits with a gap between the thousands. */
-static void group(const char *digits, const char *gap, char out[RESULTS_NUMBER_SIZE])
+static void group(const char *digits, const char *gap, char out[STUDY_NUMBER_SIZE])
 {
     const size_t sign = *digits == '-', whole = strspn(digits + sign, "0123456789");
     size_t length = 0;
-    for (size_t i = 0; digits[i] && length + strlen(gap) + 1 < RESULTS_NUMBER_SIZE; i++) {
+    for (size_t i = 0; digits[i] && length + strlen(gap) + 1 < STUDY_NUMBER_SIZE; i++) {
         const size_t left = i < sign + whole ? sign + whole - i : 0;
         if (i > sign && left > 0 && left % 3 == 0)
             for (const char *c = gap; *c; c++)
@@ -35,9 +35,9 @@ static void group(const char *digits, const char *gap, char out[RESULTS_NUMBER_S
     out[length] = '\0';
 }
 
-void results_number_text(double value, int digits, const char *gap, char out[RESULTS_NUMBER_SIZE])
+void study_number_text(double value, int digits, const char *gap, char out[STUDY_NUMBER_SIZE])
 {
-    char text[RESULTS_NUMBER_SIZE];
+    char text[STUDY_NUMBER_SIZE];
     snprintf(text, sizeof text, isfinite(value) ? "%.*g" : "not known", digits, value);
     const double rounded = isfinite(value) ? strtod(text, NULL) : 0;
     const bool large = fabs(rounded) >= 1e4 && fabs(rounded) < 1e9;
@@ -46,12 +46,12 @@ void results_number_text(double value, int digits, const char *gap, char out[RES
     group(text, large ? gap : "", out);
 }
 
-void results_number_short(double value, char out[RESULTS_NUMBER_SIZE])
+void study_number_short(double value, char out[STUDY_NUMBER_SIZE])
 {
-    snprintf(out, RESULTS_NUMBER_SIZE, isfinite(value) ? "%.3g" : "not known", value);
+    snprintf(out, STUDY_NUMBER_SIZE, isfinite(value) ? "%.3g" : "not known", value);
 }
 
-results_readable results_readable_unit(const char *si_unit, double magnitude)
+study_readable study_readable_unit(const char *si_unit, double magnitude)
 {
     const double pi = 3.14159265358979323846;
     /* rows of one unit, in rising order of the magnitude from which they are used */
@@ -86,10 +86,10 @@ results_readable results_readable_unit(const char *si_unit, double magnitude)
         {"Hz", 1e5, 1e-3, "kHz"},
         {"1", 0, 1, ""},
     };
-    results_readable readable = {1, 0, si_unit};
+    study_readable readable = {1, 0, si_unit};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         if (strcmp(rows[i].si, si_unit) == 0 && magnitude >= rows[i].from)
-            readable = (results_readable){rows[i].factor, 0, rows[i].unit};
+            readable = (study_readable){rows[i].factor, 0, rows[i].unit};
     return readable;
 }
 
@@ -103,17 +103,17 @@ static bool is_temperature(const char *name, const char *si_unit)
     return !strcmp(si_unit, "K") && strstr(name, "temperature") && !difference;
 }
 
-results_readable results_readable_output(const char *name, const char *si_unit, double magnitude)
+study_readable study_readable_output(const char *name, const char *si_unit, double magnitude)
 {
-    return is_temperature(name, si_unit) ? (results_readable){1, -273.15, "degC"}
-                                         : results_readable_unit(si_unit, magnitude);
+    return is_temperature(name, si_unit) ? (study_readable){1, -273.15, "degC"}
+                                         : study_readable_unit(si_unit, magnitude);
 }
 
-void results_quantity_text(double si, const results_readable *unit, int digits, const char *gap,
-                           char out[RESULTS_QUANTITY_SIZE])
+void study_quantity_text(double si, const study_readable *unit, int digits, const char *gap,
+                         char out[STUDY_QUANTITY_SIZE])
 {
-    char text[RESULTS_NUMBER_SIZE];
-    results_number_text(si * unit->factor + unit->offset, digits, gap, text);
-    snprintf(out, RESULTS_QUANTITY_SIZE, isfinite(si) && *unit->unit ? "%s %.24s" : "%s", text,
+    char text[STUDY_NUMBER_SIZE];
+    study_number_text(si * unit->factor + unit->offset, digits, gap, text);
+    snprintf(out, STUDY_QUANTITY_SIZE, isfinite(si) && *unit->unit ? "%s %.24s" : "%s", text,
              unit->unit);
 }
