@@ -278,6 +278,14 @@ static ff_status find_swings(const steady *s, const ff_array *in, swings *w, dou
             return ff_failf(s->host, FF_INVALID, "gear.inertia", no_inertia);
         *mass = inertia->data[1] / (radii->data[1] * radii->data[1]);
         const double omega = s->speed > 0 ? s->speed : s->mesh_frequency * 2 * M_PI / teeth;
+        double most = 0;
+        for (size_t i = 0; i < s->of_speed.amplitude.count; i++)
+            most += s->of_speed.amplitude.data[i];
+        if (!(most < omega))
+            return ff_failf(s->host, FF_INVALID, "speed_fluctuation.amplitude",
+                            "the amplitudes sum to %.6g rpm, and the speed is %.6g rpm: gear 1 "
+                            "must not turn back",
+                            most * 30 / M_PI, omega * 30 / M_PI);
         const size_t first = w->count;
         add_swings(&s->of_speed, *mass * base * omega, M_PI / 2, w);
         for (size_t i = first; i < w->count; i++) {

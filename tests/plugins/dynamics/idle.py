@@ -170,6 +170,20 @@ def both_signs():
     report("take dynamics/shooting" in swing(duty, "quasi-static", mass=""), "and the loaded error")
 
 
+def folds():
+    """Swings too small to be felt leave a motion and its folds, whatever mesh cycles they take to repeat themselves."""
+    names = ["motion.fold_frequency", "motion.dte_harmonics", "motion.dte_rms"]
+    none, *others = (run(names, "20 N m", "shooting, damping_ratio: 0.02, max_period: 1",
+                         more=f", torque_fluctuation: {{amplitude: [1e-7 N m], order: [{order}]}}" if order else "") for order in (0, 27, 9))
+    report(len(none["motion.fold_frequency"]) >= 4, f"{len(none['motion.fold_frequency'])} folds")
+    for period, found in zip((1, 3), others):
+        check(f"period {period}: rms", found["motion.dte_rms"], none["motion.dte_rms"], 1e-8)
+        off = max(abs(a / b - 1) for a, b in zip(found["motion.dte_harmonics"], none["motion.dte_harmonics"]))
+        report(off < 1e-6, f"period {period}: harmonics of the mesh frequency, off by {off:.2g}")
+        off = max(min(abs(a / b - 1) for a in found["motion.fold_frequency"]) for b in none["motion.fold_frequency"])
+        report(off < 1e-6, f"period {period}: each fold is there, off by {off:.2g}")
+
+
 def exchanged():
     """Gear 2 written first: the same motion, its swings those of the other gear. Their angle counts from a pair at the start of the profile of
     gear 1, which with a torque below 0 is its end: the contact ratio apart."""
@@ -204,7 +218,8 @@ def idle():
 
 def wrong():
     for more, hint in ((", torque_fluctuation: {amplitude: [1 N m, 2 N m], order: [1]}", "one order for each"), (", speed_fluctuation: {order: [1]}", "one order for each"),
-                       (", torque_fluctuation: {amplitude: [1 N m], order: [1.5]}", "whole")):
+                       (", torque_fluctuation: {amplitude: [1 N m], order: [1.5]}", "whole"),
+                       (", speed_fluctuation: {amplitude: [3000 rpm, 2000 rpm], order: [1, 2]}", "must not turn back")):
         text = run(["motion.dte_rms"], "90 N m", more=more)
         report(isinstance(text, str) and hint in text, f"{more[2:]}: {text if isinstance(text, str) else 'taken'}")
 
@@ -249,5 +264,6 @@ driven()
 both_signs()
 idle()
 wrong()
+folds()
 exchanged()
 sys.exit(failed)
