@@ -223,6 +223,8 @@ static void assemble(solver *v, const instant *at)
     }
     for (size_t i = 1; i < size; i++) {
         double *row = v->matrix + i * size, most = 0;
+        /* of the oil at p = 0: under high pressure hardly any flows, and the imbalance of a film
+           that is not found yet would empty nodes in the middle of the contact */
         double scale = 2 * v->oil[0] * pow(v->h[i], 3) / (v->dx * v->dx);
         if (!(v->p[i] + v->row[i] / scale > 0)) {
             row[i] = 1;

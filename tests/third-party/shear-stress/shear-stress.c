@@ -2,9 +2,16 @@
 /*
  * rating/shear-stress: how far the largest shear stress below a line contact stays from yield.
  *
- * Hertz's pressure p makes a shear stress of 0.300 p at a depth of 0.786 half widths (Johnson 1985,
- * section 4.2). Steel yields in shear at k = HV/6, from HV = 3 Y and Tresca's Y = 2 k. The pressure
- * is that of the film, with its spike; the depth is that of Hertz at the same instant.
+ * The pressure of the film, with its spike, loads a half-space (Johnson 1985, 2.5):
+ *
+ *   sigma_x = -2 z/pi int p(s) (x - s)^2/r^4 ds,   sigma_z = -2 z^3/pi int p(s)/r^4 ds,
+ *   tau_xz = -2 z^2/pi int p(s) (x - s)/r^4 ds,   r^2 = (x - s)^2 + z^2,
+ *
+ * and the largest shear stress of a place is sqrt((sigma_x - sigma_z)^2/4 + tau_xz^2). Under
+ * Hertz's pressure its largest value is 0.300 p_H, 0.786 half widths deep. Steel yields in shear at
+ * k = H/6, from a hardness H = 3 Y and Tresca's Y = 2 k. Friction on the flanks is left out. The
+ * step of the film in question is that of the largest load over half width, to which the half width
+ * is taken from the contact at the same instant.
  */
 #include <flankfilm/author.h>
 #include <flankfilm/history.h>
@@ -15,18 +22,22 @@
 typedef struct stage {
     const ff_host *host;
     double hardness;
+    int64_t points;
 } stage;
 
 static const ff_param params[] = {
     FF_QUANTITY("hardness", "GPa", stage, hardness, FF_REQUIRED, NULL, NULL, 0.5, 20, 1, 10,
                 "hardness of the softer flank: HV 700 is 6.9 GPa"),
+    FF_COUNT("points", stage, points, FF_TUNABLE, "40", NULL, 4, 1000, 0, 0,
+             "places along the half width and down to two of them where the stress is looked at"),
 };
 
-enum { FILM_TIME, PRESSURE, CONTACT_TIME, HALF_WIDTH };
+enum { TIME, X, PRESSURE, CONTACT_TIME, HALF_WIDTH };
 
 static const ff_port inputs[] = {
-    [FILM_TIME] = {.name = "ehl.time", .unit = "s", .dims = "t", .doc = "steps of the film"},
-    [PRESSURE] = {.name = "ehl.p_max", .unit = "Pa", .dims = "t", .doc = "highest pressure"},
+    [TIME] = {.name = "ehl.time", .unit = "s", .dims = "t", .doc = "steps of the film"},
+    [X] = {.name = "ehl.x", .unit = "m", .dims = "x", .doc = "along the motion"},
+    [PRESSURE] = {.name = "ehl.pressure", .unit = "Pa", .dims = "t x", .doc = "of the film"},
     [CONTACT_TIME] = {.name = "contact.time", .unit = "s", .dims = "t", .doc = "instants there"},
     [HALF_WIDTH] = {.name = "contact.hertz_half_width",
                     .unit = "m",
@@ -42,25 +53,65 @@ static const ff_port outputs[] = {
     [SAFETY] = {.name = "safety", .unit = "1", .dims = "", .doc = "k over the largest stress"},
 };
 
+static double load_of(const ff_array *x, const double *p)
+{
+    double load = 0;
+    for (size_t i = 1; i < x->shape[0]; i++)
+        load += (x->data[i] - x->data[i - 1]) * (p[i] + p[i - 1]) / 2;
+    return load;
+}
+
+/* The pressure is constant around each node, which the depth smooths out. */
+static double shear_at(const ff_array *grid, const double *p, double x, double z)
+{
+    double along = 0, down = 0, across = 0;
+    for (size_t i = 1; i + 1 < grid->shape[0]; i++) {
+        double far = x - grid->data[i], r2 = far * far + z * z,
+               share =
+                   p[i] * (grid->data[i + 1] - grid->data[i - 1]) / (3.141592653589793 * r2 * r2);
+        along -= share * z * far * far;
+        down -= share * z * z * z;
+        across -= share * z * z * far;
+    }
+    return hypot((along - down) / 2, across);
+}
+
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const stage *s = self;
-    const double *pressure = in[PRESSURE].data;
-    size_t worst = 0;
-    double half_width;
+    const size_t steps = in[TIME].shape[0], nodes = in[X].shape[0];
+    double *half_width = malloc((steps + 1) * sizeof *half_width), most = 0, stress = 0, depth = 0;
     (void)wanted;
-    for (size_t i = 0; i < in[PRESSURE].shape[0]; i++)
-        worst = pressure[i] > pressure[worst] ? i : worst;
-    if (!in[PRESSURE].shape[0] || !(pressure[worst] > 0 && pressure[worst] < 1e12))
-        return ff_failf(s->host, FF_INVALID, "ehl.p_max", "no pressure loads the flanks");
-    if (ff_history_at(in[CONTACT_TIME].shape[0], in[CONTACT_TIME].data, in[HALF_WIDTH].data, 1,
-                      &in[FILM_TIME].data[worst], &half_width) == FF_INVALID)
-        return ff_failf(s->host, FF_INVALID, "contact.time", "the instants must rise");
-    if (!(half_width >= 0 && half_width < 1e3))
-        return ff_failf(s->host, FF_INVALID, "contact.hertz_half_width", "%g m is no half width",
-                        half_width);
-    const double stress = 0.300 * pressure[worst],
-                 values[] = {stress, 0.786 * half_width, s->hardness / 6 / stress};
+    if (!half_width)
+        return FF_NOMEM;
+    size_t worst = steps;
+    if (ff_history_at(in[CONTACT_TIME].shape[0], in[CONTACT_TIME].data, in[HALF_WIDTH].data, steps,
+                      in[TIME].data, half_width) != FF_INVALID)
+        for (size_t i = 0; i < steps; i++) {
+            double load = load_of(&in[X], in[PRESSURE].data + i * nodes);
+            if (half_width[i] > 1e-9 && half_width[i] < 1 && load / half_width[i] > most &&
+                load < 1e12) {
+                most = load / half_width[i];
+                worst = i;
+            }
+        }
+    double width = worst < steps ? half_width[worst] : 0;
+    free(half_width);
+    if (worst == steps)
+        return ff_failf(s->host, FF_INVALID, "ehl.pressure", "no pressure loads the flanks");
+    for (int64_t i = -s->points; i <= s->points; i++)
+        for (int64_t k = 1; k <= s->points; k++) {
+            double z = 2 * width * (double)k / (double)s->points,
+                   found = shear_at(&in[X], in[PRESSURE].data + worst * nodes,
+                                    width * (double)i / (double)s->points, z);
+            if (found > stress) {
+                stress = found;
+                depth = z;
+            }
+        }
+    if (!(stress > 1 && stress < 1e13))
+        return ff_failf(s->host, FF_INVALID, "ehl.x", "the pressure is not that of a contact");
+    const double values[] = {stress, depth, s->hardness / 6 / stress};
     for (uint32_t i = STRESS; i <= SAFETY; i++)
         if (ff_put_scalar(s->host, i, values[i]) != FF_OK)
             return FF_NOMEM;
@@ -68,8 +119,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 }
 
 FF_MODEL(model, stage, .id = "rating/shear-stress", .version = "1.0.0",
-         .summary = "yield in shear below the surface, by the pressure of the film",
-         .reference = "Johnson 1985, Contact Mechanics, 4.2 and 6.3", .bibtex = "",
+         .summary = "yield in shear below the flanks, by the pressure of the film",
+         .reference = "Johnson 1985, Contact Mechanics, 2.5, 4.2 and 6.3", .bibtex = "",
          .licence = "MIT", .params = FF_TABLE(params), .inputs = FF_TABLE(inputs),
          .outputs = FF_TABLE(outputs), .evaluate = evaluate, .destroy = free);
 FF_EXPORT_MODELS(&model);
