@@ -90,6 +90,7 @@ enum {
     OUT_SINE,
     OUT_PERIOD,
     OUT_DRIVEN_MASS,
+    OUT_LARGEST,
     OUT_COUNT
 };
 
@@ -129,6 +130,10 @@ static const ff_port outputs[] = {
      .doc = "mass that the mesh spring sees where gear 1 turns as it is told, that of gear 2, "
             "I2/rb2^2; 0: both gears are free",
      .dims = ""},
+    {.name = "largest_force",
+     .unit = "N",
+     .doc = "largest line force, without its sign, that the torque swings to; 0: it does not swing",
+     .dims = ""},
 };
 
 static const char no_gear[] = "this output needs a gear: wire `gear` to a stage that offers one";
@@ -138,7 +143,8 @@ static const char no_temperature[] =
 static const char no_inertia[] =
     "speed_fluctuation needs a gear that offers inertia: it swings the mass of gear 2";
 
-#define FLUCTUATES "fluctuation_order|fluctuation_cosine|fluctuation_sine|fluctuation_period"
+#define FLUCTUATES                                                                                 \
+    "largest_force|fluctuation_order|fluctuation_cosine|fluctuation_sine|fluctuation_period"
 
 static ff_status check_fluctuation(const steady *s, const char *name, const fluctuation *f)
 {
@@ -170,7 +176,7 @@ static ff_status ready(void *self)
     const ff_need needs[] = {
         {s->speed > 0, "gear.teeth", "mesh_frequency", no_gear},
         {!(s->speed > 0), "gear.teeth", "speed", no_gear},
-        {1, "gear.base_radius", "line_force|reference_force", no_gear},
+        {1, "gear.base_radius", "line_force|reference_force|largest_force", no_gear},
         {s->of_torque.order.count + s->of_speed.order.count > 0, "gear.base_radius", FLUCTUATES,
          no_gear},
         {s->of_torque.order.count + s->of_speed.order.count > 0, "gear.teeth", FLUCTUATES, no_gear},
@@ -327,10 +333,10 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
                       [OUT_MESH_FREQUENCY] = s->mesh_frequency,
                       [OUT_LINE_FORCE] = 0,
                       [OUT_OIL_TEMPERATURE] = s->oil_temperature,
-                      [OUT_DRIVEN_MASS] = 0};
+                      [OUT_LARGEST] = 0};
     static const uint64_t of_swings = FF_BIT(OUT_ORDER) | FF_BIT(OUT_COSINE) | FF_BIT(OUT_SINE) |
                                       FF_BIT(OUT_PERIOD) | FF_BIT(OUT_DRIVEN_MASS) |
-                                      FF_BIT(OUT_REFERENCE);
+                                      FF_BIT(OUT_REFERENCE) | FF_BIT(OUT_LARGEST);
     double gear = 1;
     swings w = {.count = 0};
     ff_status status = wanted & of_swings ? find_swings(s, in, &w, &value[OUT_DRIVEN_MASS]) : FF_OK;
@@ -354,13 +360,14 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         value[other] =
             s->speed > 0 ? s->speed * gear / (2 * M_PI) : s->mesh_frequency * 2 * M_PI / gear;
     }
-    if (wanted & (FF_BIT(OUT_LINE_FORCE) | FF_BIT(OUT_REFERENCE))) {
+    if (wanted & (FF_BIT(OUT_LINE_FORCE) | FF_BIT(OUT_REFERENCE) | FF_BIT(OUT_LARGEST))) {
         status = from_gear(s, &in[IN_BASE_RADIUS], "gear.base_radius", "line_force", &gear);
         if (status != FF_OK)
             return status;
         value[OUT_LINE_FORCE] = s->torque / gear;
+        value[OUT_LARGEST] = w.count ? largest_force(&w, s->torque / gear) : 0;
         value[OUT_REFERENCE] = s->reference_torque > 0 ? s->reference_torque / gear
-                               : s->torque == 0        ? largest_force(&w, 0)
+                               : s->torque == 0        ? value[OUT_LARGEST]
                                                        : 0;
     }
     if (wanted & FF_BIT(OUT_OIL_TEMPERATURE) && isnan(s->oil_temperature))

@@ -14,12 +14,17 @@ typedef struct levels {
     double force[MOST];
 } levels;
 
+/* Forces F (3 i/9)^2 up to 9 F, or up to more with a power above 2, so that a line force that
+   swings stays below them by a fifth. */
 static levels levels_of(const stiffness_source *s)
 {
-    double F = s->conditions->path.line_force;
+    static const double above = 1.2, square = (MOST - 1) * (MOST - 1) / (double)(MEAN * MEAN);
+    double F = s->conditions->path.line_force, top = above * s->conditions->path.largest;
     levels x = {.source = s, .count = F > 0 ? MOST : 1};
+    const double power = top > square * F && F > 0 ? 2 * log(top / F) / log(square) : 2;
     for (size_t i = 0; i < x.count; i++)
-        x.force[i] = F * (double)(i * i) / (MEAN * MEAN);
+        x.force[i] =
+            power > 2 ? F * pow((double)i / MEAN, power) : F * (double)(i * i) / (MEAN * MEAN);
     return x;
 }
 

@@ -43,8 +43,11 @@ ff_status stiffness_path_read(const ff_host *host, const ff_array *in, stiffness
     /* back flanks meet where the roll angles of gear 1 are the same as driving ones do */
     p->line_force = p->load = fabs(p->line_force);
     double reference = 0;
+    p->largest = 0;
     if (in[STIFFNESS_IN_REFERENCE_FORCE].data)
         status = stiffness_input_read(host, in, STIFFNESS_IN_REFERENCE_FORCE, 0, &reference);
+    if (status == FF_OK && in[STIFFNESS_IN_LARGEST_FORCE].data)
+        status = stiffness_input_read(host, in, STIFFNESS_IN_LARGEST_FORCE, 0, &p->largest);
     if (status != FF_OK)
         return status;
     if (!(reference >= 0))

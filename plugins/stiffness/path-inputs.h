@@ -11,6 +11,7 @@ typedef struct stiffness_path {
     double roll_sap, pitch; /* roll angle at SAP and of one mesh cycle, rad */
     double contact_ratio;   /* (tip - SAP)/pitch */
     double line_force;      /* F, N, at which stiffness and sharing are taken */
+    double largest;         /* N, that the line force swings to; 0: it does not swing */
     double load;            /* N, of both signs of the torque, which the pairs share */
 } stiffness_path;
 

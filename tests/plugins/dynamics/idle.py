@@ -253,6 +253,10 @@ def reference():
     report(run(names, "90 N m", more=", reference_torque: 90 N m") == same, "the torque itself is the preset")
     report(abs(other["motion.dte_rms"] / same["motion.dte_rms"] - 1) > 1e-3, "another one is another stiffness")
     check("its shares are of the load", max(other["mesh.tooth_force"]), max(same["mesh.tooth_force"]), 0.02)
+    swings = run(["mesh.force_level", "duty.largest_force"], "4 N m", more=", torque_fluctuation: {amplitude: [60 N m], order: [2]}")
+    levels = swings["mesh.force_level"]
+    check("the levels hold what the torque swings to", levels[-1], 1.2 * swings["duty.largest_force"], 1e-10)
+    check("and the mean", levels[3] / levels[-1], 4 / (1.2 * 64), 1e-10)
     report("leave reference_torque" in run(["motion.dte_rms"], "90 N m", "quasi-static", more=", reference_torque: 180 N m"), "no error of another load")
     report("reference_torque of the duty" in run(["motion.dte_rms"], motion="shooting", mesh="iso-6336"), "a standard that needs a load names it")
 
