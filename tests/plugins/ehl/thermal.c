@@ -122,6 +122,39 @@ static void test_discretisations(void)
                fabs(friction[1][0] - friction[0][0]) > 3 * fabs(friction[1][1] - friction[0][1]));
 }
 
+/* Friction of a steady film whose oil conducts so; pressure: NULL, or the oil's conductivity over
+ * it. */
+static double friction_of(double conductivity, const char *pressure)
+{
+    line c;
+    open_hot(&c, 256, 0.3);
+    line_eyring(&c, 5e6);
+    stage_close(c.liquid);
+    c.liquid = stage_open("lubricant/grade");
+    stage_set_text(c.liquid, "grade", "ISO VG 320");
+    stage_set(c.liquid, "temperature", T_oil);
+    stage_set(c.liquid, "conductivity", conductivity);
+    if (pressure)
+        stage_set_text(c.liquid, "conductivity_pressure", pressure);
+    stage_run(c.liquid);
+    stage_link(c.oil, "oil", c.liquid);
+    stage_link(c.rho, "oil", c.liquid);
+    check_true("runs", line_run(&c, hot_outputs) == FF_OK);
+    double friction = line_value(&c, "friction_coefficient", 0);
+    line_close(&c);
+    return friction;
+}
+
+/* An oil that conducts twice as well from some 10 MPa on is one that does so at any pressure. */
+static void test_conductivity(void)
+{
+    double plain = friction_of(0.14, NULL), twice = friction_of(0.28, NULL);
+    check_near("friction of conduction that pressure doubles",
+               (friction_of(0.14, "[100 1/GPa, 100 1/GPa]") - plain) / (twice - plain), 1, 0.03);
+    double paraffinic = friction_of(0.14, "[1.72 1/GPa, 0.54 1/GPa]");
+    check_true("that of a paraffinic oil lies between", paraffinic > plain && paraffinic < twice);
+}
+
 /* Constant conditions in time keep the steady film, its heat and its flanks. */
 static void test_time(const char *id)
 {
@@ -289,6 +322,7 @@ int main(void)
 {
     test_without_slope();
     test_orders();
+    test_conductivity();
     test_time("ehl/finite-volume");
     test_time("ehl/control-volume");
     test_discretisations();
