@@ -137,5 +137,6 @@ NORMAL = (
     (rb'\.[0-9]+\.part\b', b'.PID.part'),
     (rb'computed on"?[:,] ?"[^"]*"', b'computed on MACHINE'),
     (rb'"seconds":[0-9.e+-]+', b'"seconds":S'),
+    (rb'note=\{commit [0-9a-f]+(-dirty)?\}', b'note={commit COMMIT}'),
 )
 UNREAD = ('stages',)  # results that cases take over from each other, with times

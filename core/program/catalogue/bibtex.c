@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The literature of models as BibTeX, each entry once. */
+/* Prints the literature of models as BibTeX, each entry once. */
 #include "catalogue.h"
 
 #include <ctype.h>
@@ -7,9 +7,9 @@
 #include <string.h>
 
 typedef struct entry {
-    const char *text; /* from "@" to its last brace */
+    const char *text; /* from "@" to its closing brace */
     size_t length;
-    char *users; /* models and their stages: "kind/name (stage), ..." */
+    char *users; /* models with their stages: "kind/name (stage), ..." */
 } entry;
 
 typedef struct list {
@@ -17,7 +17,8 @@ typedef struct list {
     size_t count;
 } list;
 
-/* Points behind the brace that closes the first one, or to the end of the text. */
+/* Returns the end of the entry, behind the brace that closes its first one, or the end of the
+ * text. */
 static const char *end_of_entry(const char *text)
 {
     int depth = 0;
@@ -29,7 +30,7 @@ static const char *end_of_entry(const char *text)
     return text;
 }
 
-/* Two entries are the same when their keys are, "@article{key", in any case of the letters. */
+/* Two entries are the same if their keys are, "@article{key", whatever the case of letters. */
 static bool is_same_entry(const char *a, const char *b)
 {
     const char *x = strchr(a, '{'), *y = strchr(b, '{');
@@ -60,7 +61,8 @@ static void add_entries(list *l, const char *bibtex, const char *user)
     }
 }
 
-/* Models without BibTeX are named, so that nobody takes the list for complete. */
+/* Adds the entries of a model. Models without BibTeX are named, so that the list is not taken
+ * for complete. */
 static void add_model(list *l, const catalogue_entry *used)
 {
     const ff_model *model = used->model;
@@ -75,25 +77,28 @@ static void add_model(list *l, const catalogue_entry *used)
     free(user);
 }
 
-static void print_all(const list *l, const char *version)
+static void print_all(const list *l, const char *version, const char *commit)
 {
     printf(
         "%% flankfilm itself\n"
         "@software{flankfilm, title={flankfilm: gear vibration and elastohydrodynamic lubrication "
-        "of spur gears}, version={%s}}\n",
+        "of spur gears}, version={%s}",
         version);
+    if (*commit)
+        printf(", note={commit %s}", commit);
+    puts("}");
     for (size_t i = 0; i < l->count; i++)
         printf("\n%% %s\n%.*s\n", l->entries[i].users, (int)l->entries[i].length,
                l->entries[i].text);
 }
 
-void catalogue_print_bibtex(const catalogue *c, const char *version)
+void catalogue_print_bibtex(const catalogue *c, const char *version, const char *commit)
 {
     list l = {.count = 0};
     for (size_t i = 0; i < c->count; i++)
         if (c->entries[i].model)
             add_model(&l, &c->entries[i]);
-    print_all(&l, version);
+    print_all(&l, version, commit);
     for (size_t i = 0; i < l.count; i++)
         free(l.entries[i].users);
     free(l.entries);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the tables of models say, printed for people, editors and other programs. */
+/* Prints the tables of models for people, editors and other programs. */
 #ifndef CATALOGUE_H
 #define CATALOGUE_H
 
@@ -12,39 +12,41 @@
 typedef struct catalogue_entry {
     const char *id;
     const ff_model *model; /* NULL: it cannot be loaded */
-    const char *why;       /* it cannot be; else NULL */
+    const char *why;       /* why it cannot be loaded; else NULL */
     const char *file;      /* path of the plugin; NULL: it cannot be loaded */
     const char *user;      /* the stage of a pipeline that uses it, or "" */
 } catalogue_entry;
 
-/* The models to print, sorted by id, or in the order in which a pipeline uses them. Starts zeroed.
- */
+/* The models to print, sorted by id or in the order in which a pipeline uses them. Starts
+ * zeroed. */
 typedef struct catalogue {
     memory_arena arena;
     catalogue_entry *entries;
     size_t count;
 } catalogue;
 
-/* Adds a model; `loaded` is NULL when it could not be loaded, for the first error of the report. */
+/* Adds a model. `loaded` is NULL if it could not be loaded, for the reason in the first error of
+ * the report. */
 void catalogue_add(catalogue *c, const char *id, const ff_loaded *loaded, const char *user,
                    const ff_report *report);
 void catalogue_free(catalogue *c);
 
-/* Each has a file of its own and prints to stdout, the schema to `out`. With `page` the only entry
-   is printed in full, else all are listed. `version` is that of the program. */
+/* Print to stdout, the schema to `out`; each stands in a file of its own. With `page` the only
+ * entry is printed in full, otherwise all are listed. `version` is that of the program, and
+ * `commit` that of its sources, "" if it is not known. */
 void catalogue_print_text(const catalogue *c, bool page);
 void catalogue_print_markdown(const catalogue *c, bool page);
 void catalogue_print_json(const catalogue *c, bool page, const char *version);
 void catalogue_print_schema(const catalogue *c, const char *version, FILE *out);
-void catalogue_print_bibtex(const catalogue *c, const char *version);
+void catalogue_print_bibtex(const catalogue *c, const char *version, const char *commit);
 
-/* Write what may stand for a parameter, "2 numbers in mm", and its limits, "above 0 to 10;
-   calibrated from 1 to 5", or "" without any. */
+/* Write the type of a parameter's value, "2 numbers in mm", and its limits, "above 0 to 10;
+ * calibrated from 1 to 5", or "" without any. */
 const char *catalogue_type_name(const ff_param *row);
 void catalogue_print_type(const ff_param *row, char *out, size_t size);
 void catalogue_print_limits(const ff_param *row, char *out, size_t size);
 
-/* Length of the kind in "kind/name". */
+/* Returns the length of the kind in "kind/name". */
 size_t catalogue_kind_length(const char *id);
 /* Prints the value and frees it. */
 void catalogue_print_value(json_t *value, size_t flags, FILE *out);

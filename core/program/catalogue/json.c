@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Models as one JSON object. */
+/* Prints models as one JSON object. */
 #include "catalogue.h"
 
 #include "../results/json.h"
@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-/* A model that cannot be loaded is listed with the reason. */
+/* Lists a model; one that cannot be loaded has the reason. */
 static json_t *list_entry(const catalogue_entry *entry)
 {
     json_t *object = json_pack("{s:s}", "id", entry->id);

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The reference pages of the models in Markdown, made from their tables alone. */
+/* Prints the reference pages of models in Markdown, made from their tables alone. */
 #include "catalogue.h"
 
 #include <string.h>
 
-/* Escapes what would end the cell or begin a tag. */
+/* Prints a cell, and escapes what would end it or begin a tag. */
 static void print_cell(const char *text)
 {
     for (; *text; text++)
@@ -104,8 +104,8 @@ static void print_page(const ff_model *model)
     printf("\nVersion %s, licence %s.\n", model->version, model->licence);
 }
 
-/* Prints a line of the list, which leads to the page of the model; `previous` is the id before it,
-   or NULL. */
+/* Prints a line of the list, with a link to the page of the model; `previous` is the id before
+ * it, or NULL. */
 static void print_line(const catalogue_entry *entry, const char *previous)
 {
     const char *id = entry->id, *summary = entry->model ? entry->model->summary : entry->why;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* JSON Schema (draft-07) of the YAML files, made from the tables of all models that are there, so
-   that an editor completes and checks what the program does. */
+/* Makes the JSON Schema (draft-07) of the YAML files from the tables of all installed models, so
+ * that an editor completes and checks the keys and values that the program reads. */
 #include "catalogue.h"
 
 #include "../study/kinds/kinds.h"
@@ -8,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A map that requires no key, since an included file may have it. "x-" keys are the user's own. */
+/* Makes a map without required keys, since an included file may have them. "x-" keys are the
+ * user's own. */
 static json_t *open_map(void)
 {
     return json_pack("{s:s, s:b, s:{s:b}, s:{}}", "type", "object", "additionalProperties", 0,
@@ -32,7 +33,7 @@ static void set_limits(json_t *schema, const ff_param *row)
                             json_real(row->max));
 }
 
-/* A text must look like a number with its unit, or be one of the words. */
+/* Requires a text to look like a number with its unit, or to be one of the words. */
 static void set_pattern(json_t *schema, const ff_param *row, bool bare)
 {
     const char *number = "[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?";
@@ -47,7 +48,8 @@ static void set_pattern(json_t *schema, const ff_param *row, bool bare)
                         json_sprintf("%s%s%s", message, *limits ? ", " : "", limits));
 }
 
-/* A schema for texts, numbers and lists at once: each keyword is about one of them alone. */
+/* Makes a schema for texts, numbers and lists at once: each keyword applies to one of these
+ * types alone. */
 static json_t *number_schema(const ff_param *row, const char *type)
 {
     bool bare = !row->unit[0] || !strcmp(row->unit, "1");
@@ -162,7 +164,7 @@ static json_t *model_schema(const ff_model *model)
     return map;
 }
 
-/* Adds KIND/auto, for a kind of which a model can be chosen, unless it is there already. */
+/* Adds the id KIND/auto, once, if the models of the kind can be chosen by the program. */
 static void add_auto(json_t *ids, const char *id)
 {
     char *name = memory_print_text("%.*s/auto", (int)catalogue_kind_length(id), id);
@@ -175,8 +177,8 @@ static void add_auto(json_t *ids, const char *id)
     free(name);
 }
 
-/* Whether a stage can be fed by it: by data, or by a service that some model takes. Other models
-   serve the program: no file names them. */
+/* Whether the model can feed a stage, by data or by a service that some model takes. Other
+ * models serve the program, and files do not name them. */
 static bool can_feed(const catalogue *c, const ff_model *model)
 {
     for (size_t i = 0; i < model->output_count; i++)
@@ -193,14 +195,16 @@ static bool can_feed(const catalogue *c, const ff_model *model)
     return false;
 }
 
-/* "#/definitions/kind.name", to be freed. Not all editors read the "~1" that stands for "/". */
+/* Returns "#/definitions/kind.name", to be freed. The "/" is replaced, since not all editors
+ * read its escape "~1". */
 static char *place_of(const char *id)
 {
     size_t kind = catalogue_kind_length(id);
     return memory_print_text("#/definitions/%.*s.%s", (int)kind, id, id + kind + 1);
 }
 
-/* A stage has the keys of the model that its `use` names, and sets under `with`. */
+/* Makes the schema of a stage: the keys of the model that its `use` names, and sets under
+ * `with`. */
 static json_t *stage_schema(const catalogue *c, json_t *definitions)
 {
     json_t *ids = json_array(), *cases = json_array(), *with = open_map();
@@ -224,7 +228,7 @@ static json_t *stage_schema(const catalogue *c, json_t *definitions)
                      cases);
 }
 
-/* The keys of a kind of study; those that it reads itself have no type. */
+/* Makes the keys of a kind of study; those that the kind reads itself have no type. */
 static json_t *kind_schema(const study_kind *kind)
 {
     json_t *map = open_map();
@@ -240,7 +244,7 @@ static json_t *kind_schema(const study_kind *kind)
     return map;
 }
 
-/* A study has keys of its own and those of its kinds. */
+/* Makes the schema of a study: its own keys and those of its kinds. */
 static json_t *study_schema(void)
 {
     json_t *map = open_map();

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The list of models, and the manual page that a model's tables make, for a terminal. */
+/* Prints the list of models, and the manual page of a model, for a terminal. */
 #include "catalogue.h"
 
 #include "../terminal/terminal.h"
@@ -8,7 +8,7 @@
 
 enum { NAME = 24, LIST_NAME = 30 };
 
-/* Prints a line of the list, the first one of a kind below the name of the kind. */
+/* Prints a line of the list; the first line of a kind stands below the name of the kind. */
 static void print_entry(const catalogue_entry *entry, const char *before)
 {
     const char *id = entry->id;
@@ -106,7 +106,7 @@ static void print_page(const catalogue_entry *entry)
     printf("\nlicence  %s\nfile     %s\n", model->licence, entry->file);
 }
 
-/* Models that the program itself uses, and no stage can. */
+/* Whether the model serves the program itself and cannot be a stage. */
 static bool is_tool(const char *id)
 {
     static const char *const kinds[] = {"conformance/", "executor/"};
@@ -116,7 +116,7 @@ static bool is_tool(const char *id)
     return false;
 }
 
-/* Lists those that are tools or those that are not, the heading before the first. */
+/* Lists the models that are tools, or the others, below the heading. */
 static void print_list(const catalogue *c, bool tools, const char *heading)
 {
     const char *before = NULL;

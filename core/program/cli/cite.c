@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The command cite: the literature of every model that runs. */
+/* The command cite: the program with version and commit, and the literature of every model that
+ * runs. */
 #include "../catalogue/catalogue.h"
 #include "command.h"
+#include "commit.h"
 
 #include "../accuracy/models.h"
 
 #include <string.h>
 
-/* Adds the models that the cases of a study put into a stage. */
+/* Adds the models that the cases of a study use in a stage. */
 static void add_varied(catalogue *models, cli_session *session)
 {
     study_use at = {0};
@@ -36,7 +38,7 @@ int cli_cite(const cli_options *options)
     if (good)
         add_varied(&models, &session);
     if (good && ff_report_errors(session.report) == 0)
-        catalogue_print_bibtex(&models, CLI_VERSION);
+        catalogue_print_bibtex(&models, CLI_VERSION, CLI_COMMIT);
     else
         code = cli_refuse(session.report, options, "nothing is cited");
     catalogue_free(&models);

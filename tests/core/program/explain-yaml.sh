@@ -62,7 +62,10 @@ same_run "$lab/case/study.yaml"
 
 "$flankfilm" cite configs/li-kahraman-2011.yaml >"$lab/bib"
 [ "$(grep -ci '^@article{likahraman2011,' "$lab/bib")" = 1 ]
-grep -q '^@software{flankfilm,' "$lab/bib"
+# the program itself, with its version and, if the sources know it, their commit
+grep -q "^@software{flankfilm,.* version={$("$flankfilm" --version | cut -d' ' -f2)}" "$lab/bib"
+commit=$(sh core/program/cli/commit.sh .)
+[ -z "$commit" ] || grep -Eq '^@software.* note=\{commit [0-9a-f]{12}(-dirty)?\}\}$' "$lab/bib"
 [ -z "$(grep -o '^@[a-z]*{[^,]*' "$lab/bib" | tr A-Z a-z | sort | uniq -d)" ]
 "$flankfilm" cite configs/studies/film-map.yaml | grep -q 'viscosity/doolittle-tait (study)'
 if "$flankfilm" cite "$lab/case/none.yaml" 2>"$lab/said"; then exit 1; fi
