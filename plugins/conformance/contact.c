@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the history of a contact owes: kinematics and the measures of Hertz. */
+/* Rules for the history of a contact: kinematics and Hertz. */
 #include "evaluation.h"
 #include "offer.h"
 
@@ -102,13 +102,13 @@ static void give_pair(const ff_fixture *fixture)
     conformance_give_series(fixture, "load.tooth_force", STATIONS, force);
 }
 
-/* roll = omega t, u1 = omega R1, u2 = omega z1/z2 R2, w = W/b, at the stations that are given. */
+/* roll = omega t, u1 = omega R1, u2 = omega z1/z2 R2, w = W/b, at the given stations. */
 static void passage(const ff_fixture *fixture)
 {
     conformance_evaluation run;
     if (ff_model_find_input(fixture->model, "load.tooth_force") < 0 ||
         ff_model_find_input(fixture->model, "gear.radius_1") < 0) {
-        fixture->skip(fixture->ctx, NULL); /* it is no pair of teeth */
+        fixture->skip(fixture->ctx, NULL); /* this is no pair of teeth */
         return;
     }
     give_pair(fixture);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a density law owes: positive, not falling with pressure, that of its oil. */
+/* Rules for a density law: positive, not falling with pressure, equal to its oil at ambient
+ * pressure. */
 #include "law-checks.h"
 #include "law-data.h"
 #include "offer.h"
@@ -34,7 +35,7 @@ const size_t conformance_function_count =
 static const double rho = 900;
 static const ff_density liquid = {sizeof liquid, &rho, conformance_constant_law};
 
-/* At p = 0 and at each temperature it is the density of the oil that is wired, or rho0. */
+/* At p = 0 and at each temperature, the law must give the density of the wired oil, or rho0. */
 static void ambient(const ff_fixture *fixture)
 {
     if (conformance_is_oil(fixture, FF_DENSITY_ID, FF_LIQUID_RHO0, 1))

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Draft. What a discretisation of the film owes (film.h): exact films of rigid flanks, and sums
-   over what it gives. */
+/* Draft. Rules for a discretisation of the film (film.h): exact films of rigid flanks, and
+ * balances of an elastic one. */
 #include "film-cases.h"
 #include "offer.h"
 
@@ -36,7 +36,7 @@ static void squeeze(const ff_fixture *fixture)
     film_case_close(&c);
 }
 
-/* Its wedge: Martin's load, w h/(eta u R) = 4.86526 with the inlet at 20 sqrt(2 R h). */
+/* A wedge with Martin's load, w h/(eta u R) = 4.86526 with the inlet at 20 sqrt(2 R h). */
 static void wedge(const ff_fixture *fixture)
 {
     film_case c;
@@ -52,8 +52,8 @@ static void wedge(const ff_fixture *fixture)
     film_case_close(&c);
 }
 
-/* Where shear makes the oil thrice as fluid, the same pressure moves thrice as much: a third of the
-   load. */
+/* If shear makes the oil three times as fluid, the same pressure moves three times as much, so
+ * that the load is a third. */
 static void fluidity(const ff_fixture *fixture)
 {
     film_case c;
@@ -84,7 +84,8 @@ static double deflection_at(const film_case *c, size_t i)
     return -4 / (pi * c->contact.modulus) * sum;
 }
 
-/* An elastic contact: the load, the deflection, and the same flow of oil through each section. */
+/* An elastic contact: checks the load, the deflection, and that the same flow of oil passes each
+ * section. */
 static void elastic(const ff_fixture *fixture)
 {
     film_case c;

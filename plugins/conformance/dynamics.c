@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the motion of a gear pair owes: periodicity, momentum and energy, and exact cases. */
+/* Rules for the motion of a gear pair: periodicity, momentum and energy, and exact cases. */
 #include "evaluation.h"
 #include "offer.h"
 
@@ -10,7 +10,7 @@ static const double backlash = 1e-4; /* m, of the test pair */
 
 static const double pi = 3.14159265358979323846;
 
-/* A pair of 50 teeth, module 3 mm, 20 deg, of constant stiffness. */
+/* A pair of 50 teeth each, module 3 mm, 20 deg, with constant stiffness. */
 typedef struct test_pair {
     double stiffness, mass, load, frequency; /* mesh frequency, Hz */
     double error;                            /* amplitude of e = error cos(2 pi phase) */
@@ -18,7 +18,8 @@ typedef struct test_pair {
 
 static const test_pair plain = {.stiffness = 4e8, .mass = 1, .load = 3000, .frequency = 1000};
 
-/* Double contact for 3/4 of a cycle from SAP, and again before the tip. */
+/* Returns the roll angle of a station, which are spaced for double contact during 3/4 of a cycle
+ * from SAP, and again before the tip. */
 static double roll_of(int station)
 {
     const int part = station / (STATIONS / 3);
@@ -65,7 +66,7 @@ static void give_pair(const ff_fixture *fixture, const test_pair *s)
     conformance_give_series(fixture, "stiffness.loaded_transmission_error", PHASES, loaded);
     conformance_give_series(fixture, "stiffness.tooth_force", STATIONS, force);
     conformance_give_series(fixture, "stiffness.load_share", STATIONS, share);
-    /* the mass is that of the pair, whatever the run has */
+    /* the mass of the test pair, whatever the user's file has */
     fixture->set(fixture->ctx, "equivalent_mass", "1 kg");
 }
 
@@ -73,8 +74,8 @@ static const char wanted[] =
     "phase dte dte_velocity mesh_force dte_rms dte_mean dte_peak_to_peak "
     "period natural_frequency multipliers tooth_force dynamic_factor_tooth";
 
-/* A pair with other freedoms than its rotation finds other places to rest; two multipliers tell
-   that there are none. */
+/* Whether the pair can only rotate. With other freedoms it has other positions of rest; two
+ * multipliers show that there are none. */
 static bool rotates_only(const conformance_evaluation *e)
 {
     size_t numbers = conformance_array_of(e, "multipliers").count;
@@ -99,7 +100,7 @@ static void rest(const ff_fixture *fixture)
            conformance_near(&run, "dte_peak_to_peak", 0,
                             conformance_scalar_of(&run, "dte_peak_to_peak"), 0, deflection, 1e-4);
     double mean = conformance_scalar_of(&run, "dte_mean");
-    /* s counts from the middle of the backlash, or from contact where there is none */
+    /* s counts from the middle of the backlash, or from contact if there is no backlash */
     if (good && fabs(mean - deflection) > 1e-4 * deflection)
         good =
             conformance_near(&run, "dte_mean", 0, mean, deflection + play_half, deflection, 1e-4);
@@ -131,8 +132,8 @@ static harmonic first_harmonic(conformance_array phase, conformance_array y, dou
 
 static const double damping = 0.05, ratio = 0.7; /* of a linear pair: zeta, and f over f_n */
 
-/* A linear pair, that is of constant stiffness, under e = E cos(2 pi phase). False when the model
-   has no inertia, other freedoms or none of the parameters, which has been said. */
+/* Opens a linear pair, of constant stiffness, under e = E cos(2 pi phase). False if the model
+ * has no inertia, has other freedoms or lacks the parameters, which is then reported. */
 static bool open_linear(conformance_evaluation *run, const ff_fixture *fixture, test_pair *s)
 {
     *s = plain;
@@ -153,9 +154,9 @@ static bool open_linear(conformance_evaluation *run, const ff_fixture *fixture, 
     return false;
 }
 
-/* F = (k + i w c)(S - E) and F = m w^2 S in the first harmonic, with w c = 2 zeta r k and
-   m w^2 = r^2 k: the mesh and the mass alike. |S| = E sqrt(1 + d^2)/sqrt((1 - r^2)^2 + d^2),
-   d = 2 zeta r. e is linear between 64 phases: its harmonic is sinc^2(1/64) of the cosine's. */
+/* F = (k + i w c)(S - E) and F = m w^2 S in the first harmonic, with w c = 2 zeta r k and m w^2
+ * = r^2 k, for the mesh and for the mass. |S| = E sqrt(1 + d^2)/sqrt((1 - r^2)^2 + d^2), d = 2
+ * zeta r. e is linear between 64 phases, so that its harmonic is sinc^2(1/64) of the cosine's. */
 static void linear(const ff_fixture *fixture)
 {
     test_pair s;
@@ -192,7 +193,8 @@ static void linear(const ff_fixture *fixture)
     conformance_close(&run);
 }
 
-/* Of the pairs in mesh, at phases away from those where one comes or goes. */
+/* Checks that the tooth forces of the pairs in mesh add up to the mesh force, at phases away
+ * from those at which a pair enters or leaves. */
 static void teeth(const ff_fixture *fixture)
 {
     static const double phases[] = {0.1, 0.3, 0.5, 0.6, 0.85, 0.9};
@@ -207,7 +209,7 @@ static void teeth(const ff_fixture *fixture)
         return;
     for (int i = 0; i < STATIONS; i++)
         stations[i] = roll_of(i);
-    /* also where the model takes no gear: its stations are those of the stiffness */
+    /* if the model takes no gear, its stations are those of the stiffness */
     const conformance_array roll = {stations, STATIONS},
                             tooth = conformance_array_of(&run, "tooth_force"),
                             phase = conformance_array_of(&run, "phase"),
@@ -227,7 +229,7 @@ static void teeth(const ff_fixture *fixture)
     conformance_close(&run);
 }
 
-/* The run's motion, or that of a plain pair. */
+/* Opens the motion of the user's file, or that of a plain pair. */
 static bool open_motion(conformance_evaluation *e, const ff_fixture *fixture)
 {
     void *probe = fixture->open(fixture->ctx);
@@ -240,8 +242,8 @@ static bool open_motion(conformance_evaluation *e, const ff_fixture *fixture)
     return conformance_evaluate(e, fixture, wanted);
 }
 
-/* Position and velocity come back after the period that is stated; a drift that dies out is held
-   to 1e-3 of the motion. Without inertia, position may jump where the stiffness does. */
+/* Position and velocity must return after the stated period; a decaying drift is allowed up to
+ * 1e-3 of the motion. Without inertia, the position may jump with the stiffness. */
 static void periodicity(const ff_fixture *fixture)
 {
     conformance_evaluation run;
@@ -275,15 +277,13 @@ static void periodicity(const ff_fixture *fixture)
     conformance_close(&run);
 }
 
-/*
- * m s'' = F - F_mesh, so that over a period the mean mesh force is the load (momentum), and
- * int (F_mesh - F) s' dt = 0: what stiffness and error put in, damping takes out (energy).
- */
+/* m s'' = F - F_mesh. Over a period the mean mesh force is therefore the load (momentum), and
+ * int (F_mesh - F) s' dt = 0: damping takes out what stiffness and error put in (energy). */
 static void energy(const ff_fixture *fixture)
 {
     conformance_evaluation run;
     if (!conformance_offers(fixture, "dte_velocity")) {
-        fixture->skip(fixture->ctx, NULL); /* no inertia */
+        fixture->skip(fixture->ctx, NULL); /* there is no inertia */
         return;
     }
     if (!open_motion(&run, fixture))
@@ -302,7 +302,7 @@ static void energy(const ff_fixture *fixture)
                b = f.data[i] - load, va = v.data[i - 1], vb = v.data[i];
         impulse += step * (a + b) / 2;
         sway += step * (fabs(a) + fabs(b)) / 2;
-        /* the product of two lines, exactly */
+        /* the exact integral of the product of two lines */
         work += step * (2 * a * va + a * vb + b * va + 2 * b * vb) / 6;
         size += step * (fabs(a * va) + fabs(b * vb)) / 2;
     }
@@ -314,7 +314,7 @@ static void energy(const ff_fixture *fixture)
     conformance_close(&run);
 }
 
-/* The numbers that stand for a series are those of the series. */
+/* Checks that the numbers which summarise a series follow from the series. */
 static void means(const ff_fixture *fixture)
 {
     conformance_evaluation run;
@@ -348,8 +348,8 @@ static void means(const ff_fixture *fixture)
     conformance_close(&run);
 }
 
-/* Under an error that takes the load off, flanks part: they do not pull until the backlash is
-   crossed. A damper may, by 2 zeta r of the swing. */
+/* Under an error that removes the load, flanks part and do not pull until the backlash is
+ * crossed. A damper may pull, by up to 2 zeta r of the swing. */
 static void parting(const ff_fixture *fixture)
 {
     test_pair s = plain;
@@ -359,7 +359,7 @@ static void parting(const ff_fixture *fixture)
     give_pair(fixture, &s);
     fixture->set(fixture->ctx, "damping_ratio", "0.03");
     if (!conformance_offers(fixture, "dte_velocity")) {
-        fixture->skip(fixture->ctx, NULL); /* no inertia */
+        fixture->skip(fixture->ctx, NULL); /* there is no inertia */
         return;
     }
     if (!conformance_evaluate(&run, fixture, wanted))

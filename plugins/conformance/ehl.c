@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a film solution owes: load balance, mass conservation, a limit that is known exactly, and
-   the smooth steady film. */
+/* Rules for a film: load balance, mass conservation, an exact limit, and steady films of an
+ * independent program. */
 #include "evaluation.h"
 #include "offer.h"
 
@@ -10,7 +10,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* Barus' law; alpha 0: isoviscous. */
+/* Barus' law; isoviscous if alpha is 0. */
 typedef struct oil {
     double ln_eta0, alpha; /* 1/Pa */
 } oil;
@@ -70,7 +70,7 @@ static double moes_film(const line_contact *c, double h)
     return h / c->radius / sqrt(2 * c->eta * c->speed / (c->modulus * c->radius));
 }
 
-/* Feeds `times` instants, the load swinging by `swing` of itself. */
+/* Feeds `times` instants whose load swings by the share `swing`. */
 static void give_contact(const ff_fixture *fixture, const line_contact *c, size_t times,
                          double swing)
 {
@@ -95,7 +95,7 @@ static void give_contact(const ff_fixture *fixture, const line_contact *c, size_
     fixture->set(fixture->ctx, "cells", "512");
 }
 
-/* The pressure carries the load at every instant. */
+/* Checks that the pressure carries the load at every instant. */
 static void balance(const ff_fixture *fixture)
 {
     line_contact c;
@@ -128,7 +128,7 @@ static void balance(const ff_fixture *fixture)
     conformance_close(&run);
 }
 
-/* Between the points i - 1 and i. */
+/* The flow between the points i - 1 and i. */
 static double flux_at(const line_contact *c, const double *x, const double *p, const double *h,
                       size_t i)
 {
@@ -137,13 +137,13 @@ static double flux_at(const line_contact *c, const double *x, const double *p, c
            cubes / (12 * c->eta) * (p[i] - p[i - 1]) / (x[i] - x[i - 1]);
 }
 
-/* u h - h^3/(12 eta) dp/dx is the same from the inlet to where the film breaks. */
+/* Checks that u h - h^3/(12 eta) dp/dx is the same from the inlet to where the film ruptures. */
 static void mass(const ff_fixture *fixture)
 {
     line_contact c;
     conformance_evaluation run;
     if (!conformance_offers(fixture, "mass_error")) {
-        fixture->skip(fixture->ctx, NULL); /* it solves no equation of Reynolds */
+        fixture->skip(fixture->ctx, NULL); /* the model solves no Reynolds equation */
         return;
     }
     make_contact(&c, 20, 0);
@@ -222,8 +222,8 @@ static void benchmark(const ff_fixture *fixture)
     }
 }
 
-/* A rigid contact whose load swings faster than oil is squeezed out: the slow film would swing by
-   (1 + s)/(1 - s), as 1/w does; squeeze leaves less than half of that. */
+/* A rigid contact whose load swings faster than oil can be squeezed out. A quasi-steady film
+ * would swing by (1 + s)/(1 - s), as 1/w does; squeeze must leave less than half of that. */
 static void squeeze(const ff_fixture *fixture)
 {
     const double h = 1e-6, swing = 0.5;
@@ -231,7 +231,7 @@ static void squeeze(const ff_fixture *fixture)
     line_contact c;
     conformance_evaluation run;
     if (!conformance_offers(fixture, "mass_error")) {
-        fixture->skip(fixture->ctx, NULL); /* it solves no equation of Reynolds */
+        fixture->skip(fixture->ctx, NULL); /* the model solves no Reynolds equation */
         return;
     }
     make_contact(&c, 1, 0);

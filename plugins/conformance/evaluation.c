@@ -18,7 +18,7 @@ bool conformance_evaluate(conformance_evaluation *e, const ff_fixture *fixture, 
     snprintf(text, sizeof text,
              "evaluate gave the status %d: %s; --pipeline FILE gives real inputs", (int)status,
              why);
-    /* of what is wanted it offers nothing */
+    /* the model offers none of the wanted outputs */
     fixture->skip(fixture->ctx, status == FF_UNSUPPORTED && !why[0] ? NULL : text);
     conformance_close(e);
     return false;

@@ -17,8 +17,8 @@ typedef struct conformance_array {
     size_t count;
 } conformance_array;
 
-/* Opens an instance and evaluates the outputs named. False when there is nothing to look at, which
-   has been said. */
+/* Opens an instance and evaluates the named outputs. False, after a report, if there is nothing
+ * to check. */
 bool conformance_evaluate(conformance_evaluation *e, const ff_fixture *fixture, const char *wanted);
 void conformance_close(conformance_evaluation *e);
 
@@ -27,15 +27,16 @@ double conformance_scalar_of(const conformance_evaluation *e,
                              const char *name); /* NaN: there is none */
 
 bool conformance_offers(const ff_fixture *fixture, const char *output);
-bool conformance_has_all(const conformance_evaluation *e, const char *names); /* each is there */
+/* every one is there */
+bool conformance_has_all(const conformance_evaluation *e, const char *names);
 
-/* |value - expected| <= tolerance * scale, or a fault that names what and where it is. NaN stands
-   for what the model does not offer, which is no fault; that outputs are numbers is tested before.
- */
+/* Checks |value - expected| <= tolerance * scale, and reports a fault that names what and where.
+ * NaN stands for an output that the model does not offer, which is no fault; another test checks
+ * that outputs are numbers. */
 bool conformance_near(const conformance_evaluation *e, const char *what, size_t at, double value,
                       double expected, double scale, double tolerance);
 
-/* y at x, linear between the points of a rising series; 0 outside of it. */
+/* Returns y at x, linear between the points of a rising series; 0 outside of it. */
 double conformance_at(conformance_array x, conformance_array y, double at);
 
 void conformance_give_scalar(const ff_fixture *fixture, const char *input, double value);

@@ -59,8 +59,8 @@ static ff_status shear(const void *self, size_t n, const double *p, const double
     return FF_OK;
 }
 
-/* R = 13 mm, u = 2 m/s, 10 mPa s: rigid with h = 2 um, or elastic at a Hertz pressure of 0.4 GPa.
- */
+/* R = 13 mm, u = 2 m/s, 10 mPa s: rigid with h = 2 um, or elastic with a Hertz pressure of 0.4
+ * GPa. */
 static void set_up(film_case *c, unsigned how)
 {
     const double R = 0.013;
@@ -99,7 +99,7 @@ static void set_up(film_case *c, unsigned how)
                                    .load = pi * a * 4e8 / 2};
 }
 
-/* Rigid flanks begin with a low parabola, elastic ones with Hertz' pressure. */
+/* Starts rigid flanks with a low parabola of pressure, elastic ones with the Hertz pressure. */
 static void guess(film_case *c)
 {
     for (size_t i = 0; i < FILM_NODES; i++) {

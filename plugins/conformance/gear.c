@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a spur gear pair owes: the identities of involutes. */
+/* Rules for a spur gear pair: the identities of involutes. */
 #include "evaluation.h"
 #include "offer.h"
 
@@ -7,8 +7,8 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* Radii of curvature r_b roll, which add up to the line of action between the base circles;
-   base = working pitch radius times cos alpha_w; contact ratio = path over base pitch. */
+/* Radii of curvature are r_b roll and add up to the line of action between the base circles;
+ * base = working pitch radius times cos alpha_w; contact ratio = path over base pitch. */
 static void involute(const ff_fixture *fixture)
 {
     conformance_evaluation run;
@@ -46,7 +46,7 @@ static void involute(const ff_fixture *fixture)
     conformance_close(&run);
 }
 
-/* SAP <= LPSTC <= HPSTC <= tip; stations from SAP to tip; as long as the path of contact. */
+/* SAP <= LPSTC <= HPSTC <= tip; the stations run from SAP to tip and cover the path of contact. */
 static void path(const ff_fixture *fixture)
 {
     conformance_evaluation run;
@@ -102,8 +102,8 @@ static bool ends_at_tips(const conformance_evaluation *run)
     return true;
 }
 
-/* r_b = z m cos(alpha)/2, the centres are the pitch circles apart, 2/E' = sum (1 - nu^2)/E,
-   m = I1 I2/(I1 r_b2^2 + I2 r_b1^2). */
+/* r_b = z m cos(alpha)/2; the centre distance is the sum of the pitch radii; 2/E' = sum (1 -
+ * nu^2)/E; m = I1 I2/(I1 r_b2^2 + I2 r_b1^2). */
 static void pair(const ff_fixture *fixture)
 {
     const double module = 4e-3, angle = 22 * pi / 180, within = 1e-9;

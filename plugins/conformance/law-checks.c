@@ -83,7 +83,7 @@ static batch batch_draw(const ff_fixture *fixture, const conformance_function *f
     return b;
 }
 
-/* What a call leaves out: NULL for the optional argument and for the derivatives. */
+/* What a call omits, as NULL: the optional argument, the derivatives. */
 enum { WITH_OPTIONAL = 1, WITH_DERIVATIVES = 2, WITH_ALL = 3, CHOICES = 4 };
 
 static ff_status call(const conformance_function *function, const void *table, const batch *b,
@@ -98,7 +98,7 @@ static ff_status call(const conformance_function *function, const void *table, c
     return function->call(table, b->n, in, speed, out);
 }
 
-/* A test of one function, by its table and one speed. */
+/* A test of one function, with the service's table and one speed. */
 typedef bool function_test(checking *, const conformance_function *, const void *, double);
 
 /* Tests the functions of the service of one output. */
@@ -178,7 +178,7 @@ void conformance_check_empty(const ff_fixture *fixture)
     for_each_function(fixture, empty);
 }
 
-/* Vector code may round differently from scalar code. */
+/* Whether two results agree; vector code may round differently from scalar code. */
 static bool agree(double a, double b)
 {
     return a == b || fabs(a - b) <= 1e-12 * fmax(fabs(a), fabs(b)) || (isnan(a) && isnan(b));
@@ -237,7 +237,7 @@ void conformance_check_guards(const ff_fixture *fixture)
     for_each_function(fixture, guards);
 }
 
-/* "p = 1e9, T = 300". */
+/* Prints a point: "p = 1e9, T = 300". */
 static const char *point_text(const conformance_function *function, const double *point,
                               char text[160])
 {
@@ -265,7 +265,7 @@ static bool check_finite(checking *c, const conformance_function *function, cons
     return true;
 }
 
-/* Every combination of extremes, and points between. */
+/* Tests every combination of extremes, and points between. */
 static bool extremes(checking *c, const conformance_function *function, const void *table,
                      double speed)
 {
@@ -308,7 +308,7 @@ static bool derivatives(checking *c, const conformance_function *function, const
             double scale = axis->scale > 0 ? axis->scale : 10;
             double x = l.point[l.axis], h = 0.02 * (axis->logarithmic ? x : scale);
             conformance_value_at(&l, x, out);
-            /* twice, so that a kink in the reach of the first is no fault */
+            /* twice, so that a kink within the first step is no fault */
             if (conformance_compare_slope(&l, out[i], h, &found) == 1 &&
                 conformance_compare_slope(&l, out[i], h / 8, &found) == 1)
                 return ff_check_failf(
@@ -391,7 +391,7 @@ void conformance_check_physics(const ff_fixture *fixture)
     for_each_function(fixture, physics);
 }
 
-/* One thread's share of the work. */
+/* The share of one thread in the work. */
 typedef struct shift {
     const conformance_function *function;
     const void *table;
@@ -410,7 +410,7 @@ static bool same(const conformance_function *function, const batch *a, const bat
     return true;
 }
 
-/* Long enough to be interrupted in the middle of calls where there is one processor only. */
+/* Long enough to be interrupted during calls even on a single processor. */
 static void *work(void *argument)
 {
     shift *mine = argument;
@@ -456,7 +456,7 @@ static bool purity(checking *c, const conformance_function *function, const void
     return good;
 }
 
-/* Another instance, made later with other parameters, must not be felt. */
+/* Checks that another instance, made later with other parameters, has no effect. */
 static bool apart(checking *c, const conformance_function *function, const void *table,
                   double speed)
 {

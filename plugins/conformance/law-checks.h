@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Checks that any law stands, of its functions as arrays in and arrays out. Each plugin of a kind
-   of law defines conformance_functions and is linked with law-checks.c. */
+/* Checks for any law of its functions, which take and give arrays. Each plugin of a kind of law
+ * defines conformance_functions and is linked with law-checks.c. */
 #ifndef LAW_CHECKS_H
 #define LAW_CHECKS_H
 
@@ -13,10 +13,10 @@ enum { CONFORMANCE_AXES = 4, CONFORMANCE_RESULTS = 4, CONFORMANCE_SPEEDS = 3 };
 /* An argument. */
 typedef struct conformance_axis {
     const char *name;
-    double low, high; /* where a law is meant to be used */
-    bool logarithmic; /* also the scale of its differences */
-    double scale;     /* of its differences where it is not; 0: 10 of its unit */
-    bool optional;    /* NULL is legal */
+    double low, high; /* the range in which a law is meant to be used */
+    bool logarithmic; /* logarithmic axis, also for the steps of differences */
+    double scale;     /* of the steps of differences if the axis is linear; 0: 10 of its unit */
+    bool optional;    /* may be NULL */
     const double *extremes;
     size_t extreme_count;
 } conformance_axis;
@@ -26,14 +26,14 @@ typedef struct conformance_function {
     size_t size; /* of the table of the service */
     const conformance_axis *axes[CONFORMANCE_AXES];
     size_t axis_count;
-    const char *results[CONFORMANCE_RESULTS]; /* the value, then its derivatives by axis `by` */
+    const char *results[CONFORMANCE_RESULTS]; /* the value, then its derivatives over axis `by` */
     size_t by[CONFORMANCE_RESULTS];
     size_t result_count;
     double speeds[CONFORMANCE_SPEEDS]; /* of the scalar argument */
     size_t speed_count;
-    bool positive;      /* the value */
-    bool rising;        /* the value, along axis 0 */
-    bool follows_speed; /* the value has the sign of the scalar argument */
+    bool positive;      /* the value must be positive */
+    bool rising;        /* the value must not fall along axis 0 */
+    bool follows_speed; /* the value must have the sign of the scalar argument */
     ff_status (*call)(const void *table, size_t n, const double *const *in, double speed,
                       double *const *out);
 } conformance_function;
@@ -50,7 +50,7 @@ void conformance_check_continuity(const ff_fixture *fixture);
 void conformance_check_physics(const ff_fixture *fixture);
 void conformance_check_purity(const ff_fixture *fixture);
 
-/* The rows of these in a table of checks. */
+/* The rows of these checks in a table of checks. */
 #define CONFORMANCE_LAW_CHECKS                                                                     \
     {"empty", "a batch of no points is legal", conformance_check_empty},                           \
         {"guards", "writes its results and nothing else", conformance_check_guards},               \
@@ -63,8 +63,8 @@ void conformance_check_purity(const ff_fixture *fixture);
         "purity", "gives the same answers again, and in two threads", conformance_check_purity     \
     }
 
-/* law-common.c: arguments of several laws, and one of them: the `eval` of a law of p and T that is
-   the number self points at. */
+/* law-common.c: arguments that several laws share, and the `eval` of a law of p and T whose value
+ * is the number that `self` points to. */
 extern const conformance_axis conformance_pressure, conformance_temperature, conformance_ln_eta,
     conformance_film, conformance_stress;
 

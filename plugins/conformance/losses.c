@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Draft. What the losses of a mesh owe: energy. */
+/* Draft. Rules for the losses of a mesh: energy. */
 #include "evaluation.h"
 #include "offer.h"
 
@@ -7,8 +7,8 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* The power that torque brings is lost or goes on; and the mean loss is the work of one pair,
-   int P b d(roll)/omega, once in each pitch 2 pi/(z omega). */
+/* The power of the torque is either lost or passed on; the mean loss is the work of one pair,
+ * int P b d(roll)/omega, once in each pitch 2 pi/(z omega). */
 static void energy(const ff_fixture *fixture)
 {
     enum { POINTS = 65 };

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Draft. What an oil owes: positive properties, and a viscosity that does not rise with
-   temperature. */
+/* Draft. Rules for an oil: positive properties, and a viscosity that does not rise with
+ * temperature. */
 #include "law-checks.h"
 #include "law-data.h"
 #include "offer.h"
@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-/* The data of an oil need not tell a property, or at one temperature alone. */
+/* Whether the oil knows a property; its data may lack one, or give it at one temperature only. */
 static bool is_known(const ff_liquid *oil, int32_t what)
 {
     const double T[2] = {313.15, 373.15};
@@ -18,7 +18,7 @@ static bool is_known(const ff_liquid *oil, int32_t what)
     return !isnan(value[0]) && !isnan(value[1]);
 }
 
-/* In place of what is not known stands a constant. */
+/* Evaluates a property; a constant replaces what is not known. */
 static ff_status property(const void *table, int32_t what, size_t n, const double *T, double sign,
                           double *const *out)
 {
@@ -94,7 +94,7 @@ const conformance_function conformance_functions[] = {
 const size_t conformance_function_count =
     sizeof conformance_functions / sizeof conformance_functions[0];
 
-/* An oil that temperature does not change; of its thermal data nothing is known. */
+/* An oil that does not change with temperature and knows no thermal data. */
 static ff_status plain_eval(const void *self, int32_t what, size_t n, const double *T,
                             double *value, double *slope)
 {
@@ -125,8 +125,8 @@ static double at(const ff_liquid *oil, int32_t what, double T)
     return value;
 }
 
-/* A grade is the kinematic viscosity at 40 degC (ISO 3448); alpha holds at alpha_at; warm oil is no
-   heavier. */
+/* A grade has its kinematic viscosity at 40 degC (ISO 3448); alpha is valid at alpha_at; warm
+ * oil is not heavier. */
 static void data(const ff_fixture *fixture)
 {
     void *instance;

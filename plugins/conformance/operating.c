@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What an operating point owes: power that flows through the mesh. */
+/* Rules for an operating point: the power that flows through the mesh. */
 #include "evaluation.h"
 #include "offer.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Draft. What a rating owes: it rises and falls with what its standard says. */
+/* Draft. Rules for a rating: how it rises and falls with what its standard names. */
 #include "evaluation.h"
 #include "offer.h"
 
@@ -8,7 +8,7 @@
 
 enum { MOST = 100000 };
 
-/* `safety` with one input multiplied by a factor, or NaN: nothing can be said. */
+/* Returns `safety` with one input multiplied by a factor; NaN: it cannot be said. */
 static double safety_at(const ff_fixture *fixture, const char *input, double factor)
 {
     conformance_evaluation run;
@@ -37,8 +37,8 @@ static double safety_at(const ff_fixture *fixture, const char *input, double fac
     return safety;
 }
 
-/* Half the film, or half as much again of load or roughness, is never safer. Each input is put back
-   to what it was. */
+/* Half of the film, or 1.5 times the load or roughness, must not be safer. Each input is
+ * restored afterwards. */
 static void order(const ff_fixture *fixture)
 {
     static const struct {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a rheology owes: shear makes the film no thicker than a Newtonian one, whichever way it
- * goes. */
+/* Rules for a rheology: shear never makes the oil stiffer than a Newtonian one, in either
+ * direction. */
 #include "law-checks.h"
 #include "law-data.h"
 #include "offer.h"
@@ -182,7 +182,7 @@ static void newtonian(const ff_fixture *fixture)
     fixture->close(fixture->ctx, instance);
 }
 
-/* At a point, too, shear thins: |rate| >= |tau|/eta; the rate is odd in tau. */
+/* Shear thins at a point, too: |rate| >= |tau|/eta; the rate is odd in tau. */
 static void check_rate(const ff_fixture *fixture, const ff_rheology_2 *law)
 {
     double ln_eta = -7 + 20 * fixture->random(fixture->ctx),
@@ -201,7 +201,7 @@ static void check_rate(const ff_fixture *fixture, const ff_rheology_2 *law)
                        rate, tau, rate_back);
 }
 
-/* Not every rheology offers it. */
+/* Checks rates; not every rheology offers them. */
 static void check_rates(const ff_fixture *fixture)
 {
     void *instance = fixture->open(fixture->ctx);
@@ -217,7 +217,7 @@ static void check_rates(const ff_fixture *fixture)
     fixture->close(fixture->ctx, instance);
 }
 
-/* psi is the slope of the rate over the stress, and both follow from u_s/h alone. */
+/* Checks that psi is the slope of the rate over the stress, and that both depend on u_s/h alone. */
 static void check_tangent(const ff_fixture *fixture, const ff_rheology *law)
 {
     const double d = 1e-4;

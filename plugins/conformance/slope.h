@@ -15,8 +15,9 @@ typedef struct conformance_line {
 
 double conformance_value_at(const conformance_line *l, double x, double out[CONFORMANCE_RESULTS]);
 
-/* Compares a derivative with differences about the point, first over `h`. 0: agrees; 1: does not;
-   2: the differences are too rough to tell, as beside a kink. *found: the differences' answer. */
+/* Compares a derivative with differences about the point, the first over `h`. 0: agrees; 1: does
+ * not; 2: the differences are too rough to tell, as beside a kink. *found: the result of the
+ * differences. */
 int conformance_compare_slope(const conformance_line *l, double claimed, double h, double *found);
 
 #endif

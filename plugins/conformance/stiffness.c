@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a mesh stiffness owes: positive, periodic, in balance with the load. */
+/* Rules for a mesh stiffness: positive, periodic, in balance with the load. */
 #include "evaluation.h"
 #include "offer.h"
 
@@ -43,7 +43,8 @@ static void give_gear(const ff_fixture *fixture)
     conformance_give_scalar(fixture, "operating.line_force", 3500);
 }
 
-/* The run's gear, or a plain one; outputs at the definition that e_l = e + F/k is written for. */
+/* Opens the gear of the user's file, or a plain one, with the definition for which e_l = e + F/k
+ * holds. */
 static bool open_secant(conformance_evaluation *e, const ff_fixture *fixture)
 {
     void *probe = fixture->open(fixture->ctx);
@@ -55,7 +56,8 @@ static bool open_secant(conformance_evaluation *e, const ff_fixture *fixture)
     return conformance_evaluate(e, fixture, NULL);
 }
 
-/* k > 0 from phase 0 to 1; ends meet unless phase 0 is a breakpoint; the mean is the mean. */
+/* Checks that k > 0 from phase 0 to 1, that its ends meet unless phase 0 is a breakpoint, and
+ * that the stated mean is the mean of the series. */
 static void periodic(const ff_fixture *fixture)
 {
     conformance_evaluation run;
@@ -91,7 +93,8 @@ static void periodic(const ff_fixture *fixture)
     conformance_close(&run);
 }
 
-/* Linear between stations; *beside: the jump at a station twice is near. */
+/* Returns the force at a roll angle, linear between stations; *beside: a jump, at a repeated
+ * station, is near. */
 static double at_roll(conformance_array roll, conformance_array force, double angle, bool *beside)
 {
     size_t i = 1;
@@ -104,7 +107,8 @@ static double at_roll(conformance_array roll, conformance_array force, double an
 }
 
 /* At every phase the forces of the pairs in contact add up to the load; tooth_force = load_share
-   times the load; e_l = e + F/k. Where a pair comes or goes, interpolation says nothing. */
+ * times the load; e_l = e + F/k. Phases at which a pair enters or leaves are left out, since
+ * interpolation fails there. */
 static void balance(const ff_fixture *fixture)
 {
     enum { PHASES = 97 };
@@ -144,10 +148,10 @@ static void balance(const ff_fixture *fixture)
     conformance_close(&run);
 }
 
-/* Where a pair comes or goes, its own stiffness does not: k times its share is the same on either
-   side of the station, but for the contact under another load. So the share falls where k rises, at
-   the phases that the contact ratio says; loads, ramps and deviations blur that, but not by 1.75.
- */
+/* The stiffness of a pair does not change when another pair enters or leaves: k times its share
+ * is the same on either side of the station, except for the contact, whose load changes. So the
+ * share must fall where k rises, at the phases given by the contact ratio; loads, ramps and
+ * deviations blur that by less than a factor of 1.75. */
 static void pairs(const ff_fixture *fixture)
 {
     conformance_evaluation run;
@@ -176,7 +180,7 @@ static void pairs(const ff_fixture *fixture)
             good = false;
         }
     double one = (fmod(ratio, 1) + 1) / 2, two = fmod(ratio, 1) / 2, stiff[2] = {0}, part[2] = {0};
-    for (int i = -2; i <= 2; i++) { /* a few phases in the middle of either part */
+    for (int i = -2; i <= 2; i++) { /* a few phases in the middle of each part */
         double at[] = {one + 0.02 * i, two + 0.02 * i};
         for (int n = 0; n < 2 && good; n++) {
             stiff[n] += conformance_at(phase, k, at[n]) / 5;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Draft. What a record of roughness owes: heights that are as rough as it says. */
+/* Draft. Rules for a record of roughness: the heights are as rough as stated. */
 #include "evaluation.h"
 #include "offer.h"
 
 #include <math.h>
 #include <string.h>
 
-/* The rms about the mean, of heights in equal steps over whole periods. */
+/* Returns the rms about the mean, for heights in equal steps over whole periods. */
 static double rms(conformance_array height)
 {
     double mean = 0, square = 0;
@@ -17,8 +17,8 @@ static double rms(conformance_array height)
     return sqrt(square);
 }
 
-/* A record that repeats ends a step before its period, and its rq is that of its heights. One that
-   does not repeat, a dent, is not roughness. */
+/* Checks a periodic record: it ends one step before its period, and rq is that of its heights. A
+ * record that does not repeat, such as a dent, is no roughness. */
 static void record(const ff_fixture *fixture)
 {
     conformance_evaluation run;

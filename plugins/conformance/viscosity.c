@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a viscosity law owes: it does not fall with pressure nor rise with temperature, and is that
-   of its oil. */
+/* Rules for a viscosity law: it does not fall with pressure or rise with temperature, and equals
+ * its oil at ambient pressure. */
 #include "law-checks.h"
 #include "law-data.h"
 #include "offer.h"
@@ -37,12 +37,12 @@ const size_t conformance_function_count =
 static const double ln_eta = -4;
 static const ff_viscosity oil = {sizeof oil, &ln_eta, conformance_constant_law};
 
-/* At p = 0 and at each temperature it is the viscosity of the oil that is wired, or eta0. */
+/* At p = 0 and at each temperature, the law must give the viscosity of the wired oil, or eta0. */
 static void ambient(const ff_fixture *fixture)
 {
     if (!conformance_is_oil(fixture, FF_VISCOSITY_ID, FF_LIQUID_LN_ETA0, 0.01))
         return;
-    /* what laws want to know that have no oil */
+    /* parameters that laws without an oil require */
     static const char *const known[][2] = {
         {"alpha", "20 1/GPa"}, {"at", "40 degC"}, {"base", "paraffinic"}};
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
@@ -63,7 +63,7 @@ static double star_of(const ff_viscosity *law)
     return 3 / (step * sum);
 }
 
-/* To 15 %, which is what laws that meet neither exactly are off by. */
+/* Checks a coefficient to 15 %, within which laws are that match neither definition exactly. */
 static bool rises(const ff_fixture *fixture, const ff_viscosity *law, double alpha,
                   const char *whose)
 {
@@ -76,7 +76,8 @@ static bool rises(const ff_fixture *fixture, const ff_viscosity *law, double alp
                1e9 * slope, 1e9 * star, whose, 1e9 * alpha);
 }
 
-/* What a law calls alpha is its slope at p = 0 or its alpha*; without one it is that of the oil. */
+/* The alpha of a law is its slope at p = 0 or its alpha*; a law without an alpha has that of the
+ * oil. */
 static void coefficient(const ff_fixture *fixture)
 {
     void *instance;

@@ -52,13 +52,13 @@ static ff_status wire(void *self, uint32_t input, const void *service)
     return FF_OK;
 }
 
-/* Parameters that only mean something together: `mate` needs `with`. */
+/* Refuses a parameter whose companion is missing: `mate` needs `with`. */
 static ff_status check_company(const constant_contact *s)
 {
     const struct {
         const char *with, *mate;
         double with_value, mate_value;
-        bool both; /* `with` needs `mate` too */
+        bool both; /* `with` also needs `mate` */
     } company[] = {
         {"radius_1", "radius_2", s->radius_1, s->radius_2, true},
         {"speed_1", "speed_2", s->speed_1, s->speed_2, true},

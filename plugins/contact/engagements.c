@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Picks engagements evenly from a long motion. */
 #include "engagements.h"
 
 #include <assert.h>
 #include <math.h>
 
-/*
- * Of a motion that nearly repeats itself after 2, 3 or 4 mesh cycles, equal steps would always meet
- * the same part. The place within each of the equal parts therefore moves on by the golden section,
- * whose multiples fill the unit interval evenly (Kronecker's sequence; Niederreiter 1992, ch. 3).
- */
+/* If a motion nearly repeats after 2, 3 or 4 mesh cycles, equal steps would always pick the same
+ * phase of it. So the place within each of the equal parts moves by the golden section, whose
+ * multiples fill the unit interval evenly (Kronecker's sequence; Niederreiter 1992, ch. 3). */
 size_t contact_engagements_pick(size_t available, size_t most, size_t *picked)
 {
     assert(most >= 1);
@@ -17,7 +16,7 @@ size_t contact_engagements_pick(size_t available, size_t most, size_t *picked)
     for (size_t i = 0, next = 0; i < count; i++) {
         double share = fmod(golden * (double)i, 1);
         size_t pick = (size_t)(((double)i + share) * (double)available / (double)count);
-        size_t last = available - (count - i); /* leaves one for each that is still to be picked */
+        size_t last = available - (count - i); /* leaves one for each remaining part */
         pick = pick < next ? next : pick > last ? last : pick;
         picked[i] = count == available ? i : pick;
         next = pick + 1;

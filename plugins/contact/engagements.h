@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which engagements of a motion of many mesh cycles stand for all. */
+/* Chooses the engagements that represent a motion of many mesh cycles. */
 #ifndef CONTACT_ENGAGEMENTS_H
 #define CONTACT_ENGAGEMENTS_H
 
@@ -9,12 +9,13 @@
 enum { CONTACT_ENGAGEMENTS_ALL = -1 };
 
 typedef struct contact_engagement_choice {
-    int64_t one;  /* the number of one, or CONTACT_ENGAGEMENTS_ALL */
-    int64_t most; /* of all */
+    int64_t one;  /* number of a single engagement, or CONTACT_ENGAGEMENTS_ALL */
+    int64_t most; /* upper limit, if all are meant */
 } contact_engagement_choice;
 
-/* Picks at most `most` >= 1 of the `available` ones, in their order: all, or one of each of `most`
-   equal parts of the motion. `picked` holds the smaller of both numbers, which is given back. */
+/* Picks at most `most` >= 1 of the `available` engagements, in order: all of them, or one from
+ * each of `most` equal parts of the motion. `picked` has room for the smaller of both numbers,
+ * which is returned. */
 size_t contact_engagements_pick(size_t available, size_t most, size_t *picked);
 
 #endif

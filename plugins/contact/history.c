@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Outputs of a contact over time: Hertz pressure, half width, Moes numbers. */
 #include "history.h"
 
 #include "../numerics/isothermal.h"
@@ -68,11 +69,11 @@ const ff_port contact_outputs[CONTACT_OUTPUTS] = {
      .dims = ""},
 };
 
-enum { PANELS = 512 }; /* of Simpson's rule, an even number */
+enum { PANELS = 512 }; /* for Simpson's rule, an even number */
 
-/* Film-forming coefficient alpha* (reciprocal asymptotic isoviscous pressure; Blok 1963),
-   1/alpha* = int_0^inf eta0/eta dp, over t from 0 to 1 with p = t/((1 - t) slope), slope = d ln
-   eta/dp at p = 0. It is 0 where eta does not rise. */
+/* Film-forming pressure coefficient alpha* (reciprocal asymptotic isoviscous pressure; Blok
+ * 1963), 1/alpha* = int_0^inf eta0/eta dp, integrated over t from 0 to 1 with p = t/((1 - t)
+ * slope), slope = d ln eta/dp at p = 0. If eta does not rise, it is 0. */
 static ff_status film_coefficient(const ff_viscosity *law, double ln_eta0, double slope,
                                   double *alpha)
 {
@@ -91,7 +92,7 @@ static ff_status film_coefficient(const ff_viscosity *law, double ln_eta0, doubl
     return status;
 }
 
-/* eta0 and alpha* at the temperature of the oil, or, where none is wired, of the law. */
+/* Reads eta0 and alpha* at the temperature of the oil or, if no oil is wired, of the law. */
 static ff_status read_viscosity(contact_history *h, const ff_viscosity *law, const ff_array *oil)
 {
     numerics_answers answers = {.status = FF_OK};
@@ -190,7 +191,7 @@ ff_status contact_history_set(contact_history *h, size_t i, const contact_point 
         if (h->series[k])
             h->series[k][i] = value[k];
     }
-    if (w > 1e-200) /* below it the products underflow */
+    if (w > 1e-200) /* smaller products underflow */
         h->hertz_error = fmax(h->hertz_error, fabs(M_PI / 2 * a * p / w - 1));
     return FF_OK;
 }

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * What every contact model gives: the history of one line contact, with its Hertz pressure and its
- * Moes numbers. Rows before CONTACT_SERIES_END are series over time, except the reduced modulus.
- */
+/* Outputs of every contact model: the history of one line contact, with Hertz pressure and Moes
+ * numbers. Rows before CONTACT_SERIES_END are series over time, except the reduced modulus. */
 #ifndef CONTACT_HISTORY_H
 #define CONTACT_HISTORY_H
 
@@ -27,7 +25,7 @@ enum {
     CONTACT_MOES_L,
     CONTACT_GAP,
     CONTACT_REDUCED_MODULUS,
-    CONTACT_ROLL_ANGLE, /* this and those after it: of a tooth pair alone */
+    CONTACT_ROLL_ANGLE, /* this row and those after it are given for tooth pairs only */
     CONTACT_ENGAGEMENT,
     CONTACT_SERIES_END,
     CONTACT_ENGAGEMENTS_JUDGED = CONTACT_SERIES_END,
@@ -37,7 +35,7 @@ enum {
 
 extern const ff_port contact_outputs[CONTACT_OUTPUTS];
 
-/* One instant, in SI units. radius_1, radius_2 and speed_1 + speed_2 are above 0, load >= 0. */
+/* One instant, in SI. radius_1, radius_2 and speed_1 + speed_2 are positive, load >= 0. */
 typedef struct contact_point {
     double time, roll_angle, engagement;
     double radius_1, radius_2, speed_1, speed_2;
@@ -48,20 +46,20 @@ typedef struct contact_history {
     const ff_host *host;
     double *series[CONTACT_SERIES_END]; /* NULL: not wanted */
     double reduced_modulus;
-    double eta0, alpha; /* Pa s; alpha*, 1/Pa; both 0 where no Moes number is wanted */
-    double hertz_error; /* largest relative error of w = pi a p_H/2 */
+    double eta0, alpha; /* eta0 in Pa s; alpha*, 1/Pa; both 0 if no Moes number is wanted */
+    double hertz_error; /* largest relative error of the load pi a p_H/2 against w */
 } contact_history;
 
-/* Takes memory for the wanted outputs, `count` instants long. `law` may be NULL when no Moes number
-   is wanted. */
+/* Allocates the wanted outputs for `count` instants. `law` may be NULL if no Moes number is
+ * wanted. */
 ff_status contact_history_open(contact_history *h, const ff_host *host, uint64_t wanted,
                                size_t count, double reduced_modulus, const ff_viscosity *law,
                                const ff_array *oil);
 
-/* Sets the wanted outputs of instant i; refuses one with a number that is not finite. */
+/* Sets the wanted outputs of instant i. Refuses an instant with a number that is not finite. */
 ff_status contact_history_set(contact_history *h, size_t i, const contact_point *point);
 
-/* Reports as quality how well Hertz pressure and half width carry the load. */
+/* Reports as quality how well Hertz pressure and half width balance the load. */
 void contact_history_report(const contact_history *h);
 
 #endif

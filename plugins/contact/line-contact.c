@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Elastic moduli of a line contact without gears. */
 #include "line-contact.h"
 
 #include "../numerics/isothermal.h"

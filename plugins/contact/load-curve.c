@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Interpolates a force over the roll angle, with jumps and loss of contact. */
 #include "load-curve.h"
 
 #include "../numerics/interval.h"
@@ -36,8 +37,8 @@ double contact_pieces_make_ramps(size_t count, contact_piece *pieces, double wid
     return most;
 }
 
-/* Continues the line of the forces at `last` and at the station before it, in the direction of
-   `step`, over the two stations without force that follow it before `end`. */
+/* Extrapolates the line through the forces at `last` and at the station before it, in the
+ * direction of `step`, to the next two stations, which are without force, up to `end`. */
 static void continue_line(const double *angle, const double *force, ptrdiff_t last, ptrdiff_t step,
                           ptrdiff_t end, double *value)
 {
@@ -45,7 +46,7 @@ static void continue_line(const double *angle, const double *force, ptrdiff_t la
     ptrdiff_t i = last + step;
     for (int count = 0; count < 2 && i != end && force[i] == 0; count++, i += step) {
         double line = force[last] + slope * (angle[i] - angle[last]);
-        if (line < 0) /* of two lines the one nearer to 0 */
+        if (line < 0) /* if two lines meet, the one nearer to 0 holds */
             value[i] = value[i] < 0 ? fmax(value[i], line) : line;
     }
 }
@@ -70,7 +71,7 @@ static double cubic_at(size_t n, const double *x, const double *y, const double 
     size_t i = numerics_interval(n, x, at);
     double h = x[i + 1] - x[i], t = (at - x[i]) / h, rise = y[i + 1] - y[i];
     double d0 = h * slope[i] - rise, d1 = rise - h * slope[i + 1];
-    /* cubic Hermite polynomial as the chord and what departs from it */
+    /* cubic Hermite polynomial, as the chord plus the deviation from it */
     return y[i] + t * rise + t * (1 - t) * ((1 - t) * d0 + t * d1);
 }
 
@@ -79,7 +80,7 @@ static double piece_value(const contact_load_curve *c, const contact_piece *p, d
     size_t k = p->first;
     double value = cubic_at(p->last - k + 1, c->angle + k, c->value + k, c->slope + k,
                             fmin(fmax(angle, c->angle[k]), c->angle[p->last]));
-    return value < 0 ? 0 : value; /* NaN passes, and is refused by contact_history_set */
+    return value < 0 ? 0 : value; /* NaN passes here and is refused by contact_history_set */
 }
 
 double contact_load_at(const contact_load_curve *c, double angle)
@@ -112,7 +113,7 @@ double contact_load_error(const contact_load_curve *c)
     for (size_t k = 0; k < c->piece_count; k++) {
         for (size_t i = c->pieces[k].first; i + 6 <= c->pieces[k].last; i++) {
             double x[4], y[4], slope[4];
-            for (size_t j = 0; j < 4; j++) { /* stations i, i + 2, i + 4, i + 6 */
+            for (size_t j = 0; j < 4; j++) { /* of the stations i, i + 2, i + 4, i + 6 */
                 x[j] = c->angle[i + 2 * j];
                 y[j] = c->value[i + 2 * j];
             }

@@ -15,8 +15,8 @@
 
 static const double degree = M_PI / 180;
 
-/* Width of a step of the load over the length of the path. Zones up to twice as long are left out,
-   so that steps always fit. */
+/* Width of the ramp of a load step, relative to the length of the path. Zones up to twice that
+ * length are left out, so that ramps always fit. */
 static const double step_width = 1e-6;
 
 enum { P_LOAD_RAMP };
@@ -61,8 +61,8 @@ static ff_status wire(void *self, uint32_t input, const void *service)
     return FF_OK;
 }
 
-/* Roll angles at which the history needs an instant: SAP, both ends of each ramp, tip. `breaks`
-   holds 2 count. */
+/* Lists the roll angles at which the history needs an instant: SAP, both ends of each ramp, tip.
+ * `breaks` has room for 2 count angles. */
 static size_t list_breakpoints(const contact_piece *pieces, size_t count,
                                const contact_tooth_path *p, double *breaks)
 {
@@ -82,8 +82,8 @@ static int by_angle(const void *a, const void *b)
     return (*one > *other) - (*one < *other);
 }
 
-/* Adds the roll angles at which the load begins and ends, while half of the instants that are left
-   stay free for the rest. One that another breakpoint is next to needs none. */
+/* Adds the roll angles at which the load begins and ends, as long as half of the remaining
+ * instants stay free for the rest. Angles next to another breakpoint are not added. */
 static size_t add_load_ends(const contact_load_curve *force, size_t points, double *breaks,
                             size_t count)
 {
@@ -104,13 +104,13 @@ static size_t add_load_ends(const contact_load_curve *force, size_t points, doub
 
 /* One engagement of the load. */
 typedef struct engagement {
-    double number, begin; /* begin: time of the history at which it begins, s */
+    double number, begin; /* `begin`: time of the history at which it begins, s */
     contact_load_curve force, gap;
 } engagement;
 
 static contact_point point_at(const contact_tooth_path *p, const engagement *e, double angle)
 {
-    /* the radii of involute flanks are linear in the roll angle, so this is exact */
+    /* exact, since the radii of involute flanks are linear in the roll angle */
     size_t i = numerics_interval(p->n, p->angle, angle);
     double width = p->angle[i + 1] - p->angle[i];
     double t = width > 0 ? (angle - p->angle[i]) / width : 0;
@@ -122,7 +122,7 @@ static contact_point point_at(const contact_tooth_path *p, const engagement *e, 
         .radius_2 = p->radius_2[i] + t * (p->radius_2[i + 1] - p->radius_2[i]),
         .load_per_width = contact_load_at(&e->force, angle) / p->face_width,
     };
-    /* along the flank a surface moves at the speed of its gear times its radius of curvature */
+    /* the surface speed along the flank is the gear's speed times the radius of curvature */
     point.speed_1 = p->speed * point.radius_1;
     point.speed_2 = p->speed * p->ratio * point.radius_2;
     if (e->gap.value)
@@ -130,7 +130,7 @@ static contact_point point_at(const contact_tooth_path *p, const engagement *e, 
     return point;
 }
 
-/* What exchanged gears have, told of gear 1 and gear 2 as they are. */
+/* Converts a point of exchanged gears back to gear 1 and gear 2 of the user. */
 static contact_point of_gears(const contact_tooth_path *p, contact_point point)
 {
     const contact_point as = point;
@@ -144,15 +144,15 @@ static contact_point of_gears(const contact_tooth_path *p, contact_point point)
     return point;
 }
 
-/* The history as it is written, and integrals of the load over the roll angle. */
+/* The history being written, and integrals of the load over the roll angle. */
 typedef struct load_record {
     contact_history history;
-    size_t instants;   /* written so far */
-    double angle;      /* of the last of them, rad */
-    double load;       /* per width, there, N/m */
-    double load_sum;   /* N rad, of the load that the pair bears */
-    double negative;   /* N rad, of the force below 0, which it does not bear */
-    double top, error; /* largest force, largest error between stations, N */
+    size_t instants;   /* number written so far */
+    double angle;      /* of the last instant, rad */
+    double load;       /* per width, at that angle, N/m */
+    double load_sum;   /* N rad, integral of the load that the pair carries */
+    double negative;   /* N rad, integral of negative forces, which the pair does not carry */
+    double top, error; /* largest force, and largest error between stations, N */
 } load_record;
 
 static ff_status add_instant(load_record *r, const contact_tooth_path *p, const engagement *e,
@@ -166,8 +166,8 @@ static ff_status add_instant(load_record *r, const contact_tooth_path *p, const 
     return contact_history_set(&r->history, r->instants++, &point);
 }
 
-/* Spreads the instants of an engagement evenly between the breakpoints, as many as the angle
-   between them is worth. */
+/* Distributes the instants of an engagement evenly between its breakpoints, in proportion to the
+ * angle between them. */
 static ff_status add_instants(const tooth_pair *s, const contact_tooth_path *p, const engagement *e,
                               const double *breaks, size_t break_count, load_record *r)
 {
@@ -176,7 +176,7 @@ static ff_status add_instants(const tooth_pair *s, const contact_tooth_path *p, 
     size_t done = 0;
     ff_status status = add_instant(r, p, e, breaks[0]);
     for (size_t k = 1; k < break_count && status == FF_OK; k++) {
-        size_t most = points - (break_count - k); /* leaves one for each breakpoint still to come */
+        size_t most = points - (break_count - k); /* leaves one for each remaining breakpoint */
         double share = round((breaks[k] - breaks[0]) * per_angle);
         size_t end = (size_t)fmin(fmax(share, (double)(done + 1)), (double)most);
         double step = (breaks[k] - breaks[k - 1]) / (double)(end - done);
@@ -188,7 +188,8 @@ static ff_status add_instants(const tooth_pair *s, const contact_tooth_path *p, 
     return status;
 }
 
-/* Makes the ramps half as wide as fits, so that half of the shortest zone is left free of them. */
+/* Makes the ramps half as wide as would fit, so that half of the shortest zone stays free of
+ * them. */
 static void shrink_ramps(const tooth_pair *s, contact_piece *pieces, size_t count, double most)
 {
     char text[200];
@@ -221,7 +222,7 @@ static ff_status make_ramps(const tooth_pair *s, const contact_tooth_path *p, co
                     s->load_ramp / degree, most / degree);
 }
 
-/* Takes in the largest force and error of one engagement, and its forces below 0. */
+/* Updates the largest force and error, and the negative forces, with those of one engagement. */
 static void add_force_extremes(load_record *r, const contact_tooth_path *p, const double *f,
                                const contact_load_curve *force)
 {
@@ -254,8 +255,8 @@ static void report_engagements(const tooth_pair *s, const contact_tooth_path *p)
                      text);
 }
 
-/* Over whole periods the mean of the mesh force is F, since the gears gain no speed. A force below
-   0 bears on the other flank and is not a load of this one. */
+/* Reports the load as quality. Over whole periods the mean of the mesh force is F, since the
+ * gears do not accelerate. A negative force acts on the other flank and is no load of this one. */
 static void report_load(const tooth_pair *s, const contact_tooth_path *p, const load_record *r)
 {
     const double limit = 0.01, turns = p->pitch * (double)p->count;
@@ -281,7 +282,7 @@ static void report_load(const tooth_pair *s, const contact_tooth_path *p, const 
 static ff_status report(const tooth_pair *s, const contact_tooth_path *p, const load_record *r,
                         uint64_t wanted)
 {
-    /* the Hertz pressure is off by half as much */
+    /* the relative error of the Hertz pressure is half of that */
     const double limit = 0.02;
     double error = r->top > 0 ? r->error / r->top : 0;
     s->host->quality(s->host->ctx, "load_interpolation", error, limit,
@@ -308,7 +309,8 @@ static void set_slopes(const contact_load_curve *curve, double *slope)
     }
 }
 
-/* `curves` holds 3 n numbers, `breaks` 3 n, and `pieces` n/2 pieces, for n stations. */
+/* Makes the history for n stations; `curves` has room for 3 n numbers, `breaks` for 3 n, and
+ * `pieces` for n/2 pieces. */
 static ff_status make_history(const tooth_pair *s, const contact_tooth_path *p, uint64_t wanted,
                               contact_piece *pieces, double *curves, double *breaks)
 {
@@ -360,7 +362,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         goto out;
     pieces = malloc((p.n / 2) * sizeof *pieces);
     curves = malloc(3 * p.n * sizeof *curves);
-    breaks = malloc(3 * p.n * sizeof *breaks); /* and those of an engagement */
+    breaks = malloc(3 * p.n * sizeof *breaks); /* including those of an engagement */
     status =
         pieces && curves && breaks ? make_history(s, &p, wanted, pieces, curves, breaks) : FF_NOMEM;
 out:

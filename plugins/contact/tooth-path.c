@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads the path of contact and the forces of a tooth pair. */
 #include "tooth-path.h"
 
 #include "../numerics/isothermal.h"
@@ -62,7 +63,7 @@ const ff_port contact_tooth_inputs[CONTACT_TOOTH_INPUTS] = {
     NUMERICS_OIL_ROWS,
 };
 
-/* A scalar or the first two of a series, each finite and above 0. */
+/* Reads a scalar, or the first two numbers of a series; each must be finite and positive. */
 static ff_status read_positive(const ff_host *host, const ff_array *in, uint32_t row, size_t count,
                                double *value)
 {
@@ -81,7 +82,8 @@ static ff_status read_positive(const ff_host *host, const ff_array *in, uint32_t
     return FF_OK;
 }
 
-/* A series over the stations, or one for each of several engagements, whose number is given. */
+/* Reads a series over the stations, or one for each of several engagements, whose number is
+ * returned. */
 static ff_status read_series(const ff_host *host, const ff_array *in, uint32_t row, size_t n,
                              double least, const double **series, size_t *engagements)
 {
@@ -95,7 +97,7 @@ static ff_status read_series(const ff_host *host, const ff_array *in, uint32_t r
     if (engagements)
         *engagements = count;
     *series = a->data;
-    const double most = 1e100; /* slopes between stations stay finite too */
+    const double most = 1e100; /* keeps the slopes between stations finite */
     for (size_t i = 0; i < count * n; i++) {
         double value = (*series)[i];
         if (!(value >= least && value <= most))
@@ -176,7 +178,7 @@ ff_status contact_tooth_path_read(const ff_host *host, const ff_array *in,
     if (status == FF_OK)
         status = read_positive(host, in, CONTACT_TOOTH_SPEED, 1, &p->speed);
     const double *force = in[CONTACT_TOOTH_LINE_FORCE].data;
-    p->line_force = force && *force > 0 ? *force : 0; /* unloaded gears have nothing to hold */
+    p->line_force = force && *force > 0 ? *force : 0; /* unloaded gears have no reference force */
     p->ratio = teeth[0] / teeth[1];
     p->pitch = 2 * M_PI / teeth[0];
     return status == FF_OK ? read_stations(host, in, wanted, p) : status;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The inputs of a tooth pair: the path of contact, and the forces of the engagements. */
+/* Inputs of a tooth pair: the path of contact, and the forces of the engagements. */
 #ifndef CONTACT_TOOTH_PATH_H
 #define CONTACT_TOOTH_PATH_H
 
@@ -31,15 +31,15 @@ typedef struct contact_tooth_path {
     size_t n; /* stations */
     const double *angle, *radius_1, *radius_2;
     const double *force, *gap; /* gap NULL: none */
-    size_t gaps;               /* engagements that have one of their own */
-    size_t available, count;   /* engagements of the load, and those that are taken */
+    size_t gaps;               /* engagements that have a gap of their own */
+    size_t available, count;   /* engagements in the load, and those that are used */
     size_t *engagement;        /* their numbers */
     double pitch;              /* roll angle from one pair to the next, rad */
-    double face_width, ratio;  /* omega2 / omega1 */
+    double face_width, ratio;  /* ratio: omega2 / omega1 */
     double speed, reduced_modulus;
     double line_force;          /* N; 0: not wired */
-    numerics_exchange exchange; /* the pair whose driving flanks bear */
-    const ff_array *oil;        /* two rows */
+    numerics_exchange exchange; /* the pair whose driving flanks carry the load */
+    const ff_array *oil;        /* two inputs */
 } contact_tooth_path;
 
 /* Reads and checks; to be closed in any case. */

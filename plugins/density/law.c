@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What density laws share: the oil's density, and the softening with temperature. */
 #include "law.h"
 
 #include "tension.h"
@@ -39,7 +40,7 @@ density_ambient density_begin(const void *self, size_t n, const double *T)
     return ambient;
 }
 
-/* rho is that of rho0 = 1. */
+/* Multiplies rho, which is for rho0 = 1, by the density of the liquid. */
 static ff_status multiply(const ff_liquid *liquid, size_t n, const double *T, double *rho,
                           double *drho_dp, double *drho_dT)
 {
@@ -94,7 +95,7 @@ static void bend_tension(double rho0, double K0, size_t n, const double *p, doub
     }
 }
 
-/* eval of a law that does not soften. */
+/* `eval` for a law that does not soften. */
 static ff_status eval_cold(const void *law, const density_shape *shape, size_t n, const double *p,
                            const double *T, double *rho, double *drho_dp, double *drho_dT)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What every density law has: rho0, or a liquid that gives it over temperature. */
+/* Shared by the density laws: rho0, or a liquid that gives it over temperature. */
 #ifndef DENSITY_LAW_H
 #define DENSITY_LAW_H
 
@@ -11,8 +11,8 @@
 typedef struct density_law {
     const ff_host *host;
     ff_density service;
-    double rho0;             /* kg/m3; 1 with a liquid */
-    const ff_liquid *liquid; /* NULL: none is wired */
+    double rho0;             /* kg/m3; 1 if a liquid is wired */
+    const ff_liquid *liquid; /* NULL: not wired */
 } density_law;
 
 /*
@@ -38,25 +38,24 @@ ff_status density_softening_ready(const void *law, density_softening *softening)
     FF_QUANTITY_UNLESS("oil", "rho0", "kg/m3", type, rho0, FF_REQUIRED, NULL, NULL, 1, 1e5, 600,   \
                        2000, doc)
 
-/* The one input of every law, and `wire`. */
+/* The only input of every law, and its `wire` function. */
 extern const ff_port density_inputs[1];
 ff_status density_wire(void *self, uint32_t input, const void *service);
 
 /* The liquid at ambient pressure, for the points of one eval. */
 typedef struct density_ambient {
-    double rho0, slope; /* kg/m3, and over T; 1 and 0 where T differs from point to point */
-    int varies;         /* it does: density_end multiplies by rho0 */
+    double rho0, slope; /* kg/m3, and its slope over T; 1 and 0 if T differs between points */
+    int varies;         /* T differs between points: density_end multiplies by rho0 */
     ff_status status;
 } density_ambient;
 
 density_ambient density_begin(const void *law, size_t n, const double *T);
 
-/* rho of n points that share one rho0, and its slope over p, where p >= 0; elsewhere any finite
-   numbers. Arrays never overlap. */
+/* rho at n points with one rho0, and its slope over p, for p >= 0; for other p, any finite
+ * numbers. The arrays do not overlap. */
 typedef void density_curve(const void *law, double rho0, size_t n, const double *p, double *rho,
                            double *drho_dp);
-/* What such a law is, with the tangent 1 + p/K0 at ambient pressure and the range up to
-   `highest`. */
+/* Such a law, with the tangent 1 + p/K0 at ambient pressure, valid up to `highest`. */
 typedef struct density_shape {
     density_curve *curve;
     double K0, highest; /* Pa */
@@ -66,9 +65,9 @@ typedef struct density_shape {
 ff_status density_eval(const void *law, const density_shape *shape, size_t n, const double *p,
                        const double *T, double *rho, double *drho_dp, double *drho_dT);
 
-/* Ends an eval of a law whose rho/rho0 does not depend on temperature: multiplies by what a liquid
-   gives, where it has not yet, and fills drho_dT. Derivatives may be NULL. `status` is that of the
-   law. */
+/* Ends an eval of a law whose rho/rho0 does not depend on temperature: multiplies by the
+ * liquid's density if that is not done yet, and fills drho_dT. Derivatives may be NULL. `status`
+ * is that of the law. */
 ff_status density_end(const density_law *law, const density_ambient *ambient, ff_status status,
                       size_t n, const double *T, double *rho, double *drho_dp, double *drho_dT);
 

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Tait: rho = rho0/V, V = 1 - ln(1 + p (1 + K0')/K0) / (1 + K0'), the equation of state of the
- * Doolittle-Tait viscosity (Dymond & Malhotra 1988). From V = 1/2 on, rho goes on linearly: no
- * liquid is compressed that far, and V itself would reach 0.
- */
+/* Tait: rho = rho0/V, V = 1 - ln(1 + p (1 + K0')/K0) / (1 + K0'), the equation of state of the
+ * Doolittle-Tait viscosity (Dymond & Malhotra 1988). Beyond V = 1/2 rho continues linearly: no
+ * liquid is compressed that far, and V would reach 0. */
 #include "law.h"
 #include "references.h"
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Density below ambient pressure: the law's tangent, bent so that it stays positive. */
+/* Density below ambient pressure: the tangent of the law, bent so that it stays positive. */
 #ifndef DENSITY_TENSION_H
 #define DENSITY_TENSION_H
 
-/* rho/rho0 from y = 1 + p/K0 < 1. The tangent y itself down to 1/2; below, 1/(4 (1 - y)), which
-   joins it with the same value and slope and never reaches 0. */
+/* Returns rho/rho0 for y = 1 + p/K0 < 1: y itself down to 1/2, and below it 1/(4 (1 - y)), which
+ * joins with the same value and slope and never reaches 0. */
 static inline double density_tension(double y)
 {
     return y >= 0.5 ? y : 0.25 / (1 - y);

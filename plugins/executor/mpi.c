@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * The ranks of an MPI job as a task farm. Rank 0 leads, and works as the others do: a rank has as
- * many tasks as it has slots, and gets the next one for each that is over. No rank waits inside
- * MPI, which would keep a core busy.
- */
+/* The ranks of an MPI job as a task farm. Rank 0 leads, and also works as the others do: a rank
+ * has as many tasks as slots, and gets a new task for each one that is over. No rank blocks
+ * inside MPI, which would keep a core busy. */
 #include <flankfilm/author.h>
 #include <flankfilm/executor.h>
 
@@ -24,11 +22,11 @@ typedef struct farm {
 typedef struct leader {
     const farm *f;
     const ff_tasks *t;
-    int *slots;  /* of each rank */
-    int *busy;   /* those of them with a task */
+    int *slots;  /* of each rank: how many tasks it can run at a time */
+    int *busy;   /* of each rank: how many tasks it is running */
     int working; /* the sum of `busy` */
-    bool ended;  /* no task is left */
-    bool lost;   /* a rank lost its workers, and its tasks with them */
+    bool ended;  /* no tasks are left */
+    bool lost;   /* a rank has lost its workers and their tasks */
 } leader;
 
 static void send_next(leader *w, int rank)
@@ -64,7 +62,7 @@ static void record_answer(leader *w, int rank, bool over, const void *answer, si
         send_next(w, rank);
 }
 
-/* Receives a message of another rank; false when there is none. */
+/* Receives a message from another rank; false if there is none. */
 static bool receive(leader *w)
 {
     MPI_Status message;
@@ -76,8 +74,7 @@ static bool receive(leader *w)
     MPI_Get_count(&message, MPI_BYTE, &size);
     char *answer = malloc((size_t)size + 1);
     if (!answer)
-        MPI_Abort(MPI_COMM_WORLD,
-                  1); /* a rank whose message is not received cannot be ended, either */
+        MPI_Abort(MPI_COMM_WORLD, 1); /* such a rank could not be ended either */
     MPI_Recv(answer, size, MPI_BYTE, rank, tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
     if (tag == LOST)
         drop_rank(w, rank);
@@ -87,8 +84,8 @@ static bool receive(leader *w)
     return true;
 }
 
-/* Asks whether a task of this process has answered, and waits for 1 ms at most: the longer, the
-   longer nothing has happened. */
+/* Asks whether a task of this process has answered, and waits for up to 1 ms, longer the longer
+ * nothing has happened. */
 static int32_t poll_worker(const ff_tasks *t, bool busy, int *idle, size_t *task,
                            const void **answer, size_t *size)
 {
@@ -105,7 +102,7 @@ static void hand_out(leader *w)
     int idle = 0, most = 1;
     for (int k = 0; k < w->f->ranks; k++)
         most = w->slots[k] > most ? w->slots[k] : most;
-    for (int n = 0; n < most; n++) /* one for each rank, then the second, ... */
+    for (int n = 0; n < most; n++) /* first one task for each rank, then a second one, ... */
         for (int k = 0; k < w->f->ranks; k++)
             if (n < w->slots[k])
                 send_next(w, k);
@@ -137,7 +134,7 @@ static ff_status lead(const farm *f, const ff_tasks *t, int *slots)
                   : FF_OK;
 }
 
-/* The other ranks: runs the tasks that rank 0 sends until it sends the end. */
+/* Runs the tasks that rank 0 sends, on the other ranks, until it sends the end. */
 static void follow(const ff_tasks *t)
 {
     int working = 0, idle = 0, there;
@@ -173,7 +170,7 @@ static ff_status farm_out(farm *f, const ff_tasks *t)
     good = f->rank != 0 || t->lead(t->ctx) >= 0;
     MPI_Bcast(&good, 1, MPI_INT, 0, MPI_COMM_WORLD);
     if (!good)
-        return FF_OK; /* rank 0 knows why */
+        return FF_OK; /* rank 0 reports why */
     int *all = calloc((size_t)f->ranks, sizeof *all);
     if (!all)
         return f->host->fail(f->host->ctx, FF_NOMEM, NULL, "there is no memory for the ranks");

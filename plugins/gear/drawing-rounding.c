@@ -5,17 +5,18 @@
 
 #include <math.h>
 
-/* A unit of the last digit: lengths that are measured, m; profile shift coefficients. */
+/* A unit in the last digit of a drawing: of measured lengths, m; of profile shift coefficients. */
 static const double length = 1e-6, shift = 1e-4;
 
-/* Of the arithmetic, m; an overlap below it is none. */
+/* Rounding error of the arithmetic, m; a smaller overlap counts as none. */
 static const double rounding_error = 1e-12;
 
 const double gear_rounding_roll = 0.01 * M_PI / 180;
 const double gear_rounding_diameter = 1e-5;
 
-/* Backlash along the line of action of a centre distance and of a profile shift, from
-   j = m cos(a) (z1 + z2) (inv a_w - inv a_tight): dj/da = 2 sin(a_w), dj/dx = -2 m sin(a). */
+/* Change of the backlash along the line of action with the centre distance and with a profile
+ * shift, from j = m cos(a) (z1 + z2) (inv a_w - inv a_tight): dj/da = 2 sin(a_w), dj/dx = -2 m
+ * sin(a). */
 double gear_rounding_of_backlash(const gear_spur_spec *g, const gear_spur_pair *p)
 {
     double open = 2 * 2 * g->module * sin(g->pressure_angle) * shift;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Samples the profiles of the flanks: reliefs, crown, slope and measured curves. */
 #include "flank-deviations.h"
 
 #include "drawing-rounding.h"
@@ -10,17 +11,17 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Steps of a curved profile: straight lines between them meet a parabola of height A to
-   A/(4 PROFILE_STEPS^2). */
-enum { PROFILE_STEPS = 2048, MORE_POINTS = 8 /* ends and starts of reliefs at most */ };
+/* Steps of a curved profile. Straight lines between the points follow a parabola of height A to
+ * within A/(4 PROFILE_STEPS^2). */
+enum { PROFILE_STEPS = 2048, MORE_POINTS = 8 /* at most, for ends and starts of reliefs */ };
 
 static const double degree = M_PI / 180;
 
-/* Roll angles nearer than this are one, rad. */
+/* rad; closer roll angles count as one */
 static const double same_roll = 1e-9;
 
-/* Roll angles of contact on the flank of each gear. Along the path the tip of gear 2 meets the
-   start of gear 1. */
+/* Sets the roll angles between which each flank is in contact. On the path of contact, the tip
+ * of gear 2 meets the start of the flank of gear 1. */
 static void set_limits(const gear_spur_pair *p, double lpstc[2], double hpstc[2], gear_flanks *f)
 {
     double r1 = p->base_radius[0], r2 = p->base_radius[1], length = p->line_length;
@@ -34,7 +35,7 @@ static void set_limits(const gear_spur_pair *p, double lpstc[2], double hpstc[2]
     hpstc[1] = (length - p->lpstc) / r2;
 }
 
-/* One end of a flank: the names of what says how it is relieved. */
+/* One end of a flank, with the parameters that describe its relief. */
 typedef struct relief_end {
     bool tip;
     const char *start, *diameter, *length;
@@ -47,8 +48,8 @@ static const relief_end back_end = {true, "back_relief_start", "back_relief_diam
 static const relief_end root_end = {false, "root_relief_start", "root_relief_diameter",
                                     "root_relief_length"};
 
-/* A start in the words of the drawing, the same of both ends of the flank, and what the digits of
-   the drawing leave open; `unit` turns all four into what users read. */
+/* The start of a relief as the drawing states it, the values of the two ends of the flank in the
+ * same terms, and the drawing's rounding; `unit` converts all four for messages. */
 typedef struct stated_start {
     const char *item, *what, *unit;
     double value, from, to, open, scale;
@@ -59,7 +60,8 @@ static double diameter_at(double base, double roll)
     return 2 * base * hypot(1, roll);
 }
 
-/* Gives the roll angle of the start of a relief of gear g that is stated in one of three ways. */
+/* Returns the roll angle at which a relief of gear g starts, from whichever of the three ways is
+ * given. */
 static double stated_roll(const gear_flanks *f, const gear_relief *r, const relief_end *end, int g,
                           double base, stated_start *s)
 {
@@ -137,15 +139,16 @@ static ff_status set_reliefs(const ff_host *host, const gear_flank_spec *s, cons
     return FF_OK;
 }
 
-/* Metal that a relief takes off `beyond` its start, of the `length` from there to the end of the
- * flank. */
+/* Returns the metal that a relief takes off at the roll angle `beyond` from its start; `length`
+ * is that from its start to the end of the flank. */
 static double relieve(const gear_relief *relief, int g, double beyond, double length)
 {
     double u = length > 0 ? fmin(beyond / length, 1) : 0;
     return u > 0 ? ff_of_both(&relief->amount, g) * (relief->shape == 1 ? u * u : u) : 0;
 }
 
-/* The curve goes on with its first and last deviation beyond its ends. */
+/* Returns the deviation of a measured curve; beyond its ends the first and the last value
+ * continue. */
 static double curve_at(const gear_curve *c, double roll)
 {
     if (c->count == 0)
@@ -159,7 +162,8 @@ static double curve_at(const gear_curve *c, double roll)
     return c->deviation[low] + t * (c->deviation[high] - c->deviation[low]);
 }
 
-/* Crown and slope over u from 0 at the lowest contact to 1 at the tip. */
+/* Returns the deviation of the profile at a roll angle. u runs from 0 at the lowest contact to 1
+ * at the tip. */
 static double deviation_at(const gear_flank_spec *s, const gear_flanks *f, int g, double roll)
 {
     double u = (roll - f->low[g]) / (f->high[g] - f->low[g]);
@@ -175,8 +179,8 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Sets the roll angles where the profile is sampled: equal steps, the starts of the reliefs, the
-   points of the measured curve. Gives their number. */
+/* Sets the roll angles at which the profile is sampled: equal steps, starts of reliefs, points
+ * of the measured curve. Returns their number. */
 static size_t place_points(const gear_flank_spec *s, const gear_flanks *f, int g, double *roll)
 {
     const gear_curve *c = &f->measured[g];
@@ -198,7 +202,7 @@ static size_t place_points(const gear_flank_spec *s, const gear_flanks *f, int g
     return kept;
 }
 
-/* Brings a list to the length of the other profile by halving its widest gaps. */
+/* Lengthens a list of roll angles to that of the other profile by halving its widest gaps. */
 static void fill_points(double *roll, size_t count, size_t wanted)
 {
     for (; count < wanted; count++) {

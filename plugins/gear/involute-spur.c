@@ -164,8 +164,8 @@ static const ff_param params[] = {
             "mean roughness Ra instead, as on drawings: Rq = sqrt(pi/2) Ra of Gaussian heights"),
 };
 
-/* Mass and inertia of discs of working pitch diameter with a bore; a stated inertia replaces
- * theirs. */
+/* Sets mass and inertia from discs with the working pitch diameter and a bore. A stated inertia
+ * replaces the disc's. */
 static ff_status set_discs(spur *s)
 {
     for (int i = 0; i < 2; i++) {
@@ -185,7 +185,8 @@ static ff_status set_discs(spur *s)
     return FF_OK;
 }
 
-/* What serves a few outputs alone: a stage that takes others leaves it unread. */
+/* Tells the engine which parameters serve only a few outputs, so that they are reported as
+ * unread when others are requested. */
 static void tell_servings(const spur *s)
 {
     static const char back[] = "back_profile_roll|back_profile_deviation",
@@ -244,7 +245,8 @@ static void tell_servings(const spur *s)
     ff_serve(s->host, rows, sizeof rows / sizeof rows[0]);
 }
 
-/* A measure of the teeth says nothing without what it was taken over. */
+/* Checks that a measure of the teeth comes with the number of teeth or the pin over which it was
+ * taken. */
 static ff_status check_tools(const spur *s)
 {
     const gear_spur_spec *g = &s->spec;
@@ -286,7 +288,7 @@ static ff_status ready(void *self)
     return status;
 }
 
-/* Says what the rounding of the drawing has moved. */
+/* Reports which dimensions were moved because of the drawing's rounding. */
 static void report_rounding(const spur *s)
 {
     const gear_spur_pair *p = &s->pair;

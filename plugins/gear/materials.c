@@ -1,28 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Values with their sources, which docs/guide/your-gear.md repeats:
- * - steel: the modulus, ratio and density that gear standards calculate with; heat of case-hardened
- *   steel as ISO/TR 13989-2, clause 5.3, is quoted (50 W/(m K) and 3.8 MJ/(m3 K), so that B_M is
- * the 13.780 that gfsReboucas/Drivetrain, stage_03.rtf, prints); its hardness 700 HV. Both serve
- * all steels that do not say otherwise.
- * - E, nu, rho of the other steels and of castings, and the yield strength of castings: FreeCAD's
- *   material cards (src/Mod/Material/Resources/Materials/Standard/Metal/Steel, by M. Muench, which
- *   name EN 10084, EN 10083, EN 1563 and EN 1561). Its case-hardening steels (15CrNi6, 17CrNiMo6 =
- *   18CrNiMo7-6, 20NiCrMo2) have one modulus, ratio and density; 16MnCr5 and 20MnCr5 are given the
- *   same here. So are 42CrMo4 and 31CrMoV9 those of its heat-treatable steels (34CrNiMo6,
- *   30CrNiMo8, C60E).
- * - 42CrMo4: yield strength EN 10083, quenched and tempered, 40 to 100 mm, from a data sheet (Key
- * to Metals); conductivity from a data sheet (Meusburger, 1.7225); hardness the middle of 271 to
- * 331 HBW for that size (Lucefin, ISO 683-2). 31CrMoV9: 800 HV nitrided, from a data sheet.
+/* Values and sources, which docs/guide/your-gear.md repeats:
+ * - steel: modulus, ratio and density as gear standards use them; heat data of case-hardened
+ * steel as quoted from ISO/TR 13989-2, clause 5.3 (50 W/(m K) and 3.8 MJ/(m3 K), which gives the
+ * B_M of 13.780 that gfsReboucas/Drivetrain, stage_03.rtf, prints); hardness 700 HV. Heat data
+ * and hardness serve for all steels without their own.
+ * - E, nu, rho of the other steels and of castings, and the yield strength of castings:
+ * FreeCAD's material cards (src/Mod/Material/Resources/Materials/Standard/Metal/Steel, by M.
+ * Muench, which name EN 10084, EN 10083, EN 1563 and EN 1561). Its case-hardening steels
+ * (15CrNi6, 17CrNiMo6 = 18CrNiMo7-6, 20NiCrMo2) share one modulus, ratio and density; 16MnCr5
+ * and 20MnCr5 are given the same values here. 42CrMo4 and 31CrMoV9 have those of its
+ * heat-treatable steels (34CrNiMo6, 30CrNiMo8, C60E).
+ * - 42CrMo4: yield strength EN 10083, quenched and tempered, 40 to 100 mm, from a data sheet
+ * (Key to Metals); conductivity from a data sheet (Meusburger, 1.7225); hardness the middle of
+ * 271 to 331 HBW for that size (Lucefin, ISO 683-2). 31CrMoV9: 800 HV nitrided, from a data
+ * sheet.
  * - Castings: conductivity and hardness from data sheets (iron-foundry.com, EN 1563; MakeItFrom,
- *   EN-JL 1040); specific heat and the conductivity of EN-GJS-700-2 as EN 1563 has them, from
- *   memory. Hardness is the middle of the range.
+ * EN-JL 1040); specific heat, and the conductivity of EN-GJS-700-2, by EN 1563 from memory.
+ * Hardness is the middle of the range.
  * - CuSn12Ni2: MakeItFrom, EN CC484K.
- * - POM, PA66: the material library of cfernandesFEUP/GEARpie; yield strength of POM from FreeCAD's
- *   card (copolymer). PEEK: FreeCAD's card; Poisson's ratio from memory.
- * The strength that tables print of case-hardening and nitriding steels is that of the core; a
- * flank is loaded in its hard layer, so that theirs is left to the user.
- */
+ * - POM, PA66: the material library of cfernandesFEUP/GEARpie; yield strength of POM from
+ * FreeCAD's card (copolymer). PEEK: FreeCAD's card; Poisson's ratio from memory.
+ * Case-hardening and nitriding steels have no yield strength here: tables print that of the
+ * core, but the hard layer carries the load of a flank, so the user must give it. */
 #include "materials.h"
 
 #include <flankfilm/author.h>
@@ -49,8 +48,8 @@ static const gear_material materials[] = {
     {3.88e9, 0.4, 1340, 0.299, 1410, 0, 97.1e6},  /* PEEK */
 };
 
-/* Whether modulus and density are those of a material: metals to a tenth, while grades of a polymer
-   spread by a third. */
+/* Whether modulus and density agree with those of a material: metals within a tenth, polymers
+ * within a third, since their grades differ by that much. */
 static bool is_alike(const gear_material *m, const gear_material *named)
 {
     const double alike = named->modulus < 10e9 ? 0.3 : 0.1;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Measured profiles from a file with a point of the curve of a gear in each row. */
+/* Measured profiles from a file; each row is a point of a gear's curve. */
 #ifndef GEAR_MEASURED_CURVES_H
 #define GEAR_MEASURED_CURVES_H
 
 #include <flankfilm/plugin.h>
 
-/* Deviations in m over the roll angle of the own gear in rad, linear between the points. */
+/* Deviation in m over the gear's own roll angle in rad, linear between the points. */
 typedef struct gear_curve {
     size_t count;
     double *roll, *deviation;

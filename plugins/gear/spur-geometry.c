@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Transverse geometry of the pair: working pressure angle, backlash, diameters, undercut, path of
+ * contact. */
 #include "spur-geometry.h"
 
 #include "drawing-rounding.h"
@@ -13,19 +15,19 @@
 /* Basic rack of ISO 53 (profile A), in modules: addendum and bottom clearance. */
 static const double addendum = 1.0, clearance = 0.25;
 
-/* An undercut of this depth, in modules, is none: 17 teeth at 20 degrees, which are usually cut
-   without profile shift, lie 0.006 below the limit. */
+/* In modules; a smaller undercut counts as none. Gears of 17 teeth at 20 degrees, usually cut
+ * without profile shift, have 0.006. */
 static const double harmless_undercut = 0.01;
 
-/* Places on the path of contact that are nearer than this, in base pitches, are the same. */
+/* Base pitches; closer places on the path of contact count as the same. */
 static const double same_place = 1e-9;
 
-/* Contact ratios from here on are refused. */
+/* Contact ratios of this value or above are refused. */
 enum { MOST_PAIRS = 4 };
 
-/* Involute function of the working pressure angle at which teeth of these shifts mesh without
-   backlash (DIN 3960), inv a_w = inv a + 2 (x1 + x2) tan a/(z1 + z2); where it is not positive
-   there is none. */
+/* Involute function of the working pressure angle at which teeth with these shifts mesh without
+ * backlash (DIN 3960), inv a_w = inv a + 2 (x1 + x2) tan a/(z1 + z2). If it is not positive,
+ * there is no such angle. */
 static double tight_involute(const gear_spur_spec *g)
 {
     return numerics_involute(g->pressure_angle) +
@@ -64,8 +66,8 @@ static ff_status mount(const ff_host *host, const gear_spur_spec *g, gear_spur_p
     return FF_OK;
 }
 
-/* Backlash along the line of action of teeth of full thickness at a stated centre distance,
-   j = m cos(a) (z1 + z2) (inv a_w - inv a_tight). */
+/* Backlash along the line of action for teeth of full thickness at a given centre distance, j =
+ * m cos(a) (z1 + z2) (inv a_w - inv a_tight). */
 static double full_backlash(const gear_spur_spec *g, const gear_spur_pair *p)
 {
     if (!(g->centre_distance > 0))
@@ -75,13 +77,13 @@ static double full_backlash(const gear_spur_spec *g, const gear_spur_pair *p)
            (numerics_involute(p->working_angle) - tight_involute(g));
 }
 
-/* What a stated backlash is multiplied by to be measured along the line of action. */
+/* Returns the factor that converts a given backlash to one along the line of action. */
 static double backlash_unit(const gear_spur_spec *g, const gear_spur_pair *p)
 {
     return g->backlash_measure == 1 ? cos(p->working_angle) : 1;
 }
 
-/* Refuses teeth that jam by more than the drawing's digits leave open. */
+/* Refuses teeth that jam by more than the drawing's rounding. */
 static ff_status refuse_jam(const ff_host *host, const gear_spur_spec *g, const gear_spur_pair *p,
                             double full, double backlash)
 {
@@ -111,9 +113,9 @@ static ff_status refuse_jam(const ff_host *host, const gear_spur_spec *g, const 
                         cos(numerics_involute_inverse(tight_involute(g))));
 }
 
-/* Allowances and backlash: allowances A1 and A2 of the arcs add -(A1 + A2) cos(a) to the backlash
-   of teeth of full thickness. Teeth that overlap by less than the digits of the drawing leave open
-   get the allowances at which they just fit. */
+/* Sets allowances and backlash. Allowances A1 and A2 of the arcs add -(A1 + A2) cos(a) to the
+ * backlash of teeth of full thickness. Teeth that overlap by less than the drawing's rounding
+ * get the allowances at which they just fit. */
 static ff_status set_backlash(const ff_host *host, const gear_spur_spec *g, gear_spur_pair *p)
 {
     const bool stated = !isnan(g->backlash);
@@ -128,8 +130,8 @@ static ff_status set_backlash(const ff_host *host, const gear_spur_spec *g, gear
     for (int i = 0; i < 2 && !stated; i++)
         if (g->allowance.count > 0 || g->span.count > 0 || g->over_pins.count > 0)
             p->allowance[i] = gear_measured_allowance(g, p, i);
-    /* how far the pair is from the least that it can have: of a stated backlash what full teeth
-       leave, otherwise none */
+    /* distance from the least possible backlash: what full teeth leave if the backlash is given,
+     * otherwise 0 */
     const double spare =
         stated ? p->backlash - full : full - (p->allowance[0] + p->allowance[1]) * cosine;
     p->rounding_of_backlash = gear_rounding_of_backlash(g, p);
@@ -142,8 +144,8 @@ static ff_status set_backlash(const ff_host *host, const gear_spur_spec *g, gear
     return FF_OK;
 }
 
-/* A tip that strikes its mate's root by less than the digits of the drawing leave open moves the
-   root away. */
+/* Checks the gap between tips and roots. If a tip overlaps the mating root by less than the
+ * drawing's rounding, the root is moved inwards. */
 static ff_status set_clearance(const ff_host *host, const gear_spur_spec *g, gear_spur_pair *p)
 {
     p->clearance = HUGE_VAL;
@@ -167,8 +169,8 @@ static ff_status set_clearance(const ff_host *host, const gear_spur_spec *g, gea
 
 static ff_status set_depths(const ff_host *host, const gear_spur_spec *g, gear_spur_pair *p)
 {
-    /* Tip shortening k m = a - a_0 - (x1 + x2) m keeps the clearance of the basic rack when the
-       shifts do not cancel (DIN 3960); tips are never lengthened. */
+    /* Tip shortening k m = a - a_0 - (x1 + x2) m, which keeps the clearance of the basic rack
+     * when the shifts do not cancel (DIN 3960); tips are never lengthened. */
     double shortening =
         fmin(0, p->centre_distance - p->reference_radius[0] - p->reference_radius[1] -
                     (ff_of_both(&g->shift, 0) + ff_of_both(&g->shift, 1)) * g->module);
@@ -195,15 +197,16 @@ static ff_status set_depths(const ff_host *host, const gear_spur_spec *g, gear_s
     return set_clearance(host, g, p);
 }
 
-/* The tip of the tool that cuts gear i: its round, the depth of the round's centre below the middle
-   of the rack less the profile shift, and how far it lies inside the straight flank, along the
-   rack. Without a radius it is the corner that the bottom clearance of the basic rack leaves.
- */
+/* The tip of the tool that cuts gear i: radius of its rounding, depth of the rounding's centre
+ * below the middle of the rack minus the profile shift, and distance of the centre from the
+ * straight flank, inwards along the rack. Without a radius, the tip is the corner given by the
+ * bottom clearance of the basic rack. */
 typedef struct tool_tip {
     double round, centre, behind;
 } tool_tip;
 
-/* What the protuberance has taken beyond what is ground off, normal to the flank. */
+/* Returns the metal that the protuberance takes off beyond the later grinding, normal to the
+ * flank. */
 static double residual_undercut(const gear_spur_spec *g, int i)
 {
     double taken = g->protuberance.count > 0 ? ff_of_both(&g->protuberance, i) : 0;
@@ -211,7 +214,7 @@ static double residual_undercut(const gear_spur_spec *g, int i)
     return fmax(taken - ground, 0);
 }
 
-/* How deep the straight flank of the rack goes below its middle, in modules. */
+/* Returns how far the straight flank of the rack extends below its middle, in modules. */
 static double straight_depth(const gear_spur_spec *g, int i)
 {
     double round = g->tool_tip_radius.count > 0
@@ -229,9 +232,10 @@ static tool_tip tip_of(const gear_spur_spec *g, int i)
     return (tool_tip){round * g->module, depth * g->module, behind};
 }
 
-/* Where the tip of the tool cuts gear i when the centre of its round lies `beside` the line of
-   centres: how far it is inside of the involute, as an angle, above 0 in the tooth; *radius is its
-   distance from the axis. The normal there goes through the pitch point (Litvin & Fuentes 2004). */
+/* Returns how far inside the involute the tip of the tool cuts gear i if the centre of its
+ * rounding lies `beside` the line of centres, as an angle that is positive in the tooth; *radius
+ * is the distance of the cut from the axis. The normal at the cut passes through the pitch point
+ * (Litvin & Fuentes 2004). */
 static double tip_inside(const gear_spur_spec *g, const gear_spur_pair *p, int i, double beside,
                          double *radius)
 {
@@ -247,16 +251,17 @@ static double tip_inside(const gear_spur_spec *g, const gear_spur_pair *p, int i
     return atan2(x, y) - rolled / r - flank;
 }
 
-/* The least profile shift without undercut (DIN 3960: h - z sin^2(a)/2, with h the depth of the
-   straight flank). */
+/* Returns the least profile shift without undercut (DIN 3960: h - z sin^2(a)/2, where h is the
+ * depth of the straight flank). */
 static double least_shift(const gear_spur_spec *g, int i)
 {
     const double s = sin(g->pressure_angle);
     return straight_depth(g, i) - ff_of_both(&g->teeth, i) * s * s / 2;
 }
 
-/* Radius of curvature up to which undercut, or a protuberance, takes the involute of gear i away, 0
-   without: where the path of the tool's tip crosses it outermost. */
+/* Returns the radius of curvature up to which undercut or a protuberance removes the involute of
+ * gear i; 0: none. It is the outermost place where the path of the tool's tip crosses the
+ * involute. */
 static double undercut_of(const gear_spur_spec *g, const gear_spur_pair *p, int i)
 {
     enum { STEPS = 400 };
@@ -281,7 +286,7 @@ static double undercut_of(const gear_spur_spec *g, const gear_spur_pair *p, int 
     return sqrt((radius - p->base_radius[i]) * (radius + p->base_radius[i]));
 }
 
-/* Refuses teeth whose undercut takes some of the flank that meshes. */
+/* Refuses teeth whose undercut removes a part of the meshing flank. */
 static ff_status check_undercut(const ff_host *host, const gear_spur_spec *g, gear_spur_pair *p)
 {
     for (int i = 0; i < 2; i++) {
@@ -306,8 +311,8 @@ static ff_status check_undercut(const ff_host *host, const gear_spur_spec *g, ge
     return FF_OK;
 }
 
-/* Arc of the tooth at `radius`, from the arc s at the reference radius r (DIN 3960):
-   s_y = 2 r_y (s/(2 r) + inv a - inv a_y). */
+/* Arc of the tooth at `radius` from the arc s at the reference radius r (DIN 3960): s_y = 2 r_y
+ * (s/(2 r) + inv a - inv a_y). */
 static double thickness_at(const gear_spur_spec *g, const gear_spur_pair *p, int i, double arc,
                            double radius)
 {
@@ -338,8 +343,9 @@ static ff_status set_thickness(const ff_host *host, const gear_spur_spec *g, gea
     return FF_OK;
 }
 
-/* The fewest pairs, n, are in contact from where the n-th pair ahead leaves, tip - n p_b, to where
-   the n-th pair behind comes, SAP + n p_b; for n > 1 there are zones with one more in between. */
+/* Sets the zone with the fewest pairs, n. It lasts from where the n-th pair ahead leaves, tip -
+ * n p_b, to where the n-th pair behind enters, SAP + n p_b. For n > 1 there are zones with one
+ * pair more in between. */
 static void set_fewest_pairs(gear_spur_pair *p)
 {
     double pairs = fmax(1, floor(p->contact_ratio + same_place));
@@ -382,8 +388,8 @@ static ff_status set_path(const ff_host *host, const gear_spur_spec *g, gear_spu
     return FF_OK;
 }
 
-/* A rack whose straight flank ends h modules below its middle cuts an involute down to the radius
-   of curvature r sin a - (h - x) m / sin a; the tip of the tool takes the rest down to the root. */
+/* A rack whose straight flank ends h modules below its middle cuts an involute down to the
+ * radius of curvature r sin a - (h - x) m / sin a; below it the tip of the tool cuts the fillet. */
 static double form_margin(const gear_spur_spec *g, gear_spur_pair *p)
 {
     double s = sin(g->pressure_angle), lowest[2] = {p->sap, p->line_length - p->tip};
@@ -423,8 +429,8 @@ ff_status gear_spur_pair_make(const ff_host *host, const gear_spur_spec *g, gear
     return status;
 }
 
-/* Ends of the zones between changes in the number of pairs, from SAP to tip: another pair comes at
-   whole base pitches from SAP and leaves at whole base pitches before the tip. */
+/* Lists the ends of the zones with a constant number of pairs, from SAP to tip. Pairs enter at
+ * whole base pitches after SAP and leave at whole base pitches before the tip. */
 static size_t list_ends(const gear_spur_pair *p, double ends[2 * MOST_PAIRS])
 {
     double apart = same_place * p->base_pitch;
@@ -446,7 +452,8 @@ static size_t list_ends(const gear_spur_pair *p, double ends[2 * MOST_PAIRS])
     return count;
 }
 
-/* Intervals of a zone that is this share of the path; a negligible zone keeps its ends alone. */
+/* Returns the number of intervals for a zone with this share of the path; a negligible zone
+ * keeps only its ends. */
 static size_t intervals(double share, size_t wanted)
 {
     const double negligible = 1e-6;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Outputs of gear/involute-spur. */
+/* Tables of parameters and outputs of gear/involute-spur. */
 #ifndef GEAR_SPUR_ROWS_H
 #define GEAR_SPUR_ROWS_H
 

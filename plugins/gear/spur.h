@@ -16,12 +16,12 @@ typedef struct spur {
     ff_reals bore, given_inertia, roughness_rq, roughness_ra;
     int64_t stations;
     gear_flank_spec flank_spec;
-    gear_relief back_relief; /* what differs on the back flanks; shape -1: as the driving ones */
+    gear_relief back_relief; /* given for the back flanks; shape -1: as on the driving flanks */
     gear_spur_pair pair;
-    gear_material made_of[2]; /* what is given in place of the material's values, too */
+    gear_material made_of[2]; /* the named material with the values given by the user */
     double bore_radius[2], mass[2], inertia[2];
     gear_flanks flanks;
-    gear_flanks back; /* without points: as the driving ones */
+    gear_flanks back; /* no points: as the driving flanks */
     ff_reals quality; /* class of ISO 1328-1 */
     gear_tolerances tolerances[2];
 } spur;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Spans over teeth, and measures over pins. */
 #include "tooth-measures.h"
 
 #include "../numerics/involute.h"
@@ -10,7 +11,7 @@
 /* A tooth of gear i whose arc at the reference circle is `arc`. */
 typedef struct tooth {
     double teeth, base, pitch; /* number, base radius, base pitch */
-    double half;               /* half its angle at the base circle, s/(2 r) + inv a (DIN 3960) */
+    double half; /* half of its angle at the base circle, s/(2 r) + inv a (DIN 3960) */
 } tooth;
 
 static tooth tooth_of(const gear_spur_spec *g, const gear_spur_pair *p, int i, double arc)
@@ -22,34 +23,36 @@ static tooth tooth_of(const gear_spur_spec *g, const gear_spur_pair *p, int i, d
                        arc / (2 * p->reference_radius[i]) + numerics_involute(g->pressure_angle)};
 }
 
-/* W = (k - 1) p_b + s_b, with the arc of the base circle s_b = 2 r_b (s/(2 r) + inv a) (DIN 3960).
- */
+/* W = (k - 1) p_b + s_b, where the arc at the base circle is s_b = 2 r_b (s/(2 r) + inv a) (DIN
+ * 3960). */
 static double span_over(const tooth *t, double count)
 {
     return (count - 1) * t->pitch + 2 * t->base * t->half;
 }
 
-/* Where a span touches the flanks. */
+/* Returns the radius at which a span touches the flanks. */
 static double span_radius(const tooth *t, double span)
 {
     return hypot(t->base, span / 2);
 }
 
-/* An odd number of teeth puts the pins pi/(2 z) off the diameter (DIN 3960). */
+/* Returns the angle, pi/(2 z) for an odd number of teeth, by which the pins are off the diameter
+ * (DIN 3960). */
 static double off_diameter(const tooth *t)
 {
     return fmod(t->teeth, 2) == 1 ? cos(M_PI / (2 * t->teeth)) : 1;
 }
 
-/* Where a pin touches the flanks whose axis lies at a radius; 0: it does not. */
+/* Returns the radius at which a pin with its axis at the radius `axis` touches the flanks; 0: it
+ * does not. */
 static double pin_radius(const tooth *t, double pin, double axis)
 {
     double along = sqrt(fmax(0, (axis - t->base) * (axis + t->base))) - pin / 2;
     return axis > t->base && along > 0 ? hypot(t->base, along) : 0;
 }
 
-/* The axis of a pin of diameter D lies at the angle a_K with inv a_K = s/(2 r) + inv a + D/(2 r_b)
-   - pi/z (DIN 3960). 0: it lies below the base circle. */
+/* Returns the radius of the axis of a pin of diameter D, at the angle a_K with inv a_K = s/(2 r)
+ * + inv a + D/(2 r_b) - pi/z (DIN 3960). 0: the axis is below the base circle. */
 static double pin_axis(const tooth *t, double pin)
 {
     double value = t->half + pin / (2 * t->base) - M_PI / t->teeth;
@@ -59,7 +62,7 @@ static double pin_axis(const tooth *t, double pin)
 double gear_measured_allowance(const gear_spur_spec *g, const gear_spur_pair *p, int i)
 {
     const tooth full = tooth_of(g, p, i, p->thickness[i]);
-    double half; /* half the angle of the tooth at the base circle */
+    double half; /* half of the tooth's angle at the base circle */
     if (g->span.count > 0) {
         double others = (ff_of_both(&g->span_teeth, i) - 1) * full.pitch;
         half = (ff_of_both(&g->span, i) - others) / (2 * full.base);
@@ -79,7 +82,7 @@ ff_status gear_check_measure(const ff_host *host, const gear_spur_spec *g, const
 {
     const bool spans = g->span.count > 0;
     const tooth t = tooth_of(g, p, i, p->thickness[i]);
-    double radius; /* where flank and tool touch */
+    double radius; /* where the tool touches the flank */
     if (spans) {
         radius = span_radius(&t, ff_of_both(&g->span, i));
     } else {
@@ -97,7 +100,7 @@ ff_status gear_check_measure(const ff_host *host, const gear_spur_spec *g, const
                     spans ? "another number of teeth in span_teeth" : "another pin_diameter");
 }
 
-/* The radius r + x m, about the middle of the flank. */
+/* Returns the radius r + x m, about the middle of the flank. */
 static double middle_of(const gear_spur_spec *g, const gear_spur_pair *p, int i)
 {
     return fmax(p->reference_radius[i] + ff_of_both(&g->shift, i) * g->module,
@@ -110,9 +113,9 @@ static double usual_count(const tooth *full, double middle)
     return fmax(2, round((span - 2 * full->base * full->half) / full->pitch + 1));
 }
 
-/* The pin that touches a full tooth at the angle a_v, where a_K = tan a_v - (s/(2 r) + inv a -
-   pi/z) follows from both D = 2 r_b (tan a_K - tan a_v) and inv a_K; up to the next quarter of a
-   mm, of small modules twentieth. */
+/* Returns the diameter of the pin that touches a full tooth at the angle a_v: a_K = tan a_v -
+ * (s/(2 r) + inv a - pi/z) follows from D = 2 r_b (tan a_K - tan a_v) and from inv a_K. It is
+ * rounded up to a quarter of a mm, or to a twentieth for small modules. */
 static double usual_pin(const tooth *full, double middle, double module)
 {
     double touches = sqrt((middle - full->base) * (middle + full->base)) / full->base;

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Bulk temperature of the teeth by ISO/TR 15144-1. */
 #include "bulk.h"
 
 #include <math.h>
 
 /* ISO/TR 15144-1 (84): 7400 (P mu_m H_v/(a b))^0.72 X_S/(1.2 X_Ca), where P mu_m H_v, kW, is the
-   loss; a and b in mm. The centre distance follows from both base radii and the line of action. */
+ * loss; a and b in mm. The centre distance a follows from the base radii and the line of action. */
 double losses_standard_rise(const losses_mesh *m, double loss, int32_t supply, double relief)
 {
     static const double supplied[] = {1, 1.2, 0.2};

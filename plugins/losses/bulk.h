@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The temperature that teeth take by the loss of their mesh. */
+/* The temperature of the teeth that results from the loss of their mesh. */
 #ifndef LOSSES_BULK_H
 #define LOSSES_BULK_H
 
@@ -9,11 +9,11 @@
 enum { LOSSES_STANDARD, LOSSES_CONDUCTANCE, LOSSES_OIL };
 #define LOSSES_BULK_RULES "standard|conductance|oil"
 
-/* How the oil comes to the teeth. */
+/* How the oil reaches the teeth. */
 #define LOSSES_SUPPLIES "dip|spray|submerged"
 
-/* The rise over the oil by ISO/TR 15144-1, K, from the loss in W; `supply` is a rank in
-   LOSSES_SUPPLIES, `relief` is X_Ca. */
+/* Returns the temperature rise over the oil by ISO/TR 15144-1, K, from the loss in W; `supply`
+ * is a rank in LOSSES_SUPPLIES, `relief` is X_Ca. */
 double losses_standard_rise(const losses_mesh *m, double loss, int32_t supply, double relief);
 
 #endif

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Compares the friction of the film with formulas fitted to measured gears. */
 #include "friction.h"
 
 #include <flankfilm/laws.h>
@@ -6,16 +7,16 @@
 #include <math.h>
 #include <stdio.h>
 
-/* The measurements that the formulas are fitted to. */
+/* The range of the measurements behind the formulas. */
 static const double slowest = 2, fastest = 20;             /* pitch line, m/s */
 static const double smoothest = 0.1e-6, roughest = 0.8e-6; /* Ra, m */
 
-/* Film over formula beyond which one of both is doubtful. */
+/* Ratio of film to formula beyond which one of them is doubtful. */
 static const double least_agreement = 0.67, most_agreement = 1.5;
 
-static const double high_friction = 0.12; /* no lubricated gear was measured with more */
-static const double most_friction = 0.2;  /* dry steel begins here */
-static const double loaded = 0.01;        /* of the largest load; friction over less says nothing */
+static const double high_friction = 0.12; /* above all measurements of lubricated gears */
+static const double most_friction = 0.2;  /* the lower end of dry steel */
+static const double loaded = 0.01; /* of the largest load; friction at smaller loads says nothing */
 
 double losses_friction_mean(const losses_mesh *m)
 {
@@ -35,15 +36,15 @@ double losses_friction_mean(const losses_mesh *m)
     return unit > 0 ? loss / unit : 0;
 }
 
-/* Ohlendorf 1958, of spur gears: H_v = pi (u + 1)/(z_1 u) (1 - eps + eps_1^2 + eps_2^2), with half
-   the load on each of two pairs; eps_1 and eps_2 are the parts of the contact ratio on both sides
-   of the pitch point. */
+/* Ohlendorf 1958, for spur gears: H_v = pi (u + 1)/(z_1 u) (1 - eps + eps_1^2 + eps_2^2), with
+ * half of the load on each of two pairs. eps_1 and eps_2 are the parts of the contact ratio
+ * before and after the pitch point. */
 static double loss_factor(const losses_mesh *m, double pitch_roll)
 {
     const double ratio = m->omega[0] / m->omega[1]; /* z_2/z_1 */
     const double approach = (pitch_roll - m->station[0]) / m->pitch;
     const double recess = (m->station[m->stations - 1] - pitch_roll) / m->pitch;
-    /* pi/z_1 is half the pitch */
+    /* pi/z_1 is half of the pitch */
     return m->pitch / 2 * (1 + 1 / ratio) *
            (1 - approach - recess + approach * approach + recess * recess);
 }
@@ -56,20 +57,18 @@ static double factor_of_base(double base, bool *guessed)
     return *guessed ? 1 : factor[(int)base];
 }
 
-/*
- * The load F_bt/b is torque over base radius and width, N/mm; the sum of speeds v_SC and the radius
- * of curvature rho_C (mm) are those at the pitch point; eta is that at the temperature of the oil,
- * mPa s; Ra is the mean of both flanks, um.
- *
+/* The load F_bt/b is torque over base radius and face width, N/mm; sum of speeds v_SC and radius
+ * of curvature rho_C (mm) are those at the pitch point; eta is at the oil temperature, mPa s; Ra
+ * is the mean of both flanks, um.
  * ISO/TR 14179-2 (Schlenk): mu = 0.048 (F_bt/b/(v_SC rho_C))^0.2 eta^-0.05 Ra^0.25 X_L
- * ISO/TR 15144-1: mu = 0.045 (F_bt/b/(v_SC rho_C))^0.2 eta^-0.05 X_R X_L,
- * X_R = 2.2 (Ra/rho_C)^0.25
- */
+ * ISO/TR 15144-1: mu = 0.045 (F_bt/b/(v_SC rho_C))^0.2 eta^-0.05 X_R X_L, X_R = 2.2
+ * (Ra/rho_C)^0.25 */
 losses_formula losses_formula_of(const losses_mesh *m, int32_t formula, double oil_factor)
 {
     const size_t last = m->stations - 1;
     const double line = m->radius[0][0] + m->radius[1][0];
-    const double share = m->omega[1] / (m->omega[0] + m->omega[1]); /* of the line, by radius 1 */
+    /* share of the line of action at radius 1 */
+    const double share = m->omega[1] / (m->omega[0] + m->omega[1]);
     const double base_radius =
         (m->radius[0][last] - m->radius[0][0]) / (m->station[last] - m->station[0]);
     const double pitch_roll = m->station[0] + (share * line - m->radius[0][0]) / base_radius;
@@ -93,7 +92,7 @@ losses_formula losses_formula_of(const losses_mesh *m, int32_t formula, double o
     return f;
 }
 
-/* The largest coefficient under a load that counts. */
+/* Returns the largest coefficient among the loads that count. */
 static double highest_friction(const losses_mesh *m, size_t *at)
 {
     double most = 0, highest = 0;

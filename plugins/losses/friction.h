@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The friction of the film beside formulas fitted to measured losses of gears. */
+/* Compares the friction of the film with formulas fitted to measured losses of gears. */
 #ifndef LOSSES_FRICTION_H
 #define LOSSES_FRICTION_H
 
@@ -10,25 +10,25 @@ enum { LOSSES_SCHLENK, LOSSES_ISO_15144 };
 #define LOSSES_FORMULAS "schlenk|iso-15144"
 
 typedef struct losses_formula {
-    double film;         /* mean coefficient of the film, weighted by loss */
-    double coefficient;  /* by the formula; NaN: the oil or the roughness is not known */
-    double loss_factor;  /* H_v: loss over power at a coefficient of 1 */
+    double film;         /* mean coefficient of the film, weighted by its loss */
+    double coefficient;  /* by the formula; NaN: oil or roughness is not known */
+    double loss_factor;  /* H_v: loss over power for a coefficient of 1 */
     double pitch_speed;  /* m/s */
     double roughness;    /* Ra, mean of both flanks, m; 0: not known */
     double oil_factor;   /* X_L */
-    bool oil_is_guessed; /* X_L is that of a mineral oil because nothing tells the base */
+    bool oil_is_guessed; /* X_L of a mineral oil is assumed, since the base oil is not known */
 } losses_formula;
 
-/* int |tau| |u_s| over int w |u_s|: loss over the loss at a coefficient of 1. */
+/* Returns int |tau| |u_s| over int w |u_s|: the loss over the loss at a coefficient of 1. */
 double losses_friction_mean(const losses_mesh *m);
 
-/* `oil_factor` NaN: by the base of the oil. */
+/* Evaluates a formula. `oil_factor` NaN: by the base oil. */
 losses_formula losses_formula_of(const losses_mesh *m, int32_t formula, double oil_factor);
 
-/* The range of the loss factor. */
+/* Reports whether the gears are in the range of the loss factor. */
 void losses_report_factor(const ff_host *host, const losses_mesh *m);
 
-/* The verdicts on friction; `wanted`: the formula itself was asked for. */
+/* Reports the verdicts on friction; `wanted`: the formula itself was requested. */
 void losses_report_friction(const ff_host *host, const losses_mesh *m, const losses_formula *f,
                             bool wanted);
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads and checks the inputs of losses/tooth-mesh. */
 #include "mesh-inputs.h"
 
 #include "../numerics/interval.h"
@@ -8,10 +9,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Of an engagement; the sums over its pairs stay short. */
+/* Longest engagement, in pitches, which keeps the sums over its pairs short. */
 static const double most_pitches = 100;
 
-/* Reads a row of `count` numbers between least and most. */
+/* Reads a row of `count` numbers between `least` and `most`. */
 static ff_status read_row(const ff_host *host, const ff_array *in, uint32_t row, size_t count,
                           double least, double most, const double **data)
 {
@@ -90,7 +91,7 @@ losses_engagement losses_engagement_at(const losses_mesh *m, size_t k)
                                m->loss ? m->loss + first : NULL, m->pitch};
 }
 
-/* Finds the engagements, each of one tooth pair from SAP to tip. */
+/* Finds the engagements; each is of one tooth pair from SAP to tip. */
 static ff_status find_engagements(const ff_host *host, losses_mesh *m)
 {
     m->first = calloc(m->n + 2, sizeof *m->first);
@@ -123,8 +124,8 @@ void losses_motion_at(const losses_mesh *m, double roll, double radius[2], doubl
     }
 }
 
-/* Of the surface where a flank has an Rq there, else of the gear; Ra is Rq sqrt(2/pi) of Gaussian
- * heights. */
+/* Reads the roughness from the surface if a flank has an Rq there, otherwise from the gear. Ra
+ * is Rq sqrt(2/pi), for Gaussian heights. */
 static ff_status read_roughness(const ff_host *host, const ff_array *in, losses_mesh *m)
 {
     const double *gear = NULL, *surface[2] = {NULL, NULL}, most = 1;

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Sums over the tooth pairs in mesh. */
 #include "mesh-sum.h"
 
 #include "../numerics/interval.h"
 
 #include <math.h>
 
-/* In pitches; phases within it are one. */
+/* In pitches; closer phases count as one. */
 static const double slack = 1e-9;
 
 double losses_interpolate(const double *x, const double *y, size_t i, double at)
@@ -15,7 +16,7 @@ double losses_interpolate(const double *x, const double *y, size_t i, double at)
     return (1 - share) * y[i] + share * y[i + 1];
 }
 
-/* Length of the path of contact, in pitches: the contact ratio. */
+/* Returns the length of the path of contact in pitches, which is the contact ratio. */
 static double pitches(const losses_engagement *e)
 {
     return (e->roll[e->n - 1] - e->roll[0]) / e->pitch;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Ports of losses/tooth-mesh. */
+/* Tables of inputs and outputs of losses/tooth-mesh. */
 #ifndef LOSSES_ROWS_H
 #define LOSSES_ROWS_H
 
@@ -10,7 +10,7 @@
 enum {
     IN_ROLL_ANGLE,
     IN_POWER_LOSS,
-    IN_SLIDING_LOSS, /* this and the next three: the parts of it */
+    IN_SLIDING_LOSS, /* this and the next three rows: the parts of the loss */
     IN_ROLLING_LOSS,
     IN_SQUEEZE_LOSS,
     IN_ASPERITY_LOSS,
@@ -31,7 +31,7 @@ enum {
     IN_RQ_1,
     IN_RQ_2,
     IN_OIL,
-    IN_HEAT, /* of the gears: three rows */
+    IN_HEAT, /* of the gears; three rows */
     LOSSES_INPUTS = IN_HEAT + NUMERICS_HEAT_INPUTS
 };
 
@@ -41,7 +41,7 @@ enum {
     OUT_PHASE,
     OUT_MESH_POWER_LOSS,
     OUT_POWER_LOSS_MEAN,
-    OUT_SLIDING_LOSS_MEAN, /* this and the next three: in the order of the inputs */
+    OUT_SLIDING_LOSS_MEAN, /* this and the next three rows: in the order of the inputs */
     OUT_ROLLING_LOSS_MEAN,
     OUT_SQUEEZE_LOSS_MEAN,
     OUT_ASPERITY_LOSS_MEAN,

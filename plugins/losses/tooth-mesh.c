@@ -11,23 +11,23 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double blok = 1.11;             /* factor of a Hertzian heat source, Blok 1937 */
-static const double least_peclet = 5;        /* of a fast heat source, Jaeger 1942 */
-static const double most_loss = 0.1;         /* of the power; gears lose less */
+static const double blok = 1.11;             /* factor for a Hertzian heat source, Blok 1937 */
+static const double least_peclet = 5;        /* of a fast-moving heat source, Jaeger 1942 */
+static const double most_loss = 0.1;         /* of the power; real gears lose less */
 static const double least_half_width = 1e-3; /* of the largest; a narrower contact heats nothing */
 
 typedef struct tooth_mesh {
     const ff_host *host;
     ff_reals conductivity, density, specific_heat; /* of both gears */
     double bulk_temperature;                       /* K; NaN: auto */
-    double thermal_conductance;                    /* W/K; NaN: endless */
+    double thermal_conductance;                    /* W/K; NaN: unlimited */
     double relief_factor;                          /* X_Ca */
-    double rise_factor;                            /* on the rise by the standard */
+    double rise_factor;                            /* on the temperature rise by the standard */
     double oil_factor;                             /* NaN: auto */
     int32_t bulk_rule, supply;
     int32_t formula;
     int64_t points;
-    const ff_liquid *oil; /* NULL: none */
+    const ff_liquid *oil; /* NULL: not wired */
 } tooth_mesh;
 
 static const ff_param params[] = {
@@ -66,9 +66,9 @@ static const ff_param params[] = {
              "equal parts of the mesh cycle in mesh_power_loss"),
 };
 
-/* Blok 1937: 1.11 (friction power per width)/((B1 sqrt u1 + B2 sqrt u2) sqrt(2 a)),
-   B = sqrt(k rho c), for a band of half width a over which both flanks move fast. Powers in W/m,
-   result in K. */
+/* Blok 1937: 1.11 (friction power per width)/((B1 sqrt u1 + B2 sqrt u2) sqrt(2 a)), B = sqrt(k
+ * rho c), for a band of half width a that moves fast over both flanks. Powers in W/m, result in
+ * K. */
 static double flash_at(const losses_mesh *m, double power, const double speed[2], double half_width)
 {
     double conducted = 0; /* B1 sqrt u1 + B2 sqrt u2 */
@@ -77,7 +77,8 @@ static double flash_at(const losses_mesh *m, double power, const double speed[2]
     return blok * power / (conducted * sqrt(2 * half_width));
 }
 
-/* The power per width that heats the contact itself; rolling heats the oil in the inlet. */
+/* Returns the power per width that heats the contact itself. Rolling losses heat the oil in the
+ * inlet instead. */
 static double friction_power(const losses_mesh *m, size_t i)
 {
     enum { SLIDING = 0, ASPERITIES = PARTS - 1 };
@@ -93,7 +94,8 @@ static ff_status set_series(const tooth_mesh *s, losses_mesh *m)
         losses_motion_at(m, m->roll[i], radius, speed);
         double R = radius[0] * radius[1] / (radius[0] + radius[1]);
         m->loss[i] = m->power[i] * m->face_width;
-        /* in pure rolling the load is not known, but there is no heat either */
+        /* in pure rolling the friction coefficient does not tell the load, but there is no heat
+         * either */
         m->load[i] = fabs(m->friction[i]) > 0 ? m->traction[i] / m->friction[i] : 0;
         m->half_width[i] = sqrt(8 * fmax(m->load[i], 0) * R / (M_PI * m->modulus));
         widest = fmax(widest, m->half_width[i]);
@@ -112,7 +114,7 @@ static ff_status set_series(const tooth_mesh *s, losses_mesh *m)
     return FF_OK;
 }
 
-/* Loss of all pairs at a phase, mean over the engagements. */
+/* Returns the loss of all pairs at a phase, averaged over the engagements. */
 static double loss_at(const losses_mesh *m, double phase, bool before)
 {
     double sum = 0;
@@ -123,7 +125,7 @@ static double loss_at(const losses_mesh *m, double phase, bool before)
     return sum / (double)m->count;
 }
 
-/* Mean over the mesh cycle and the engagements of a quantity of a pair over the steps. */
+/* Returns the mean, over mesh cycle and engagements, of a quantity given at the steps. */
 static double mean_of(const losses_mesh *m, const double *value)
 {
     double sum = 0;
@@ -134,8 +136,8 @@ static double mean_of(const losses_mesh *m, const double *value)
     return sum / (double)m->count;
 }
 
-/* Writes mesh_power_loss at equal steps of the mesh cycle and, twice, where a pair leaves. The
-   distance of its mean from the exact one is the error of the steps. */
+/* Writes mesh_power_loss at equal steps of the mesh cycle, and twice at phases where a pair
+ * leaves. The difference between its mean and the exact one is the error of the steps. */
 static ff_status write_cycle(const tooth_mesh *s, const losses_mesh *m, uint64_t wanted)
 {
     const losses_engagement e = losses_engagement_at(m, 0);
@@ -237,7 +239,7 @@ static void report_engagements(const tooth_mesh *s, const losses_mesh *m, const 
                      fabs(of->mean) > 0 ? of->deviation / fabs(of->mean) : 0, 0, FF_GOOD, text);
 }
 
-/* Reports whether the parts of the loss add up to the whole, or that the film gives none. */
+/* Reports whether the parts of the loss add up to the total, or that the film gives no parts. */
 static void report_parts(const tooth_mesh *s, const losses_mesh *m)
 {
     double off = 0, most = 0, lacking = 0;
@@ -262,7 +264,8 @@ static void report_parts(const tooth_mesh *s, const losses_mesh *m)
                      "maximum");
 }
 
-/* Reports whether engagement, friction power and heat source are as the formulas assume. */
+/* Reports whether engagement, friction power and heat source meet the assumptions of the
+ * formulas. */
 static void report(const tooth_mesh *s, const losses_mesh *m, const scatter *of, double efficiency)
 {
     const ff_host *host = s->host;
@@ -302,7 +305,7 @@ static void report(const tooth_mesh *s, const losses_mesh *m, const scatter *of,
     report_engagements(s, m, of);
 }
 
-/* Writes the means of the parts and the loss of each engagement. */
+/* Writes the means of the parts, and the loss of each engagement. */
 static ff_status write_parts(const tooth_mesh *s, const losses_mesh *m, uint64_t wanted)
 {
     for (uint32_t k = 0; k < PARTS; k++) {
@@ -325,7 +328,7 @@ static ff_status write_parts(const tooth_mesh *s, const losses_mesh *m, uint64_t
     return each ? FF_OK : FF_NOMEM;
 }
 
-/* The temperature of the teeth before they meet, by the loss that heats them. */
+/* Returns the temperature of the teeth before they meet, from the loss that heats them. */
 static double bulk_of(const tooth_mesh *s, const losses_mesh *m, double loss)
 {
     if (s->bulk_temperature > 0)
@@ -403,8 +406,8 @@ static ff_status write_outputs(const tooth_mesh *s, const losses_mesh *m, uint64
     return status;
 }
 
-/* Reads what the gears conduct heat by; one that does not tell is refused where a temperature of
-   the flanks is wanted. */
+/* Reads the thermal data of the gears. Refuses gears without these data if a flank temperature
+ * is wanted. */
 static ff_status read_heat(const tooth_mesh *s, uint64_t wanted, losses_mesh *m)
 {
     const uint64_t hot = FF_BIT(OUT_FLASH) | FF_BIT(OUT_CONTACT_TEMPERATURE) |

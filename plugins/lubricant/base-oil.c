@@ -3,23 +3,21 @@
 
 #include <math.h>
 
-/* value + slope (T - at); NaN: no source. */
+/* value + slope (T - at); NaN: no source is known. */
 typedef struct line {
     double value, slope, at;
 } line;
 
 static const struct {
-    /* Typical values of gear oils; PAG from 990 to 1100 by its chemistry. */
+    /* Typical values of gear oils; PAG ranges from 990 to 1100 kg/m3 by its chemistry. */
     double density_15;
     line conductivity, heat_capacity;
-    /*
-     * alpha = s nu^t, 1/GPa for nu in cSt, is the mean of dln(eta)/dp over the first 0.2 GPa: P. W.
-     * Gold, A. Schmidt, H. Dicke, J. Loos, C. Assmann 2001, J. Synth. Lubr. 18, 51-79, as later
-     * work on gear losses quotes it. The range of the fit is not stated there.
-     */
+    /* alpha = s nu^t, 1/GPa with nu in cSt, is the mean of dln(eta)/dp over the first 0.2 GPa:
+     * P. W. Gold, A. Schmidt, H. Dicke, J. Loos, C. Assmann 2001, J. Synth. Lubr. 18, 51-79, as
+     * later work on gear losses quotes it. That work does not state the range of the fit. */
     double s, t;
 } bases[LUBRICANT_BASE_COUNT] = {
-    /* Thermal data from the density: see below. */
+    /* Thermal data follow from the density, see below. */
     [LUBRICANT_MINERAL] = {890, {NAN, 0, 0}, {NAN, 0, 0}, 9.904, 0.1390},
     /* PAO-B, 22 to 107 degC: R. Larsson, P. O. Larsson, E. Eriksson, M. Sjoberg, E. Hoglund 2000,
        Proc. IMechE J 214, 17-27. */
@@ -57,8 +55,8 @@ double lubricant_base_conductivity(int base, double density_15, double T, double
     return on_line((line){k, -0.00054 * k, 273.15}, T, slope);
 }
 
-/* Petroleum oils, 0 to 200 degC, 4 %: c = (0.388 + 0.00045 t)/sqrt(s) Btu/(lb degF), t in degF (the
-   same; 1 Btu/(lb degF) is 4186.8 J/(kg K)). */
+/* Petroleum oils, 0 to 200 degC, 4 %: c = (0.388 + 0.00045 t)/sqrt(s) Btu/(lb degF), t in degF
+ * (Cragoe 1929; 1 Btu/(lb degF) is 4186.8 J/(kg K)). */
 double lubricant_base_heat_capacity(int base, double density_15, double T, double *slope)
 {
     if (base != LUBRICANT_MINERAL)
@@ -67,11 +65,9 @@ double lubricant_base_heat_capacity(int base, double density_15, double T, doubl
     return on_line((line){0.4024 * c, 0.00081 * c, 273.15}, T, slope);
 }
 
-/*
- * Gold's mean m over P = 0.2 GPa becomes a slope at ambient pressure with C. J. A. Roelands' law,
- * ln(eta/eta0) = L ((1 + p/p0)^z - 1), L = ln(eta0) + 9.67, p0 = 196 MPa: its exponent that has
- * this mean is z = ln(1 + m P/L)/ln(1 + P/p0), and its slope z L/p0.
- */
+/* Converts Gold's mean m over P = 0.2 GPa to the slope at ambient pressure by C. J. A. Roelands'
+ * law, ln(eta/eta0) = L ((1 + p/p0)^z - 1), L = ln(eta0) + 9.67, p0 = 196 MPa. The exponent with
+ * this mean is z = ln(1 + m P/L)/ln(1 + P/p0), and the slope is z L/p0. */
 double lubricant_base_pressure_coefficient(int base, double nu, double ln_eta0, double nu_slope,
                                            double ln_eta0_slope, double *slope)
 {

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Slope between point i and the next. */
+/* Returns the slope of the chord from point i to the next. */
 static double secant(const lubricant_curve *c, size_t i)
 {
     return (c->y[i + 1] - c->y[i]) / (c->x[i + 1] - c->x[i]);
@@ -45,7 +45,7 @@ void lubricant_curve_free(lubricant_curve *c)
     *c = (lubricant_curve){.n = 0};
 }
 
-/* A cubic of the distance from a point, and where it holds: low <= x < high. */
+/* A cubic in the distance from a point, valid for low <= x < high. */
 typedef struct piece {
     double low, high, from, y, slope, square, cube;
 } piece;
@@ -53,7 +53,7 @@ typedef struct piece {
 static piece piece_at(const lubricant_curve *c, double x)
 {
     const size_t last = c->n - 1;
-    if (!(x >= c->x[0])) /* or no number */
+    if (!(x >= c->x[0])) /* also true for NaN */
         return (piece){-HUGE_VAL, c->x[0], c->x[0], c->y[0], c->slope[0], 0, 0};
     if (x >= c->x[last])
         return (piece){c->x[last], HUGE_VAL, c->x[last], c->y[last], c->slope[last], 0, 0};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A smooth curve through measured points that overshoots none of them. */
+/* A smooth curve through measured points that does not overshoot them. */
 #ifndef LUBRICANT_CURVE_H
 #define LUBRICANT_CURVE_H
 
@@ -7,16 +7,16 @@
 #include <stddef.h>
 
 typedef struct lubricant_curve {
-    size_t n; /* 0: there is no curve */
+    size_t n; /* 0: no curve */
     double *x, *y, *slope;
     double *square, *cube; /* coefficients from each point to the next */
 } lubricant_curve;
 
-/* Copies n >= 1 points of increasing x. False when there is no memory. */
+/* Copies n >= 1 points with increasing x. False if there is no memory. */
 bool lubricant_curve_make(lubricant_curve *c, size_t n, const double *x, const double *y);
 void lubricant_curve_free(lubricant_curve *c);
 
-/* At n points. Beyond its ends the curve is straight. Through one point alone it is level. */
+/* Evaluates n points. The curve is straight beyond its ends, and constant if it has one point. */
 void lubricant_curve_values(const lubricant_curve *c, size_t n, const double *x, double *y,
                             double *slope);
 

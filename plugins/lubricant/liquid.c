@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The service flankfilm.liquid/1: properties of an oil over temperature. */
 #include "liquid.h"
 
 #include "base-oil.h"
@@ -10,13 +11,14 @@
 
 enum { BLOCK = 256 };
 
-/* How far from the one temperature of its data an oil still is at it, K. */
+/* K; within this distance from the only temperature of its data, an oil has these data. */
 static const double SAME = 0.01;
 
-/* K before the upper end of an oil, and as many behind it, over which its slopes go to 0. */
+/* K before the upper end of an oil's range, and the same width beyond it, over which its slopes
+ * decrease to 0. */
 static const double BEND = 50;
 
-/* A function of T: its value and slope. */
+/* A function of T: value and slope. */
 typedef double property(const lubricant_oil *oil, double T, double *slope);
 
 static const lubricant_curve *table_of(const lubricant_oil *oil, int32_t what)
@@ -43,7 +45,7 @@ static double constant(double value, double *slope)
     return value;
 }
 
-/* The density of one without a table. */
+/* Density of an oil without a table. */
 FF_SIMD
 static void expand(const lubricant_oil *oil, size_t n, const double *restrict T,
                    double *restrict rho, double *restrict slope)
@@ -78,7 +80,7 @@ static void take_log(size_t n, const double *restrict x, double *restrict ln)
         ln[i] = ff_log(x[i]);
 }
 
-/* Turns slopes by y, a function of ln(T), into slopes by T. */
+/* Converts slopes over ln(T) to slopes over T. */
 FF_SIMD
 static void by_temperature(size_t n, const double *restrict T, const double *restrict dy_dx,
                            double *restrict slope)
@@ -100,7 +102,7 @@ static void kinematic(const lubricant_oil *oil, size_t n, const double *T, doubl
         slope[i] = NAN;
 }
 
-/* Multiplies n values by others; slopes of the logarithm. */
+/* Multiplies n values by others; the slopes are those of logarithms. */
 FF_SIMD
 static void take_product(size_t n, double *restrict a, const double *restrict a_slope,
                          const double *restrict b, const double *restrict b_slope,
@@ -112,7 +114,7 @@ static void take_product(size_t n, double *restrict a, const double *restrict a_
     }
 }
 
-/* At n <= BLOCK points. */
+/* ln(eta0) at n <= BLOCK points. */
 static void ln_eta0(const lubricant_oil *oil, size_t n, const double *T, double *ln, double *slope)
 {
     double nu_slope[BLOCK], rho[BLOCK], rho_slope[BLOCK], eta[BLOCK];
@@ -149,7 +151,7 @@ static double heat_capacity(const lubricant_oil *oil, double T, double *slope)
     return lubricant_base_heat_capacity(oil->base, oil->density_15, T, slope);
 }
 
-/* By the correlation of the base. */
+/* Returns alpha by the correlation for the base oil. */
 static double correlated_alpha(const lubricant_oil *oil, double T, double *slope)
 {
     double nu, nu_slope, ln, ln_slope;
@@ -174,7 +176,8 @@ static double pressure_coefficient(const lubricant_oil *oil, double T, double *s
     return oil->alpha_scale * alpha;
 }
 
-/* That which the oil runs at by itself, or the nearest to 40 degC of its data. */
+/* Returns the reference temperature: the one the oil runs at, or else the temperature of its
+ * data nearest to 40 degC. */
 static double reference_temperature(const lubricant_oil *oil, double T, double *slope)
 {
     (void)T;
@@ -211,7 +214,7 @@ static double conductivity_bend(const lubricant_oil *oil, double T, double *slop
     return conductivity_number(oil, 1, slope);
 }
 
-/* Properties that are asked for one by one. */
+/* Properties that are requested one by one. */
 static property *const properties[LUBRICANT_PROPERTIES] = {
     [FF_LIQUID_CONDUCTIVITY] = conductivity,
     [FF_LIQUID_HEAT_CAPACITY] = heat_capacity,
@@ -223,11 +226,9 @@ static property *const properties[LUBRICANT_PROPERTIES] = {
     [FF_LIQUID_CONDUCTIVITY_BEND] = conductivity_bend,
 };
 
-/*
- * The temperatures whose values hold at T, and their slopes: where ASTM D341 does not hold, all
- * stays as it is where it still does. Heated films run into the upper end, which is reached on a
- * parabola: the heat of compression goes with the slope of the density, which must not jump.
- */
+/* Clamps temperatures to the range of ASTM D341, with the slopes of the clamped ones. Heated
+ * films reach the upper end, which is therefore approached on a parabola: the heat of
+ * compression depends on the slope of the density, which must not jump. */
 FF_SIMD
 static void hold(const lubricant_oil *oil, size_t n, const double *restrict T,
                  double *restrict held, double *restrict by_T)
@@ -241,19 +242,19 @@ static void hold(const lubricant_oil *oil, size_t n, const double *restrict T,
     }
 }
 
-/* Multiplies slopes by those of the temperatures that were held; what is level stays so. */
+/* Multiplies slopes by those of the clamped temperatures; what is constant stays so. */
 FF_SIMD
 static void hold_slopes(size_t n, const double *restrict by_T, const double *restrict value,
                         double *restrict slope)
 {
     for (size_t i = 0; i < n; i++) {
-        double level = value[i] - value[i]; /* 0, or no number */
+        double level = value[i] - value[i]; /* 0, or NaN */
         double bent = by_T[i] > 0 ? by_T[i] * slope[i] : level;
         slope[i] = by_T[i] < 1 ? bent : slope[i];
     }
 }
 
-/* At n <= BLOCK points. */
+/* Values at n <= BLOCK points. */
 static void values_at(const lubricant_oil *oil, int32_t what, size_t n, const double *T,
                       double *value, double *slope)
 {
@@ -277,7 +278,7 @@ static ff_status eval(const void *self, int32_t what, size_t n, const double *T,
     if (what < 0 || what >= LUBRICANT_PROPERTIES)
         return FF_UNSUPPORTED;
     bool runs = n == 1 && *T <= oil->run_temperature && *T >= oil->run_temperature;
-    if (runs) { /* no NaN is */
+    if (runs) { /* false for NaN */
         *value = oil->run_value[what];
         *(slope ? slope : unwanted) = oil->run_slope[what];
     }
@@ -290,7 +291,7 @@ static ff_status eval(const void *self, int32_t what, size_t n, const double *T,
     return status;
 }
 
-/* Temperatures between which the straight ends of the curve keep ASTM D341. */
+/* Finds the temperatures between which the straight ends of the curve satisfy ASTM D341. */
 static void find_limits(lubricant_oil *oil)
 {
     const lubricant_curve *c = &oil->viscosity;
@@ -306,7 +307,8 @@ static void find_limits(lubricant_oil *oil)
     }
     oil->coldest = fmax(150, exp(c->x[0] + (most - c->y[0]) / c->slope[0]));
     oil->hottest = fmin(700, exp(c->x[last] + (least - c->y[last]) / c->slope[last]));
-    oil->hottest = fmax(oil->hottest, oil->high + BEND); /* data come back as they were given */
+    /* so that data are returned as they were given */
+    oil->hottest = fmax(oil->hottest, oil->high + BEND);
 }
 
 static ff_status find_alpha(lubricant_oil *oil)

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * What the models of this folder share: an oil as functions of its temperature, offered as
- * flankfilm.liquid/1, and its values at the temperature that it runs at. A model says how the
- * kinematic viscosity follows from its parameters.
- */
+/* Shared by the models of this folder: an oil as functions of temperature, offered as
+ * flankfilm.liquid/1, and its values at the temperature of the run. A model provides the
+ * kinematic viscosity from its parameters. */
 #ifndef LUBRICANT_LIQUID_H
 #define LUBRICANT_LIQUID_H
 
@@ -15,7 +13,7 @@
 
 enum { LUBRICANT_PROPERTIES = FF_LIQUID_CONDUCTIVITY_BEND + 1 };
 
-/* An instance of both models. NaN, -1 and NULL: not given. */
+/* An instance of either model. NaN, -1 and NULL: not given. */
 typedef struct lubricant_oil {
     const ff_host *host;
     ff_liquid service;
@@ -23,22 +21,25 @@ typedef struct lubricant_oil {
     int32_t base;
     double nu_40, nu_100, eta0, at, density;
     const char *grade, *file;
-    ff_reals conductivity_pressure; /* c1 and c2, 1/Pa, or nothing */
+    ff_reals conductivity_pressure; /* c1 and c2, 1/Pa, or empty */
 
-    /* Filled in by the model before lubricant_oil_ready. */
-    lubricant_curve viscosity; /* ordinate of ASTM D341 over ln T; one point: serves that alone */
-    lubricant_curve tables[4]; /* measured, in the order of the properties from FF_LIQUID_RHO0 */
-    double low, high;          /* K, that the data reach */
+    /* The model fills these in before lubricant_oil_ready. */
+    lubricant_curve viscosity; /* ordinate of ASTM D341 over ln T; if it has one point, the oil is
+                                  known at that temperature only */
+    lubricant_curve tables[4]; /* measured properties, in order from FF_LIQUID_RHO0 */
+    double low, high;          /* range of the data, K */
 
-    double coldest, hottest; /* K, that ASTM D341 holds in; set by lubricant_oil_ready */
-    double viscosity_index;  /* of nu_40 and nu_100; 0 or NaN: it has none */
-    double alpha_scale;      /* of the base's correlation; NaN: alpha is not known from it */
+    double coldest, hottest; /* range of ASTM D341, K; set by lubricant_oil_ready */
+    double viscosity_index;  /* from nu_40 and nu_100; 0 or NaN: none */
+    double alpha_scale; /* factor on the correlation for the base oil; NaN: alpha does not follow
+                           from it */
 
-    /* What it is at the temperature of the run, which films ask for over and over; NaN: no run. */
+    /* Values at the temperature of the run, which films request again and again; NaN: there is
+     * no run. */
     double run_temperature, run_value[LUBRICANT_PROPERTIES], run_slope[LUBRICANT_PROPERTIES];
 } lubricant_oil;
 
-/* The rows that both models have. */
+/* The parameters that both models have. */
 #define LUBRICANT_ROWS                                                                             \
     FF_QUANTITY("alpha", "1/GPa", lubricant_oil, alpha, FF_MIN_OPEN, NULL, NULL, 0, 1000, 2, 50,   \
                 "pressure coefficient dln(eta)/dp at ambient pressure and the temperature "        \
@@ -71,11 +72,12 @@ extern const ff_port lubricant_inputs[1];
 extern const ff_port lubricant_outputs[8];
 
 ff_status lubricant_oil_ready(lubricant_oil *oil);
-/* The viscosity by ASTM D341 from those at 40 and 100 degC, m2/s. */
+/* Sets the viscosity by ASTM D341 from those at 40 and 100 degC, m2/s. */
 ff_status lubricant_oil_ready_from(lubricant_oil *oil, double nu_40, double nu_100);
-/* Evaluates all properties at the temperature of the run; between runs the service stays pure. */
+/* Stores all properties at the temperature of the run; the service only reads them and stays
+ * pure. */
 void lubricant_keep_run(lubricant_oil *oil, double T);
-/* kg/m3 at T, once density_15 or a table of the density is there. */
+/* Returns the density at T, kg/m3, once density_15 or a table of the density is set. */
 double lubricant_density(const lubricant_oil *oil, double T);
 ff_status lubricant_evaluate(void *self, uint64_t wanted, const ff_array *in);
 const void *lubricant_service(void *self, uint32_t output);

@@ -34,7 +34,7 @@ static const ff_param params[] = {
     LUBRICANT_ROWS,
 };
 
-/* Columns of the file; those from DENSITY on by property. */
+/* Columns of the file; from DENSITY on, in the order of the properties. */
 enum { TEMPERATURE, VISCOSITY, KINEMATIC, DENSITY };
 
 static const ff_param columns[] = {
@@ -93,7 +93,7 @@ static ff_status density_missing(const lubricant_oil *oil, const char *why)
                     "the density of the oil is missing: give density_15%s", why);
 }
 
-/* What belongs to another way to give the viscosity is refused, not ignored. */
+/* Refuses parameters that belong to another way of giving the viscosity. */
 static ff_status check_companions(const lubricant_oil *oil)
 {
     const ff_host *host = oil->host;
@@ -110,7 +110,8 @@ static ff_status check_companions(const lubricant_oil *oil)
     return FF_OK;
 }
 
-/* The density at 15 degC that ASTM D1250, or the constant expansion, turns into `density` at T. */
+/* Returns the density at 15 degC that gives `density` at T by ASTM D1250 or by constant
+ * expansion. */
 static double density_15_from(const lubricant_oil *oil, double T)
 {
     double density_15 = oil->density, here, slope;
@@ -152,7 +153,7 @@ static ff_status take_tables(lubricant_oil *oil, const ff_table *file)
     return FF_OK;
 }
 
-/* The viscosity of each row as a point of the curve. */
+/* Turns the viscosity of each row into a point of the curve. */
 static ff_status take_viscosity(lubricant_oil *oil, const ff_table *file, double *x, double *y)
 {
     const double *const *column = file->columns;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The oils that this shared object exports. */
 #include <flankfilm/author.h>
 
 extern const ff_model lubricant_grade, lubricant_measured;

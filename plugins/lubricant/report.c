@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What an oil is at the temperature that it runs at. */
+/* Outputs: the properties of an oil at the temperature of the run. */
 #include "liquid.h"
 
 #include "standards.h"
 
 #include <math.h>
 
-static const double ZERO = 273.15; /* degC in K */
+static const double ZERO = 273.15; /* 0 degC in K */
 
 const ff_port lubricant_inputs[1] = {{.name = "operating.oil_temperature",
                                       .unit = "K",
@@ -17,7 +17,7 @@ const ff_port lubricant_inputs[1] = {{.name = "operating.oil_temperature",
 
 enum { OUT_OIL, OUT_TEMPERATURE, OUT_VALUES };
 
-/* The rows from OUT_VALUES on, by property; the expansion comes last. */
+/* Rows from OUT_VALUES on are in the order of the properties; the expansion is last. */
 const ff_port lubricant_outputs[8] = {
     {.name = "oil",
      .unit = "",

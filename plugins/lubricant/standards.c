@@ -8,12 +8,11 @@
 
 static const double CST = 1e-6; /* m2/s */
 
-/*
- * Mid-points of ISO 3448 at 40 degC, and the viscosity at 100 degC that has the viscosity index of
- * the base by ASTM D2270, all in cSt: 95 for mineral oil, 150 for PAO and ester (esters: 140 to
- * 160), 200 for PAG (an ethylene-propylene oxide copolymer of 204, 62.5 and 22.5 mPa s at 30, 60
- * and 100 degC; Stachowiak and Batchelor, Engineering Tribology, table 2.3). Typical, no product.
- */
+/* Mid-points of ISO 3448 at 40 degC, and the viscosity at 100 degC that gives the viscosity
+ * index of the base by ASTM D2270, all in cSt. Indices: 95 for mineral oil, 150 for PAO and
+ * ester (esters: 140 to 160), 200 for PAG (an ethylene-propylene oxide copolymer has 204, 62.5
+ * and 22.5 mPa s at 30, 60 and 100 degC; Stachowiak and Batchelor, Engineering Tribology, table
+ * 2.3). Typical values, of no particular product. */
 static const struct {
     double nu_40, mineral, synthetic, glycol;
 } grades[] = {
@@ -51,7 +50,8 @@ double lubricant_grade_nu_100(int64_t grade, int base)
     return CST * nu_100;
 }
 
-/* Viscosities of 0 and 100 index that share nu_100 = Y with the oil: ASTM D2270, appendix X2. */
+/* Returns the viscosities at 40 degC of the reference oils with index 0 and 100 that have nu_100
+ * = Y: ASTM D2270, appendix X2. */
 static void references(double Y, double *L, double *H)
 {
     static const struct {
@@ -99,8 +99,8 @@ double lubricant_d341_ordinate(double nu)
     return log10(log10(nu + 0.7 + exp(-1.47 - 1.84 * nu - 0.51 * nu * nu)));
 }
 
-/* ASTM D341-20, equation 3, a fit that is good to 0.1 % below some 5 cSt; then Newton steps on
-   equation 2, so that data come back as they were given. Above 10 cSt both are the same. */
+/* ASTM D341-20, equation 3, an inverse fit good to 0.1 % below about 5 cSt, then Newton steps on
+ * equation 2, so that data are returned as they were given. Above 10 cSt both agree. */
 FF_SIMD
 void lubricant_d341_nu(size_t n, const double *restrict y, double *restrict nu,
                        double *restrict slope)
@@ -121,8 +121,8 @@ void lubricant_d341_nu(size_t n, const double *restrict y, double *restrict nu,
     }
 }
 
-/* rho = rho15 exp(-a (1 + 0.8 a)), a = 0.6278 (T - 15 degC)/rho15: lubricating oils of 800 to 1164
-   kg/m3, -18 to 150 degC (ASTM D1250, table 54D). */
+/* rho = rho15 exp(-a (1 + 0.8 a)), a = 0.6278 (T - 15 degC)/rho15: lubricating oils of 800 to
+ * 1164 kg/m3, -18 to 150 degC (ASTM D1250, table 54D). */
 FF_SIMD
 void lubricant_d1250_density(double density_15, size_t n, const double *restrict T,
                              double *restrict rho, double *restrict slope)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What standards say of oils: viscosity grades, and viscosity and density over temperature. */
+/* Standards about oils: viscosity grades, and viscosity and density over temperature. */
 #ifndef LUBRICANT_STANDARDS_H
 #define LUBRICANT_STANDARDS_H
 
@@ -8,7 +8,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Rank of "ISO VG 220" among the grades of ISO 3448 that gear oils come in; -1: no such grade. */
+/* Returns the rank of "ISO VG 220" among the grades of ISO 3448 for gear oils; -1: no such
+ * grade. */
 int64_t lubricant_grade_find(const char *text);
 #define LUBRICANT_GRADE_NAMES                                                                      \
     "ISO VG 10|ISO VG 15|ISO VG 22|ISO VG 32|ISO VG 46|ISO VG 68|ISO VG 100|ISO VG 150|ISO VG "    \
@@ -16,7 +17,7 @@ int64_t lubricant_grade_find(const char *text);
     "ISO VG 320|ISO VG 460|ISO VG 680|ISO VG 1000|ISO VG 1500"
 #define LUBRICANT_GRADES "ISO VG 10, 15, 22, 32, 46, 68, 100, 150, 220, 320, 460, 680, 1000 or 1500"
 
-/* Base oils; LUBRICANT_BASES has their names in this order. */
+/* The base oils, in the order of LUBRICANT_BASES. */
 enum {
     LUBRICANT_MINERAL = FF_BASE_MINERAL,
     LUBRICANT_PAO = FF_BASE_PAO,
@@ -26,21 +27,20 @@ enum {
 };
 #define LUBRICANT_BASES "mineral|PAO|ester|PAG"
 
-/* Kinematic viscosity, m2/s, of the grade of that rank at 40 and 100 degC. */
+/* Kinematic viscosity, m2/s, at 40 and 100 degC of the grade with that rank. */
 double lubricant_grade_nu_40(int64_t grade);
 double lubricant_grade_nu_100(int64_t grade, int base);
 
-/* By ASTM D2270; NaN below 2 cSt at 100 degC, where it has none. */
+/* Returns the viscosity index by ASTM D2270; NaN below 2 cSt at 100 degC, where it is not
+ * defined. */
 double lubricant_viscosity_index(double nu_40, double nu_100);
-#define LUBRICANT_LEAST_INDEX (-100.0) /* polyphenyl ethers have some -70 */
+#define LUBRICANT_LEAST_INDEX (-100.0) /* polyphenyl ethers have about -70 */
 #define LUBRICANT_MOST_INDEX  400.0    /* glycols and oils with improvers have up to 300 */
 
-/*
- * ASTM D341: y = lg lg Z, Z = nu + 0.7 + exp(-1.47 - 1.84 nu - 0.51 nu^2), nu in cSt, is a straight
- * line over lg T. It holds from 0.21 to 2e7 cSt.
- */
+/* ASTM D341: y = lg lg Z, Z = nu + 0.7 + exp(-1.47 - 1.84 nu - 0.51 nu^2) with nu in cSt is a
+ * straight line over lg T, valid from 0.21 to 2e7 cSt. */
 double lubricant_d341_ordinate(double nu); /* nu in m2/s */
-/* nu in m2/s at n ordinates, and its slope over them. */
+/* Returns nu, m2/s, at n ordinates, and its slope over the ordinate. */
 void lubricant_d341_nu(size_t n, const double *y, double *nu, double *slope);
 #define LUBRICANT_D341_LEAST 0.21e-6 /* m2/s */
 #define LUBRICANT_D341_MOST  20.0

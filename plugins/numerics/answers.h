@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Holds laws to what they owe: FF_OK or FF_DOMAIN, and finite numbers at every finite pressure. */
+/* Checks the answers of laws: FF_OK or FF_DOMAIN, and finite numbers at every finite pressure. */
 #ifndef NUMERICS_ANSWERS_H
 #define NUMERICS_ANSWERS_H
 
@@ -10,23 +10,24 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The first answer of a law to a stage that was not what a law owes. */
+/* The first wrong answer that a law gave to a stage. */
 typedef struct numerics_answers {
-    ff_status status; /* FF_OK: all were; FF_BUG, FF_NOCONV, FF_NOMEM */
+    ff_status status; /* FF_OK: none was wrong; otherwise FF_BUG, FF_NOCONV, FF_NOMEM */
     const char *wire; /* of the law: "viscosity" */
     char text[160];
 } numerics_answers;
 
-/* What a law was asked, and answered. */
+/* A question to a law, and its answer. */
 typedef struct numerics_answer {
     const char *wire, *name; /* "viscosity", "ln_eta" */
     ff_status status;
     size_t n;
     const double *p;              /* Pa, or NULL */
-    const double *value, *slopes; /* n of both; slopes may be NULL */
+    const double *value, *slopes; /* n of each; slopes may be NULL */
 } numerics_answer;
 
-/* The sum of n numbers, in lanes that work at once. It is finite only if all numbers are. */
+/* Returns the sum of n numbers, computed in several lanes at once. It is finite only if all
+ * numbers are. */
 static inline double numerics_lane_sum(size_t n, const double *x)
 {
     enum { LANES = 8 };
@@ -48,8 +49,8 @@ static inline int numerics_are_finite(size_t n, const double *x)
     return isfinite(numerics_lane_sum(n, x));
 }
 
-/* Keeps what is wrong with the answer, if it is the first such one; the status that the law then
-   has. What is asked at a pressure that is no number is not the law's to answer. */
+/* Keeps what is wrong with the answer if nothing was wrong before, and returns the resulting
+ * status of the law. A pressure that is not a number is not the law's fault. */
 static inline ff_status numerics_answer_fault(numerics_answers *a, const numerics_answer *x)
 {
     size_t i = 0;
@@ -93,7 +94,7 @@ static inline ff_status numerics_answer_note(numerics_answers *a, const numerics
     return numerics_answer_fault(a, x);
 }
 
-/* The status of a stage whose laws these are: theirs, if one of them failed. */
+/* Returns the status of a stage with these laws: that of the laws if one of them failed. */
 static inline ff_status numerics_answers_end(numerics_answers *a, const ff_host *host,
                                              ff_status status)
 {

@@ -14,14 +14,14 @@ typedef struct numerics_bracket {
     int moved;                       /* the end that moved last: 1 low, -1 high, 0 none yet */
 } numerics_bracket;
 
-/* Where the secant through both ends is 0. */
+/* Returns the point at which the secant through both ends is 0. */
 static inline double numerics_bracket_secant(const numerics_bracket *b)
 {
     assert(!(b->f_low * b->f_high > 0));
     return b->high - b->f_high * (b->high - b->low) / (b->f_high - b->f_low);
 }
 
-/* Puts the end of the same sign as `value` to the point x. */
+/* Moves the end whose sign is that of `value` to the point x. */
 static inline void numerics_bracket_narrow(numerics_bracket *b, double x, double value)
 {
     if ((value < 0) == (b->f_low < 0)) {

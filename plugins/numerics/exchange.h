@@ -15,23 +15,23 @@
 #include <string.h>
 
 typedef struct numerics_exchange {
-    const ff_array *in; /* what the model reads: its own inputs where gear 1 drives */
-    int back;           /* whether gear 2 drives */
+    const ff_array *in; /* what the model reads: its own inputs if gear 1 drives */
+    int back;           /* gear 2 drives */
     double ratio;       /* z_1/z_2 */
-    double top;         /* roll angle of gear 2: ratio (top - that of gear 1), rad */
+    double top;         /* roll angle of gear 2 = ratio (top - roll angle of gear 1), rad */
     double sap;         /* roll angle of gear 2 to which whole mesh cycles lead back, rad */
     ff_array *arrays;
     double *room;
 } numerics_exchange;
 
-/* The name without that of the stage. */
+/* Returns the name without that of the stage. */
 static inline const char *numerics_exchange_item(const ff_port *port)
 {
     const char *dot = strchr(port->name, '.');
     return dot ? dot + 1 : port->name;
 }
 
-/* The input of that name which is wired, or NULL. */
+/* Returns the wired input of that name, or NULL. */
 static inline const ff_array *numerics_exchange_find(const ff_port *ports, size_t count,
                                                      const ff_array *in, const char *name)
 {
@@ -41,7 +41,7 @@ static inline const ff_array *numerics_exchange_find(const ff_port *ports, size_
     return NULL;
 }
 
-/* 1 where the driving flanks bear the load, -1 where the back flanks do, 0 without a load. */
+/* Returns 1 if the driving flanks bear the load, -1 if the back flanks do, 0 without a load. */
 static inline int numerics_flank(const ff_port *ports, size_t count, const ff_array *in)
 {
     const ff_array *load = numerics_exchange_find(ports, count, in, "operating.line_force");
@@ -58,7 +58,7 @@ static inline size_t numerics_exchange_length(const ff_array *a)
     return n;
 }
 
-/* Turns the order of n values of `width` numbers each. */
+/* Reverses the order of n values of `width` numbers each. */
 static inline void numerics_reverse(double *x, size_t n, size_t width)
 {
     for (size_t i = 0; i < n / 2; i++)
@@ -69,7 +69,7 @@ static inline void numerics_reverse(double *x, size_t n, size_t width)
         }
 }
 
-/* True if the last of the dimensions is this one, be it that of another wire ("gear.station"). */
+/* True if this is the last of the dimensions, also as that of another wire ("gear.station"). */
 static inline int numerics_exchange_ends(const char *dims, const char *last)
 {
     const size_t n = strlen(dims), m = strlen(last);
@@ -77,8 +77,9 @@ static inline int numerics_exchange_ends(const char *dims, const char *last)
            (n == m || dims[n - m - 1] == ' ' || dims[n - m - 1] == '.');
 }
 
-/* Where the path of contact and its whole mesh cycles end on gear 2. The radii of curvature tell
-   the roll angles of gear 2; without them differences of the roll angle alone are of use. */
+/* Finds where the path of contact and its whole mesh cycles end on gear 2. The radii of
+ * curvature give the roll angles of gear 2; without radii only differences of the roll angle can
+ * be used. */
 static inline void numerics_exchange_measure(const ff_port *ports, size_t count, const ff_array *in,
                                              numerics_exchange *x)
 {
@@ -103,7 +104,7 @@ static inline void numerics_exchange_measure(const ff_port *ports, size_t count,
         x->ratio * (x->top - sap->data[0] - ceil((last - sap->data[0]) / pitch - 1e-9) * pitch);
 }
 
-/* The roll angle of gear 1 at one of gear 2. */
+/* Returns the roll angle of gear 1 for one of gear 2. */
 static inline double numerics_exchange_back(const numerics_exchange *x, double roll)
 {
     return x->back ? x->top - roll / x->ratio : roll;
@@ -148,8 +149,8 @@ static inline void numerics_exchange_array(const numerics_exchange *x, const ff_
             numerics_reverse(to + row * last, last, 1);
 }
 
-/* The row that holds the same of the other gear, or of the other flank; `i` itself: there is none.
- */
+/* Returns the row with the same quantity of the other gear or flank; `i` itself if there is
+ * none. */
 static inline size_t numerics_exchange_partner(const ff_port *ports, size_t count, size_t i)
 {
     const char *name = ports[i].name, *item = numerics_exchange_item(&ports[i]);
@@ -203,8 +204,8 @@ static inline ff_status numerics_exchange_open(const ff_port *ports, size_t coun
     return FF_OK;
 }
 
-/* A source of tooth forces that takes a line force below 0 for one of driving flanks gives forces
-   below 0; `row`: of the tooth forces. */
+/* Refuses negative tooth forces: they come from a source that takes a negative line force for
+ * one of driving flanks. `row` is that of the tooth forces. */
 static inline ff_status numerics_exchange_check(const ff_host *host, const ff_port *ports,
                                                 const numerics_exchange *x, size_t row)
 {

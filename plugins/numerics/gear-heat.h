@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How the flanks of a gear pair conduct heat: as the gears say, or parameters where no gear does.
- */
+/* How the flanks of a gear pair conduct heat, as the gears state or, without gears, as
+ * parameters do. */
 #ifndef NUMERICS_GEAR_HEAT_H
 #define NUMERICS_GEAR_HEAT_H
 
@@ -8,21 +8,21 @@
 
 #include <math.h>
 
-/* The steel that is meant where nothing else is said, as users write it. */
+/* Steel, for presets, as users write it. */
 #define NUMERICS_STEEL_CONDUCTIVITY "50 W/(m K)"
 #define NUMERICS_STEEL_DENSITY      "7850 kg/m3"
 #define NUMERICS_STEEL_HEAT         "484 J/(kg K)"
 
-/* Of the row of a temperature of the teeth, in K: its formulas are good to 30 % of some 30 K. */
+/* For rows of tooth temperatures, in K: their formulas are good to 30 % of some 30 K. */
 #define NUMERICS_BULK_QUANTITY                                                                     \
     .shown = "degC", .quantity = "bulk temperature of the teeth", .apart = 10
 
-/* A list for both gears that an input replaces where a gear offers it. */
+/* A list for both gears, replaced by an input if a gear offers it. */
 #define NUMERICS_LIST_UNLESS(wire, name, unit, type, member, preset, min, max, doc)                \
     FF_ROW_UNLESS(wire, name, unit, doc, FF_REALS, 0, preset, NULL, NULL, min, max, 0, 0, 1, 2,    \
                   FF_PLACE(type, member, ff_reals))
 
-/* Three input rows, one after the other. */
+/* Three consecutive input rows. */
 #define NUMERICS_HEAT_ROWS(kind)                                                                   \
     {.name = "gear.thermal_conductivity",                                                          \
      .unit = "W/(m K)",                                                                            \
@@ -43,8 +43,8 @@
     }
 enum { NUMERICS_HEAT_INPUTS = 3 };
 
-/* Parameters of both flanks where no gear tells, of a model with the members flank_conductivity,
-   flank_density and flank_heat_capacity. */
+/* Parameters of both flanks for pipelines without a gear; the model has the members
+ * flank_conductivity, flank_density and flank_heat_capacity. */
 #define NUMERICS_HEAT_PARAMS(when, type)                                                           \
     FF_QUANTITY_UNLESS("gear.thermal_conductivity", "flank_conductivity", "W/(m K)", type,         \
                        flank_conductivity, 0, NUMERICS_STEEL_CONDUCTIVITY, NULL, 1e-3, 1e4, 0, 0,  \
@@ -59,19 +59,19 @@ typedef struct numerics_heat {
     double conductivity, density, specific_heat; /* SI */
 } numerics_heat;
 
-/* The heat contact coefficient B = sqrt(k rho c), J/(m2 K s^0.5). */
+/* Returns the thermal contact coefficient B = sqrt(k rho c), J/(m2 K s^0.5). */
 static inline double numerics_heat_contact(const numerics_heat *h)
 {
     return sqrt(h->conductivity * h->density * h->specific_heat);
 }
 
-/* k/(rho c), m2/s. */
+/* Returns the diffusivity k/(rho c), m2/s. */
 static inline double numerics_heat_diffusivity(const numerics_heat *h)
 {
     return h->conductivity / (h->density * h->specific_heat);
 }
 
-/* The number in row k of gear g; NaN where a row is too short. */
+/* Returns the number of gear g in row k; NaN if the row is too short. */
 static inline double numerics_heat_value(const ff_array *in,
                                          const double said[NUMERICS_HEAT_INPUTS], int k, int g)
 {
@@ -81,8 +81,8 @@ static inline double numerics_heat_value(const ff_array *in,
     return row->rank == 1 && row->shape[0] > (size_t)g ? row->data[g] : NAN;
 }
 
-/* What gear `g`, 0 or 1, conducts heat by: `in` are the three rows, `said` what the parameters say
-   in their place. A gear that does not tell is refused. */
+/* Finds the thermal data of gear `g`, 0 or 1. `in` has the three rows, `said` the parameters in
+ * their place. A gear without data is refused. */
 static inline ff_status numerics_heat_of(const ff_host *host, const ff_array *in,
                                          const double said[NUMERICS_HEAT_INPUTS], int g,
                                          numerics_heat *h)
@@ -105,7 +105,7 @@ static inline ff_status numerics_heat_of(const ff_host *host, const ff_array *in
     return FF_OK;
 }
 
-/* Whether gear `g` tells. */
+/* Whether the data of gear `g` are known. */
 static inline int numerics_heat_known(const ff_array *in, const double said[NUMERICS_HEAT_INPUTS],
                                       int g)
 {

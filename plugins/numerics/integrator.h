@@ -6,7 +6,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 
-/* In the library, and in none of its headers. */
+/* GSL has this symbol in its library but declares it in no header. */
 extern const gsl_odeiv2_control_type *gsl_odeiv2_control_standard;
 
 typedef struct numerics_integrator {
@@ -23,9 +23,9 @@ static inline void numerics_integrator_free(numerics_integrator *i)
     *i = (numerics_integrator){0};
 }
 
-/* For so many components, whose errors in a step are held to relative + absolute. 0: there is no
-   memory. GSL's own handler would end the process then, and gsl_odeiv2_control_standard_new would
-   read through NULL. */
+/* Makes an integrator for that many components, with errors in a step held to relative +
+ * absolute. 0 if memory is short: GSL's own handler would end the process then, and
+ * gsl_odeiv2_control_standard_new would read through NULL. */
 static inline int numerics_integrator_make(numerics_integrator *i, size_t components,
                                            double absolute, double relative)
 {

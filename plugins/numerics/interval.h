@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where a value lies among sorted ones; for the models of every kind. */
+/* Finds where a value lies among sorted ones; for the models of every kind. */
 #ifndef NUMERICS_INTERVAL_H
 #define NUMERICS_INTERVAL_H
 
 #include <assert.h>
 #include <stddef.h>
 
-/* Number of the last of n >= 2 non-decreasing values that is <= at, from 0 to n - 2. */
+/* Returns the index of the last of n >= 2 non-decreasing values that is <= at, from 0 to n - 2. */
 static inline size_t numerics_interval(size_t n, const double *x, double at)
 {
     assert(n >= 2);

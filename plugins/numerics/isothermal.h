@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Laws at the temperature of a wired oil, for stages that know but one temperature. */
+/* Laws at the temperature of a wired oil, for stages with a single temperature. */
 #ifndef NUMERICS_ISOTHERMAL_H
 #define NUMERICS_ISOTHERMAL_H
 
@@ -8,8 +8,8 @@
 
 #include <flankfilm/author.h>
 
-/* The input rows oil.temperature, oil.eta0 and oil.rho0, in this order, of a stage that calls laws
-   and should hold them against the oil. A stage that calls no density leaves out the last. */
+/* The input rows oil.temperature, oil.eta0 and oil.rho0, in this order, for a stage that calls
+ * laws and compares them with the oil. A stage that calls no density law omits the last. */
 #define NUMERICS_OIL_ROWS                                                                          \
     {.name = "oil.temperature",                                                                    \
      .unit = "K",                                                                                  \
@@ -29,11 +29,11 @@
         .flags = FF_OPTIONAL, .from = "lubricant"                                                  \
     }
 
-/* Offers `law` at T to who passes no temperature, and keeps what it fails to answer. */
+/* Offers `law` at T to callers that pass no temperature, and keeps its wrong answers. */
 typedef struct numerics_viscosity_at {
     ff_viscosity service;
     const ff_viscosity *law;
-    double T[NUMERICS_POINTS]; /* all the same; NaN: at its own */
+    double T[NUMERICS_POINTS]; /* all the same; NaN: the law's own temperature */
     numerics_answers *answers;
 } numerics_viscosity_at;
 
@@ -44,7 +44,7 @@ typedef struct numerics_density_at {
     numerics_answers *answers;
 } numerics_density_at;
 
-/* Calls eval in parts, with one temperature at all points. */
+/* Calls eval in parts, with one temperature for all points. */
 static inline ff_status
 numerics_eval_at(ff_status (*eval)(const void *, size_t, const double *, const double *, double *,
                                    double *, double *),
@@ -89,7 +89,7 @@ static inline ff_status numerics_density_eval_at(const void *self, size_t n, con
                                 &(numerics_answer){"density", "rho", status, n, p, rho, drho_dp});
 }
 
-/* The law at T, which lives as long as *at; NaN: at its own temperature. */
+/* Returns the law at T, which lives as long as *at; NaN: at its own temperature. */
 static inline const ff_viscosity *numerics_viscosity_make(numerics_viscosity_at *at,
                                                           const ff_viscosity *law, double T,
                                                           numerics_answers *answers)
@@ -114,7 +114,7 @@ static inline const ff_density *numerics_density_make(numerics_density_at *at,
     return &at->service;
 }
 
-/* Refuses a law whose value at ambient pressure is more than 1 % off that of the oil. */
+/* Refuses a law whose value at ambient pressure differs from that of the oil by more than 1 %. */
 static inline ff_status numerics_hold_against(const ff_host *host, const char *wire,
                                               const char *name, const char *unit, double by_law,
                                               double by_oil, double T)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A liquid over temperature, seen from a law or from who calls one. */
+/* A liquid over temperature, for laws and for their callers. */
 #ifndef NUMERICS_LIQUID_H
 #define NUMERICS_LIQUID_H
 
@@ -10,7 +10,7 @@
 
 enum { NUMERICS_POINTS = 1024 }; /* most points of one call below */
 
-/* Temperature that a law answers for when it is called without one. */
+/* Returns the temperature at which a law answers if it is called without one. */
 static inline double numerics_reference_temperature(const ff_liquid *liquid)
 {
     double any = 0, T = NAN;
@@ -20,31 +20,29 @@ static inline double numerics_reference_temperature(const ff_liquid *liquid)
     return T;
 }
 
-/* Whether the liquid tells the property at its reference temperature. */
+/* Whether the liquid knows the property at its reference temperature. */
 static inline int numerics_is_known(const ff_liquid *liquid, int32_t property)
 {
     double T = numerics_reference_temperature(liquid), value = NAN;
     return liquid->eval(liquid->self, property, 1, &T, &value, NULL) >= 0 && isfinite(value);
 }
 
-/* Whether all points have one temperature, so that one evaluation of the liquid does. */
+/* Whether all points have one temperature, so that the liquid is evaluated once. */
 static inline int numerics_is_uniform(size_t n, const double *T)
 {
     return !T || n < 2 || !memcmp(T, T + 1, (n - 1) * sizeof *T);
 }
 
-/* Of FF_OK and FF_DOMAIN the latter, of others the first. */
+/* Returns FF_DOMAIN rather than FF_OK; of two other statuses the first. */
 static inline ff_status numerics_worse(ff_status a, ff_status b)
 {
     return a == FF_OK || (a == FF_DOMAIN && b != FF_OK) ? b : a;
 }
 
-/*
- * Property and slope at n <= NUMERICS_POINTS temperatures; equal ones cost but one evaluation.
- * Without T: at the reference temperature, with FF_DOMAIN. What is not known is 0, with FF_DOMAIN,
- * since a law owes finite numbers. So is a slope that is not known. A liquid that fails, or whose
- * numbers are infinite, is no such case: its status is returned, or FF_BUG, and all is 0.
- */
+/* Property and slope at n <= NUMERICS_POINTS temperatures; equal ones are evaluated once.
+ * Without T: at the reference temperature, with FF_DOMAIN. A value or a slope that is not known
+ * is 0, with FF_DOMAIN, since a law must give finite numbers. If a liquid fails or gives
+ * infinite numbers, its status or FF_BUG is returned, and all numbers are 0. */
 static inline ff_status numerics_liquid_values(const ff_liquid *liquid, int32_t property, size_t n,
                                                const double *T, double *value, double *slope)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which gear a standard means by index 1: its pinion, whoever drives. */
+/* Finds the gear to which a standard gives index 1: the pinion, whichever gear drives. */
 #ifndef NUMERICS_PINION_H
 #define NUMERICS_PINION_H
 
@@ -7,8 +7,8 @@
 
 #include <math.h>
 
-/* The input row gear.pinion of a stage that follows a standard; `kind` as in its other rows of the
-   gear. */
+/* The input row gear.pinion of a stage that follows a standard; `kind` as in its other gear
+ * rows. */
 #define NUMERICS_PINION_ROW(kind)                                                                  \
     {                                                                                              \
         .name = "gear.pinion", .unit = "1",                                                        \

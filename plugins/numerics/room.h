@@ -1,28 +1,29 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Memory for libraries that end the process when they get none. */
+/* Checks for memory before calling libraries that end the process without it. */
 #ifndef NUMERICS_ROOM_H
 #define NUMERICS_ROOM_H
 
 #include <stdlib.h>
 
-/* Whether there is so much memory: asks for it and gives it back, so that the library finds it
-   unless another thread takes it in between. */
+/* Whether that much memory is available: allocates and frees it, so that the library finds it
+ * unless another thread takes it in between. */
 static inline int numerics_has_room(size_t bytes)
 {
-    void *volatile probe = malloc(bytes); /* volatile: or else the compiler leaves both calls out */
+    void *volatile probe = malloc(bytes); /* volatile, since the compiler would remove both calls */
     free(probe);
     return probe != NULL;
 }
 
-/* Bytes that FFTW's planner and two plans of a real transform of so many points take, and some
-   more: measured for 48 to 262142 points, 77 to 107 bytes each where their number has large
-   factors. */
+/* Bytes, with a margin, that FFTW's planner and two plans of a real transform of that many
+ * points take: measured for 48 to 262142 points, 77 to 107 bytes each if their number has large
+ * factors. */
 static inline size_t numerics_fftw_room(size_t points)
 {
     return 256 * 1024 + 128 * points;
 }
 
-/* Bytes that libgomp takes for a team of CHOLMOD's threads, and some more; not their stacks. */
+/* Bytes, with a margin, that libgomp takes for a team of CHOLMOD's threads, without their
+ * stacks. */
 static inline size_t numerics_openmp_room(void)
 {
     return 64 * 1024;

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stddef.h>
 
-/* Eqs (8) and (11): at a point between two intervals of lengths h0, h1 and secants s0, s1. */
+/* Eqs (8) and (11): slope at a point between intervals of lengths h0, h1 and secants s0, s1. */
 static inline double numerics_steffen_inner(double h0, double s0, double h1, double s1)
 {
     double p = (s0 * h1 + s1 * h0) / (h0 + h1);
@@ -15,7 +15,8 @@ static inline double numerics_steffen_inner(double h0, double s0, double h1, dou
     return (copysign(1, s0) + copysign(1, s1)) * bound;
 }
 
-/* Eqs (24) to (27): at the end of the last interval, h0 and s0, whose neighbour has h1 and s1. */
+/* Eqs (24) to (27): slope at the end of the last interval, h0 and s0, whose neighbour has h1 and
+ * s1. */
 static inline double numerics_steffen_end(double h0, double s0, double h1, double s1)
 {
     double p = s0 + (s0 - s1) * h0 / (h0 + h1);
@@ -24,7 +25,7 @@ static inline double numerics_steffen_end(double h0, double s0, double h1, doubl
     return fabs(p) > 2 * fabs(s0) ? 2 * s0 : p;
 }
 
-/* Of n values at increasing x; of one value 0. */
+/* Slopes of n values at increasing x; 0 for a single value. */
 static inline void numerics_steffen_slopes(size_t n, const double *x, const double *y,
                                            double *slope)
 {

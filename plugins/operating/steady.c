@@ -196,7 +196,8 @@ static ff_status ready(void *self)
     return FF_OK;
 }
 
-/* Reads the value of gear 1, above 0; a missing gear is refused with the output that needs it. */
+/* Reads a value of gear 1, which must be positive; without a gear, the output that needs it is
+ * refused. */
 static ff_status from_gear(const steady *s, const ff_array *in, const char *input,
                            const char *output, double *value)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* rating/micropitting, a draft: the film over the roughness, lambda_GF, by the closed formulas of
-   ISO/TR 15144-1, method B, as they are quoted, and by the film of this program (method A) beside
-   it. */
+/* rating/micropitting, a draft: the specific film thickness lambda_GF by the closed formulas of
+ * ISO/TR 15144-1, method B, as other sources quote them, and by the film of this program (method
+ * A). */
 #include "pair.h"
 #include "references.h"
 
@@ -13,7 +13,7 @@
 
 static const double celsius = 273.15;
 static const double highest_ratio =
-    2; /* contact ratio from which method B does not hold, clause 8.2 */
+    2; /* contact ratio at and above which method B does not hold, clause 8.2 */
 
 typedef struct micropitting {
     const ff_host *host;
@@ -161,12 +161,15 @@ static const ff_port outputs[OUTPUTS] = {
 };
 
 typedef struct rating {
-    double friction, bulk, viscosity, alpha; /* at the bulk temperature; K, Pa s, 1/Pa */
+    double friction, bulk, viscosity,
+        alpha; /* friction coefficient; bulk temperature, K; viscosity, Pa s, and pressure
+                  coefficient, 1/Pa, at the bulk temperature */
     double alpha_38, shear;
     double least, least_at;
 } rating;
 
-/* Pressure coefficient at 38 degC, 1/Pa, of the viscosity there, Pa s (formulas 9 to 11). */
+/* Returns the pressure coefficient at 38 degC, 1/Pa, from the viscosity there, Pa s (formulas 9
+ * to 11). */
 static double alpha_at_38(const micropitting *s, double viscosity)
 {
     static const struct {
@@ -187,7 +190,7 @@ static double lubricant_factor(const micropitting *s)
     return factor[s->base];
 }
 
-/* Share of the power that friction takes, H_v (formulas 91 and 92), of friction coefficient 1. */
+/* Returns the share of the power lost at a friction coefficient of 1, H_v (formulas 91 and 92). */
 static double loss_factor(const rating_pair *p)
 {
     const double e1 = rating_addendum_ratio(p, 0), e2 = rating_addendum_ratio(p, 1), all = e1 + e2;
@@ -195,8 +198,8 @@ static double loss_factor(const rating_pair *p)
     return turns * (all < 2 ? e1 * e1 + e2 * e2 + 1 - all : all / 2);
 }
 
-/* Friction and bulk temperature, from the oil at its own temperature (formulas 84 to 87 and 100).
- */
+/* Sets friction and bulk temperature, from the oil at its own temperature (formulas 84 to 87 and
+ * 100). */
 static ff_status set_bulk(const micropitting *s, const rating_pair *p, rating *r)
 {
     static const double supply[] = {1.0, 1.2, 0.2};
@@ -228,8 +231,8 @@ typedef struct point {
     double film, contact;
 } point;
 
-/* Film and contact temperature at a place: h = 1.6 R G^0.6 U^0.7 W^-0.13 S^0.22 (formula 4, in SI),
-   with the flash temperature of formula 80. */
+/* Computes film and contact temperature at a place: h = 1.6 R G^0.6 U^0.7 W^-0.13 S^0.22
+ * (formula 4, in SI), with the flash temperature of formula 80. */
 static ff_status rate_at(const micropitting *s, const rating_pair *p, rating *r, double place,
                          point *at)
 {
@@ -295,8 +298,8 @@ static ff_status write_series(const micropitting *s, const rating_pair *p, const
     return FF_OK;
 }
 
-/* lambda_GFP = 1.4 W_W lambda_GFT (15144-1, clause 5.4). The print has 1.4 x 1.00 x 0.102 = 0.143
-   and 1.4 x 0.75 x 0.102 = 0.107. */
+/* lambda_GFP = 1.4 W_W lambda_GFT (ISO/TR 15144-1, clause 5.4). The published example has 1.4 x
+ * 1.00 x 0.102 = 0.143 and 1.4 x 0.75 x 0.102 = 0.107. */
 static double permissible(const micropitting *s, double of_test)
 {
     return 1.4 * s->material_factor * of_test;
@@ -320,7 +323,8 @@ static ff_status ready(void *self)
     return FF_OK;
 }
 
-/* A permissible value stands beside the number of the method that calibrated it alone. */
+/* Writes a ratio. Its permissible value is given only for the method by which that value was
+ * calibrated. */
 static ff_status write_ratio(const micropitting *s, uint64_t wanted, uint32_t row, double lambda,
                              double of_test, const char *text)
 {

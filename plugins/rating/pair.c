@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads what ratings need of gears, oil and motion. */
 #include "pair.h"
 
 #include "../numerics/exchange.h"
@@ -144,7 +145,7 @@ static ff_status read_one(const ff_host *host, const ff_array *in, const char *n
     return FF_OK;
 }
 
-/* The metal that is missing at the tips, the last points of the profiles. */
+/* Reads the tip reliefs: the metal missing at the last points of the profiles. */
 static void read_relief(const ff_array *in, double relief[2])
 {
     if (!in->data || in->rank != 2 || in->shape[0] < 2 || in->shape[1] < 1)
@@ -156,7 +157,7 @@ static void read_relief(const ff_array *in, double relief[2])
 /* Young's moduli of steels, Pa. */
 static const double least_steel = 185e9, most_steel = 225e9;
 
-/* Refuses gears that are not of steel, and reads what they conduct heat by. */
+/* Refuses gears that are not of steel, and reads their thermal data. */
 static ff_status read_materials(const ff_host *host, const char *standard, const ff_array *in,
                                 const rating_heat *heat, rating_pair *p)
 {
@@ -177,7 +178,7 @@ static ff_status read_materials(const ff_host *host, const char *standard, const
     return status;
 }
 
-/* Of the pair in which gear 1 drives. */
+/* Reads the pair so that gear 1 drives. */
 static ff_status read_pair(const ff_host *host, const char *standard, const ff_array *in,
                            const rating_heat *heat, const ff_liquid *oil, rating_pair *p)
 {
@@ -226,7 +227,8 @@ static ff_status read_pair(const ff_host *host, const char *standard, const ff_a
     for (int i = 0; i < 2; i++)
         p->yield = yield[i] > 0 ? fmin(p->yield, yield[i]) : p->yield;
     p->grade = fmax(grade[0], grade[1]);
-    p->roughness = (roughness[0] + roughness[1]) / 2 * sqrt(2 / M_PI); /* Ra of Gaussian heights */
+    /* Ra, for Gaussian heights */
+    p->roughness = (roughness[0] + roughness[1]) / 2 * sqrt(2 / M_PI);
     if (!(p->roughness > 0))
         return ff_failf(
             host, FF_INVALID, "gear.roughness",

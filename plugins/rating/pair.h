@@ -1,12 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * What the ratings take from gear, operating point, motion and oil, and the quantities along the
+/* Inputs of the ratings from gear, operating point, motion and oil, and quantities along the
  * path of contact that they share. SI; places on the path are radii of curvature of flank 1.
- *
- * Sources. The texts of ISO/TR 13989-1 and -2 and ISO/TR 15144-1 (today ISO/TS 6336-20, -21 and
- * -22) were not read. Formulas and their numbers are those that a public implementation quotes;
- * where it contradicts itself the choice is stated.
- */
+ * Sources: the texts of ISO/TR 13989-1 and -2 and ISO/TR 15144-1 (today ISO/TS 6336-20, -21 and
+ * -22) were not read. Formulas and numbers are quoted from a public implementation; where that
+ * contradicts itself, the choice is stated. */
 #ifndef RATING_PAIR_H
 #define RATING_PAIR_H
 
@@ -42,20 +39,20 @@ enum {
     RATING_INPUTS
 };
 
-/* Those rows, between what micropitting takes of a film and what scuffing takes of the losses: the
-   former model has the rows from the first on, the latter those from the second on. */
+/* These rows stand between the film of micropitting and the losses of scuffing: micropitting
+ * uses the rows from the first on, scuffing those from the second on. */
 extern const ff_port rating_inputs[1 + RATING_INPUTS + 1];
 
 typedef struct rating_pair {
     double teeth[2], base[2], pitch[2], tip[2];
     double ratio; /* z2/z1 */
-    int back;     /* gear 2 drives: it is gear 0 here, and the flanks are the back flanks */
-    int pinion;   /* 0 or 1; a standard gives it index 1 where it does not ask who drives */
+    int back;     /* gear 2 drives; it is gear 0 here, and the flanks are the back flanks */
+    int pinion;   /* 0 or 1; a standard gives the pinion index 1, unless the driving gear matters */
     double centre_distance, working_angle, pressure_angle, width, modulus;
-    double roughness;     /* Ra, mean of both flanks */
-    double tip_relief[2]; /* 0: none, or not known */
-    double yield;         /* of the weaker flank; NaN: not known */
-    double grade;         /* the coarser class of ISO 1328-1 of both flanks; 0: not known */
+    double roughness;     /* Ra, the mean of both flanks */
+    double tip_relief[2]; /* 0: none, or unknown */
+    double yield;         /* of the weaker flank; NaN: unknown */
+    double grade;         /* the coarser of both flanks' classes of ISO 1328-1; 0: unknown */
     double contact[2];    /* B = sqrt(k rho c) of the gears, J/(m2 K s^0.5) */
     double force;         /* along the line of action */
     double omega, oil_temperature, dynamic_factor;
@@ -65,7 +62,7 @@ typedef struct rating_pair {
     const ff_liquid *oil;
 } rating_pair;
 
-/* The heat of the gears where they do not tell it. */
+/* Thermal data for gears that do not give their own. */
 typedef struct rating_heat {
     double conductivity, density, specific_heat;
 } rating_heat;
@@ -80,38 +77,39 @@ typedef struct rating_heat {
                            heat.specific_heat, 0, NUMERICS_STEEL_HEAT, NULL, 1, 1e5, 0, 0,         \
                            "likewise")
 
-/* Factors of the load that the user gives. */
+/* Load factors that the user gives. */
 typedef struct rating_load {
     double application, face, transverse; /* K_A, K_Hbeta, K_Halpha */
     int64_t grade;                        /* flank tolerance class of ISO 1328-1; below 0: auto */
 } rating_load;
 
-/* Reads the inputs; gears that are not of steel, which `standard` does not cover, are refused. */
+/* Reads the inputs. Refuses gears that are not of steel, which `standard` does not cover. */
 ff_status rating_pair_read(const ff_host *host, const char *standard, const ff_array *in,
                            const rating_heat *heat, const ff_liquid *oil, rating_pair *p);
 
-/* The flank tolerance class that a rating goes by: the given one, or that of the gears, or 6. */
+/* Returns the flank tolerance class for a rating: the given one, that of the gears, or 6. */
 double rating_grade(const rating_pair *p, const rating_load *load);
 
-/* Roll angle of gear 1 at a place on the path. */
+/* Returns the roll angle of gear 1 at a place on the path. */
 double rating_roll(const rating_pair *p, double place);
-/* Relative radius of curvature at a place on the path. */
+/* Returns the relative radius of curvature at a place on the path. */
 double rating_radius(const rating_pair *p, double place);
-/* Surface speed of flank `gear` there. */
+/* Returns the surface speed of flank `gear` at a place on the path. */
 double rating_speed(const rating_pair *p, int gear, double place);
-/* Share of the load of unmodified spur teeth, X_Gamma (ISO/TR 13989-1, clause 9.2) and X_Y (ISO/TR
-   15144-1, formulas 46 to 48): (Q - 2)/15 + 1/3 of the way to single contact, 1 there. */
+/* Returns the share of the load on unmodified spur teeth, X_Gamma (ISO/TR 13989-1, clause 9.2)
+ * and X_Y (ISO/TR 15144-1, formulas 46 to 48): (Q - 2)/15 at both ends of the path, up to 1/3
+ * more on the way to single contact, and 1 there. */
 double rating_load_share(const rating_pair *p, const rating_load *load, double place);
-/* Load per width with all factors, N/m. */
+/* Returns the load per width with all factors, N/m. */
 double rating_line_load(const rating_pair *p, const rating_load *load);
-/* Addendum contact ratio of a gear. */
+/* Returns the addendum contact ratio of a gear. */
 double rating_addendum_ratio(const rating_pair *p, int gear);
 
 /* Dynamic viscosity, Pa s, and density, kg/m3, of the oil. */
 ff_status rating_oil_at(const ff_host *host, const rating_pair *p, double T, double *viscosity,
                         double *density);
 
-/* Says that the formulas were not read in the standard. */
+/* Reports that the formulas were not read in the standard itself. */
 void rating_report_draft(const ff_host *host, const char *standard, const char *held);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* rating/scuffing, a draft: scuffing by flash temperature and by integral temperature, as ISO/TR
-   13989-1 and -2 are quoted, and beside them the contact temperature of the film's own friction.
-   Lengths in mm and loads in N/mm where a formula of the standard has them. */
+/* rating/scuffing, a draft: scuffing by flash temperature and by integral temperature, as other
+ * sources quote ISO/TR 13989-1 and -2, and the contact temperature from the film's own friction.
+ * Lengths are in mm and loads in N/mm in the formulas that are written so in the standard. */
 #include "pair.h"
 #include "references.h"
 
@@ -12,11 +12,11 @@
 #include <stdlib.h>
 
 static const double celsius = 273.15;
-static const double lowest_load = 150;  /* N/mm, of the friction of the integral method */
-static const double highest_speed = 50; /* m/s, likewise of both methods */
+static const double lowest_load = 150;  /* N/mm, for the friction of the integral method */
+static const double highest_speed = 50; /* m/s, for the friction of both methods */
 static const double highest_ratio =
-    2.5;                           /* contact ratio that the standard states its equations for */
-static const double demanded = 50; /* K, the margin that its clause 10.5 names */
+    2.5;                           /* contact ratio for which the standard states its equations */
+static const double demanded = 50; /* K, the margin of clause 10.5 */
 
 typedef struct scuffing {
     const ff_host *host;
@@ -171,7 +171,7 @@ typedef struct rating {
     double safety[METHODS];
 } rating;
 
-/* X_L of both parts: 1 of mineral oils. */
+/* Returns X_L of both parts, which is 1 for mineral oils. */
 static double lubricant_factor(const scuffing *s)
 {
     static const double factor[] = {1.0, 0.6, 0.7, 0.8, 1.3, 1.5};
@@ -184,8 +184,8 @@ static double supply_factor(const scuffing *s)
     return factor[s->supply];
 }
 
-/* Approach factor X_J, formulas 45 and 46: a driven tip of too little relief strikes before the
- * pitch point. */
+/* Returns the approach factor X_J, formulas 45 and 46: a driven tip with too little relief
+ * strikes before the pitch point. */
 static double approach_factor(const rating_pair *p, double place, double best_relief)
 {
     double before = (p->pitch_point - place) / (p->end - p->sap);
@@ -194,9 +194,9 @@ static double approach_factor(const rating_pair *p, double place, double best_re
     return fmax(1, 1 + 1e6 * (best_relief - p->tip_relief[1]) / 50 * before * before * before);
 }
 
-/* X_M = 1000 E_r^0.25/B_M with B_M = sqrt(k rho c) in N/(mm^0.5 m^0.5 s^0.5 K), 10^-1.5 of the SI
-   unit; 50 of steel (13989-1, formulas A.9 to A.14). Gears of different steels share the heat as
-   Blok has it, by B_M sqrt(v). */
+/* X_M = 1000 E_r^0.25/B_M, with B_M = sqrt(k rho c) in N/(mm^0.5 m^0.5 s^0.5 K), 10^-1.5 of the
+ * SI unit; about 50 for steel (13989-1, formulas A.9 to A.14). Gears of different steels share
+ * the heat in proportion to B_M sqrt(v), as in Blok's theory. */
 static double thermoelastic_factor(const rating_pair *p, double place)
 {
     const double v1 = sqrt(rating_speed(p, 0, place)), v2 = sqrt(rating_speed(p, 1, place));
@@ -223,10 +223,10 @@ static double place_of(const scuffing *s, const rating_pair *p, size_t i)
     return p->sap + (p->end - p->sap) * (double)i / (double)s->points;
 }
 
-/* Part 1: flash temperature over the path; mu = 0.060 (w/(v rho))^0.2 X_L X_R (formula 25) with X_L
-   = c eta^-0.05 and X_R = Ra^0.25. The source contradicts itself, Ra^0.25 in its code and Ra^0.5 in
-   its notes. With the fourth root, which DIN 3990-4 has too, the test gears at the stage of failure
-   are as near to 1 as by the integral method. */
+/* Part 1: flash temperature over the path. mu = 0.060 (w/(v rho))^0.2 X_L X_R (formula 25), X_L
+ * = c eta^-0.05, X_R = Ra^0.25. The source contradicts itself: Ra^0.25 in its code, Ra^0.5 in
+ * its notes. With Ra^0.25, which DIN 3990-4 also has, the test gears at the stage of failure
+ * come as close to 1 as with the integral method. */
 static ff_status rate_by_flash(const scuffing *s, const rating_pair *p, double *flash, rating *r)
 {
     double viscosity, density;
@@ -259,7 +259,7 @@ static ff_status rate_by_flash(const scuffing *s, const rating_pair *p, double *
     return FF_OK;
 }
 
-/* Contact ratio factor X_eps, formulas 39 to 44 of part 2, of the addendum contact ratios of
+/* Contact ratio factor X_eps, formulas 39 to 44 of part 2, from the addendum contact ratios of
  * pinion and wheel. */
 static double contact_ratio_factor(double e1, double e2)
 {
@@ -275,15 +275,16 @@ static double contact_ratio_factor(double e1, double e2)
     return k * (0.70 * (e1 * e1 + e2 * e2) - 0.22 * all + 0.52 - 0.60 * e1 * e2);
 }
 
-/* Approach factor X_Q: the driven tip comes in with its addendum, the driving one goes out. */
+/* Approach factor X_Q: the driven gear enters with its addendum, the driving gear leaves with
+ * its own. */
 static double ingoing_factor(double driving, double driven)
 {
     const double ratio = driven / driving;
     return ratio <= 1.5 ? 1 : ratio >= 3 ? 0.6 : 1.4 - 4.0 / 15 * ratio;
 }
 
-/* Tip relief factor X_Ca, formulas 32 to 38, of the addendum contact ratios of the driving and of
-   the driven gear; class 6 and better alone have it. */
+/* Tip relief factor X_Ca, formulas 32 to 38, from the addendum contact ratios of the driving and
+ * the driven gear; only for class 6 and better. */
 static double tip_relief_factor(const scuffing *s, const rating_pair *p, double driving,
                                 double driven)
 {
@@ -331,7 +332,7 @@ static ff_status rate_by_integral(const scuffing *s, const rating_pair *p, ratin
                  oil = p->oil_temperature - celsius;
     r->integral = oil + 0.7 * mean * supply_factor(s) + 1.5 * mean; /* formulas 20 and 17 */
     const double torque =
-        3.726 * (double)s->stage * (double)s->stage; /* of the test, N m: formula 97 */
+        3.726 * (double)s->stage * (double)s->stage; /* of the test gear, N m: formula 97 */
     const double viscosity_of_test = 1e6 * viscosity_40 / density_40; /* mm2/s */
     r->permissible[INTEGRAL_METHOD] = 80 + 0.23 * torque * lubricant_factor(s) +
                                       s->structural * 1.5 * 0.2 * torque *
@@ -404,7 +405,8 @@ static ff_status ready(void *self)
     return FF_OK;
 }
 
-/* What the film's own friction makes of it, held against the test gear by the same chain. */
+/* Writes the contact temperature from the film's own friction, compared with the test gear by
+ * the same formulas. */
 static ff_status write_own(const scuffing *s, const rating_pair *p, const ff_array *in,
                            uint64_t wanted)
 {

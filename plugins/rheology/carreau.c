@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Carreau 1972 in the form of Bair: tau = eta g [1 + (eta g/G)^2]^((n - 1)/2), g = u_s/h. The
- * pressure flow along the sliding sees the slope of this curve, as it does with Ree-Eyring:
- *   psi = dg/dtau = (1 + S^2)^((3 - n)/2) / (eta (1 + n S^2)),   S = eta g/G.
- * At a point the rate g is that whose stress is tau.
- */
+/* Carreau 1972 in the form of Bair: tau = eta g [1 + (eta g/G)^2]^((n - 1)/2), g = u_s/h. The
+ * pressure flow in the direction of sliding depends on the slope of this curve, as with
+ * Ree-Eyring: psi = dg/dtau = (1 + S^2)^((3 - n)/2) / (eta (1 + n S^2)), S = eta g/G. At a
+ * point, the rate g is the one whose stress is tau. */
 #include "law.h"
 #include "references.h"
 
@@ -22,11 +20,11 @@ typedef struct carreau {
     double G, n; /* Pa, 1; G NaN: auto */
 } carreau;
 
-/* G over the Eyring stress with which n = 0.27 follows Ree-Eyring within 5 % up to five times that
-   stress. */
+/* Ratio of G to the Eyring stress for which the law with n = 0.27 follows Ree-Eyring within 5 %,
+ * up to five times that stress. */
 static const double over_eyring = 1.86, fitted_n = 0.27;
 
-/* The law at each of n <= RHEOLOGY_BLOCK points: G and its slope over p. */
+/* G and its slope over p at n <= RHEOLOGY_BLOCK points. */
 static ff_status stresses_at(const void *self, size_t n, const double *p, const double *T,
                              double *G, double *by_p)
 {
@@ -52,21 +50,22 @@ static double log_one_more(double x)
     return x > 0 ? x + log1p(exp(-x)) : log1p(exp(x));
 }
 
-/* ln S, held so that its multiples stay finite. */
+/* Returns ln S, clamped so that its multiples stay finite. */
 static double ln_strain(double G, double ln_eta, double h, double u_s)
 {
     double x = ln_eta + log(fabs(u_s)) - log(rheology_film(h)) - log(G);
     return fmin(fmax(x, -1e6), 1e6);
 }
 
-/* psi and its derivatives by ln(eta) and ln(h); 1: held within e^-690 to e^690. */
+/* psi and its derivatives over ln(eta) and ln(h). Returns 1 if psi was clamped to e^-690 or
+ * e^690. */
 static int fluidity(const carreau *c, double ln_eta, double ln_S, double *psi, double *by_eta,
                     double *by_h)
 {
     const double n = c->n;
     double much = log_one_more(2 * ln_S), more = log_one_more(2 * ln_S + log(n));
     double ln_psi = (3 - n) / 2 * much - more - ln_eta;
-    /* d ln psi/d ln S + ...: S^2/(1 + S^2) = exp(2 ln S - much) */
+    /* S^2/(1 + S^2) = exp(2 ln S - much) */
     double slope = (3 - n) * exp(2 * ln_S - much) - 2 * n * exp(2 * ln_S - more);
     int held = ln_psi > RHEOLOGY_LN_MAX;
     *psi = exp(held ? RHEOLOGY_LN_MAX : ln_psi);
@@ -75,7 +74,7 @@ static int fluidity(const carreau *c, double ln_eta, double ln_S, double *psi, d
     return held;
 }
 
-/* Of one block; by_p is the slope of G before and of psi after. */
+/* Evaluates one block. On entry by_p is the slope of G, on return that of psi. */
 static int64_t flow_some(const void *law, double u_s, size_t count, const double *G,
                          const double *ln_eta, const double *h, double *psi, double *by_p,
                          double *dpsi_dln_eta, double *dpsi_dh)
@@ -86,7 +85,7 @@ static int64_t flow_some(const void *law, double u_s, size_t count, const double
         int thin = h[i]<RHEOLOGY_FILM_MIN, weak = l> ln_eta[i];
         double ln_S = u_s != 0 ? ln_strain(G[i], fmin(l, 1e6), h[i], u_s) : -1e6;
         outside |= fluidity(law, fmin(l, 1e6), ln_S, &psi[i], &by_eta, &by_h) || thin || weak;
-        by_p[i] *= by_h / G[i]; /* G and h are in S alike */
+        by_p[i] *= by_h / G[i]; /* G and h enter S in the same way */
         dpsi_dln_eta[i] = weak ? 0 : by_eta;
         dpsi_dh[i] = thin ? 0 : by_h / rheology_film(h[i]);
     }
@@ -143,7 +142,7 @@ static ff_status shear(const void *self, size_t n, const double *p, const double
     return shear_at(self, n, p, NULL, ln_eta, h, u_s, tau);
 }
 
-/* ln(tau/G) over y = ln S, and its first two derivatives by y. */
+/* ln(tau/G) as a function of y = ln S, and its first two derivatives. */
 typedef struct stress {
     double ln, slope, bend;
 } stress;
@@ -156,8 +155,8 @@ static stress stress_at(double n, double y)
                     .bend = 2 * (n - 1) * share * (1 - share)};
 }
 
-/* ln S whose stress is ln_T. The curve rises, bends down and lies below both of its asymptotes, so
-   that Newton's steps from the larger of them never go too far. */
+/* Returns ln S for the stress ln_T. The curve rises, is concave and lies below both asymptotes,
+ * so Newton's steps from the larger asymptote never overshoot. */
 static double find_ln_strain(double n, double ln_T)
 {
     double y = fmax(ln_T, ln_T / n), step = 1;
@@ -169,8 +168,8 @@ static double find_ln_strain(double n, double ln_T)
     return y;
 }
 
-/* The rate of a stress and its derivatives, up to RHEOLOGY_RATE_MAX at ln S = most, which moves
-   with ln(eta); then its tangent. */
+/* The rate for a stress and its derivatives. At RHEOLOGY_RATE_MAX, where ln S = most, which
+ * depends on ln(eta), the rate continues as its tangent. */
 typedef struct sheared {
     double rate, by_tau, by_ln_eta;
     int held;
@@ -202,7 +201,7 @@ static ff_status rate(const void *self, size_t n, const double *p, const double 
                       double *drate_dln_eta)
 {
     const carreau *c = self;
-    /* where G is auto the limit acts on the traction alone, never on the flow */
+    /* if G is auto, the limiting stress acts on the traction only, not on the flow */
     const rheology_limit limit =
         rheology_limit_of(isnan(c->G) ? 0 : c->limiting_stress_coefficient);
     double G[RHEOLOGY_BLOCK], by_p[RHEOLOGY_BLOCK];

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What rheology laws share: limiting stress, stress of shear thinning, and services. */
 #include "law.h"
 
 #include "../numerics/liquid.h"
@@ -45,7 +46,7 @@ ff_status rheology_eyring_wire(rheology_eyring *e, uint32_t input, const void *s
 ff_status rheology_eyring_ready(const ff_host *host, rheology_eyring *e, const char *name,
                                 double given)
 {
-    /* Arana, Larranaga & Ulacia 2019, tables 2 and 3, at 20 to 100 degC */
+    /* Arana, Larranaga & Ulacia 2019, tables 2 and 3, 20 to 100 degC */
     static const double of_base[] = {[FF_BASE_MINERAL] = 0.047,
                                      [FF_BASE_PAO] = 0.035,
                                      [FF_BASE_ESTER] = 0,
@@ -69,9 +70,9 @@ ff_status rheology_eyring_ready(const ff_host *host, rheology_eyring *e, const c
                     name);
 }
 
-/* The secant of ln(eta) over p; below 1 MPa, where digits are lost, the mean of both slopes, which
-   is off by p^2/12 times the third derivative. A viscosity that does not rise has no such stress.
- */
+/* Computes the stress from the secant of ln(eta) over p. Below 1 MPa, where the secant loses
+ * digits, the mean of the slopes at both ends is used, with an error of p^2/12 times the third
+ * derivative. A viscosity that does not rise gives no such stress. */
 FF_SIMD
 static void fill_stress(double twice, size_t n, const double *restrict p,
                         const double *restrict ln_eta, const double *restrict slope,
@@ -105,7 +106,7 @@ ff_status rheology_eyring_stress(const rheology_eyring *e, size_t n, const doubl
         first[i] = first[0];
     }
     fill_stress(2 * e->coefficient, n, p, ln_eta, slope, ambient, first, stress, by_p);
-    /* a viscosity that was continued is told by its law to who calls that */
+    /* an extrapolated viscosity is reported to the law's own caller */
     return status == FF_DOMAIN ? FF_OK : status;
 }
 

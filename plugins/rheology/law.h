@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * What the rheology laws share: the limiting shear stress, and bounds that keep the laws finite,
- * far outside anything physical.
- */
+/* Shared by the rheology laws: the limiting shear stress, and bounds, far outside anything
+ * physical, that keep the laws finite. */
 #ifndef RHEOLOGY_LAW_H
 #define RHEOLOGY_LAW_H
 
@@ -12,7 +10,7 @@
 
 #include <math.h>
 
-/* The last row of every law's parameters: a member of its instance, NaN: no limit. */
+/* The last parameter of every law, a member of its instance; NaN: no limit. */
 #define RHEOLOGY_LIMITING_STRESS_ROW(type)                                                         \
     FF_QUANTITY("limiting_stress_coefficient", "1", type, limiting_stress_coefficient,             \
                 FF_MIN_OPEN, NULL, NULL, 0, 10, 0.01, 0.15,                                        \
@@ -25,25 +23,25 @@
 enum { RHEOLOGY_LN_MAX = 690 };                /* e^690 = 1e299.7 */
 static const double RHEOLOGY_FILM_MIN = 1e-30; /* m */
 
-/* Fluidity 1/eta, held between e^-690 and e^690 1/(Pa s). */
+/* Returns the fluidity 1/eta, clamped to e^-690 to e^690 1/(Pa s). */
 FF_SIMD_INLINE double rheology_fluidity(double ln_eta)
 {
     double x = ln_eta > -RHEOLOGY_LN_MAX ? ln_eta : -RHEOLOGY_LN_MAX;
     return ff_exp(-(x < RHEOLOGY_LN_MAX ? x : RHEOLOGY_LN_MAX));
 }
 
-/* Film thickness, held above RHEOLOGY_FILM_MIN. */
+/* Returns the film thickness, at least RHEOLOGY_FILM_MIN. */
 FF_SIMD_INLINE double rheology_film(double h)
 {
     return h > RHEOLOGY_FILM_MIN ? h : RHEOLOGY_FILM_MIN;
 }
 
-/* Least limiting stress where none follows from the oil, Pa: that of a PAO at ambient pressure. A
-   limit that vanished with p would cut off the Newtonian stress of the inlet. */
+/* The least limiting stress if the oil gives none, Pa: that of a PAO at ambient pressure. A
+ * limit that vanished with p would cut off the Newtonian stress of the inlet. */
 static const double RHEOLOGY_LIMIT_LEAST = 4e6;
 
-/* The limiting shear stress of Bair & Winer 1979, tau_L = coefficient p, cuts the stress off where
-   it is above `least`. */
+/* Limiting shear stress of Bair & Winer 1979: cuts the stress off at tau_L = coefficient p, but
+ * not below `least`. */
 FF_SIMD_INLINE double rheology_limited(double tau, double p, double coefficient, double least)
 {
     double limit = coefficient * p, most = limit > least ? limit : least;
@@ -51,16 +49,15 @@ FF_SIMD_INLINE double rheology_limited(double tau, double p, double coefficient,
     return coefficient > 0 ? cut : tau;
 }
 
-/*
- * flankfilm.rheology/2. Stresses and viscosities within these bounds, rates up to RHEOLOGY_RATE_MAX
- * follow the law; beyond, a rate goes on as its tangent, which stays finite.
- */
+/* Bounds of flankfilm.rheology/2. Stresses and viscosities within these bounds follow the law,
+ * up to the rate RHEOLOGY_RATE_MAX; beyond it the rate continues as its tangent, which stays
+ * finite. */
 static const double RHEOLOGY_TAU_MAX = 1e100;      /* Pa */
 static const double RHEOLOGY_LN_ETA_MIN = -200;    /* of eta in Pa s */
 static const double RHEOLOGY_RATE_MAX = 1e30;      /* 1/s */
 static const double RHEOLOGY_STRESS_LEAST = 1e-30; /* Pa, of tau0 and G */
 
-/* A coefficient of a limiting stress; `on` is 0 where there is none, 1 else. */
+/* A coefficient of a limiting stress; `on` is 0 if there is none, otherwise 1. */
 typedef struct rheology_limit {
     double on, coefficient;
 } rheology_limit;
@@ -70,10 +67,8 @@ static inline rheology_limit rheology_limit_of(double coefficient)
     return coefficient > 0 ? (rheology_limit){1, coefficient} : (rheology_limit){0, 1};
 }
 
-/*
- * What the limiting stress adds to the rate: the film slips by 1e7 1/s, as much as films do, 1 %
- * above tau_L, and by the square of the excess.
- */
+/* The rate that the limiting stress adds: a slip of 1e7 1/s, typical of films, at 1 % above
+ * tau_L, growing with the square of the excess. */
 FF_SIMD_INLINE double rheology_slip(double size, double p, rheology_limit limiting, double *slope)
 {
     const double least = RHEOLOGY_LIMIT_LEAST, steep = 1e7 / (0.01 * 0.01), far = 1e9;
@@ -86,42 +81,42 @@ FF_SIMD_INLINE double rheology_slip(double size, double p, rheology_limit limiti
     return limiting.on * steep * near * (near + 2 * (excess - near));
 }
 
-/* Rates of n points and their derivatives; arrays never overlap. Returns whether any was held. */
+/* Rates at n points and their derivatives; the arrays do not overlap. Returns whether any was
+ * clamped. */
 typedef int64_t rheology_rate(const void *law, size_t n, const double *p, const double *ln_eta,
                               const double *tau, double *rate, double *by_tau, double *by_ln_eta);
-/* The same, where derivatives may be NULL; FF_DOMAIN when any was held. */
+/* The same, but derivatives may be NULL; FF_DOMAIN if any rate was clamped. */
 ff_status rheology_rates(rheology_rate *curve, const void *law, size_t n, const double *p,
                          const double *ln_eta, const double *tau, double *rate, double *by_tau,
                          double *by_ln_eta);
 
-/*
- * The stress where shear thinning sets in follows pressure and temperature where a law says `auto`:
- * tau_E = 2 Lambda/alpha, alpha = ln(eta/eta0)/p, the secant of the viscosity law that is wired.
- */
+/* The stress at which shear thinning begins, if a law has it `auto`. It follows pressure and
+ * temperature: tau_E = 2 Lambda/alpha, where alpha = ln(eta/eta0)/p is the secant of the wired
+ * viscosity law. */
 typedef struct rheology_eyring {
-    const ff_viscosity *viscosity; /* NULL: none is wired */
-    const ff_liquid *oil;          /* NULL: none is wired */
+    const ff_viscosity *viscosity; /* NULL: not wired */
+    const ff_liquid *oil;          /* NULL: not wired */
     double coefficient;            /* Lambda; set by rheology_eyring_ready */
 } rheology_eyring;
 
-/* The inputs of such laws, and `wire`. */
+/* The inputs of such laws, and their `wire` function. */
 enum { RHEOLOGY_IN_VISCOSITY, RHEOLOGY_IN_OIL, RHEOLOGY_INPUTS };
 extern const ff_port rheology_inputs[RHEOLOGY_INPUTS];
 ff_status rheology_eyring_wire(rheology_eyring *e, uint32_t input, const void *service);
 
-/* Refuses `name: auto` without a viscosity law, or without Lambda: `given`, else by the base of the
-   oil. Returns Lambda in e->coefficient. */
+/* Refuses `name: auto` without a viscosity law, or without Lambda, which is `given` or follows
+ * from the base of the oil. Stores Lambda in e->coefficient. */
 ff_status rheology_eyring_ready(const ff_host *host, rheology_eyring *e, const char *name,
                                 double given);
 
-/* tau_E of n <= RHEOLOGY_BLOCK points and its slope over p. */
+/* tau_E at n <= RHEOLOGY_BLOCK points and its slope over p. */
 enum { RHEOLOGY_BLOCK = 256 };
 ff_status rheology_eyring_stress(const rheology_eyring *e, size_t n, const double *p,
                                  const double *T, double *stress, double *by_p);
 
-/* `flow` of rheology/3, block by block: `stresses` fills in the stress of a law at each point and
-   its slope over p, which `some` turns into that of psi. `some` returns whether any was held, and
-   its by_ln_eta and by_h are never NULL. */
+/* `flow` of rheology/3, block by block. `stresses` gives the stress of a law at each point and
+ * its slope over p; `some` turns that slope into the slope of psi, and returns whether any point
+ * was clamped. Its by_ln_eta and by_h are never NULL. */
 typedef ff_status rheology_stresses(const void *law, size_t n, const double *p, const double *T,
                                     double *stress, double *by_p);
 typedef int64_t rheology_some(const void *law, double u_s, size_t n, const double *stress,
@@ -132,8 +127,8 @@ ff_status rheology_flow_at(rheology_stresses *stresses, rheology_some *some, con
                            const double *h, double u_s, double *psi, double *dpsi_dp,
                            double *dpsi_dln_eta, double *dpsi_dh);
 
-/* `flow` of rheology/1 for laws that have that of rheology/3: who knows no pressure gets the stress
-   of ambient pressure, with FF_DOMAIN where it `moves` with it. */
+/* `flow` of rheology/1 for a law that has the one of rheology/3. Its caller gives no pressure,
+ * so the stress at ambient pressure is used, with FF_DOMAIN if the stress `moves` with pressure. */
 typedef ff_status rheology_flow_3(const void *self, size_t n, const double *p, const double *T,
                                   const double *ln_eta, const double *h, double u_s, double *psi,
                                   double *by_p, double *by_ln_eta, double *by_h);
@@ -141,8 +136,8 @@ ff_status rheology_ambient_flow(const void *self, rheology_flow_3 *flow, int mov
                                 const double *ln_eta, const double *h, double u_s, double *psi,
                                 double *by_ln_eta, double *by_h);
 
-/* Outputs and functions of laws that offer all three services: the instance has the members
-   `service`, `service_2` and `service_3` beside `host`. */
+/* Outputs and functions of laws that offer all three services. The instance has the members
+ * `service`, `service_2` and `service_3` beside `host`. */
 enum { RHEOLOGY_OUTPUTS = 3 };
 extern const ff_port rheology_outputs[RHEOLOGY_OUTPUTS];
 #define RHEOLOGY_3_LAW(law, type, flow, shear, rate, flow_3, shear_3, ...)                         \
@@ -177,10 +172,11 @@ extern const ff_port rheology_outputs[RHEOLOGY_OUTPUTS];
                           .destroy = free,                                                         \
                           __VA_ARGS__}
 
-/* psi of n points and its derivatives; arrays never overlap. Returns whether any was held. */
+/* psi at n points and its derivatives; the arrays do not overlap. Returns whether any point was
+ * clamped. */
 typedef int64_t rheology_curve(const void *law, size_t n, const double *ln_eta, const double *h,
                                double slip, double *psi, double *by_ln_eta, double *by_h);
-/* The same, where derivatives may be NULL. */
+/* The same, but derivatives may be NULL. */
 int64_t rheology_points(rheology_curve *curve, const void *law, size_t n, const double *ln_eta,
                         const double *h, double slip, double *psi, double *by_ln_eta, double *by_h);
 

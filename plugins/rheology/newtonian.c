@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Newtonian: psi = 1/eta, tau = eta u_s/h; at a point the rate is tau/eta. */
+/* Newtonian: psi = 1/eta, tau = eta u_s/h; the rate at a point is tau/eta. */
 #include "law.h"
 #include "references.h"
 

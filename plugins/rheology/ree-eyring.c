@@ -1,17 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Ree-Eyring: the mean shear stress is tau_m = tau0 asinh(S), S = eta u_s/(tau0 h), and the
- * pressure flow is eased by cosh(tau_m/tau0) (Li & Kahraman 2011, eq. 8a), so that
- *   psi = cosh(asinh S)/eta = sqrt(1/eta^2 + (u_s/(tau0 h))^2).
- * At a point the rate is (tau0/eta) sinh(tau/tau0), whose slope at tau_m is psi.
- */
+/* Ree-Eyring: the mean shear stress is tau_m = tau0 asinh(S), S = eta u_s/(tau0 h), and the
+ * pressure flow is eased by cosh(tau_m/tau0) (Li & Kahraman 2011, eq. 8a), so that psi =
+ * cosh(asinh S)/eta = sqrt(1/eta^2 + (u_s/(tau0 h))^2). At a point, the rate is (tau0/eta)
+ * sinh(tau/tau0); its slope at tau_m is psi. */
 #include "law.h"
 #include "references.h"
 
 #include "../numerics/liquid.h"
 
 static const double STRESS_MAX = 1e300; /* Pa */
-static const double SLIP_MAX = 1e100;   /* m/(Pa s), of the sliding speed over tau0 */
+static const double SLIP_MAX = 1e100;   /* m/(Pa s), bound of the sliding speed over tau0 */
 
 typedef struct ree_eyring {
     const ff_host *host;
@@ -23,7 +21,7 @@ typedef struct ree_eyring {
     double tau0; /* Pa; NaN: auto */
 } ree_eyring;
 
-/* tau0 of n <= RHEOLOGY_BLOCK points and its slope over p. */
+/* tau0 and its slope over p at n <= RHEOLOGY_BLOCK points. */
 static ff_status stresses_at(const void *self, size_t n, const double *p, const double *T,
                              double *tau0, double *by_p)
 {
@@ -44,7 +42,7 @@ static void take_logs(size_t n, const double *restrict x, double *restrict ln)
         ln[i] = ff_log(x[i]);
 }
 
-/* ln(tau0) of the points that stresses_at has answered. */
+/* ln(tau0) at the points that stresses_at has evaluated. */
 static void logs_of(const ree_eyring *r, size_t n, const double *tau0, double *ln)
 {
     if (isnan(r->tau0)) {
@@ -56,7 +54,8 @@ static void logs_of(const ree_eyring *r, size_t n, const double *tau0, double *l
         ln[i] = same;
 }
 
-/* psi at tau0, and its slopes; that over p is through tau0, whose slope it replaces. */
+/* psi for tau0, and its slopes. The slope over p acts through tau0 and replaces the slope of
+ * tau0 in the array. */
 FF_SIMD
 static int64_t curve(const void *law, double u_s, size_t n, const double *restrict tau0,
                      const double *restrict ln_eta, const double *restrict h, double *restrict psi,
@@ -98,8 +97,8 @@ static ff_status flow(const void *self, size_t n, const double *ln_eta, const do
                                  dpsi_dln_eta, dpsi_dh);
 }
 
-/* asinh S = ln(1 + u) with u = S + S^2/(1 + sqrt(1 + S^2)); ln(1 + u) loses no digits as u times
-   ln v over v - 1, v being 1 + u as it is rounded. */
+/* asinh S = ln(1 + u), u = S + S^2/(1 + sqrt(1 + S^2)). Computed as u ln(v)/(v - 1), where v is
+ * 1 + u as rounded, ln(1 + u) loses no digits. */
 FF_SIMD_INLINE double arsinh(double S)
 {
     double square = S * S, u = S + square / (1 + sqrt(1 + square)), v = 1 + u;
@@ -118,7 +117,7 @@ static int64_t stresses(double limiting, int moves, size_t n, const double *rest
     for (size_t i = 0; i < n; i++) {
         double tau0 = tau_0[i], ln_slip = ln_speed - ln_tau0[i];
         double ln_S = ln_eta[i] + ln_slip - ff_log(rheology_film(h[i]));
-        /* asinh S = ln 2S where S is large; the cut at e^300 is exact in double precision */
+        /* for large S, asinh S = ln 2S; at e^300 both agree to double precision */
         double near = ln_S < 300 ? ln_S : 300;
         double stress = tau0 * (arsinh(ff_exp(near)) + (ln_S > 300 ? ln_S - 300 : 0));
         double plain = stress < STRESS_MAX ? stress : STRESS_MAX;
@@ -155,10 +154,10 @@ static ff_status shear(const void *self, size_t n, const double *p, const double
     return shear_at(self, n, p, NULL, ln_eta, h, u_s, tau);
 }
 
-/* x = |tau|/tau0 below which both hyperbolic functions follow from the series of sinh. */
+/* Below this x = |tau|/tau0, both hyperbolic functions follow from the series of sinh. */
 static const double FLAT = 0.5;
 
-/* sinh(x)/x below FLAT, to the last digits. */
+/* sinh(x)/x for x < FLAT, to rounding. */
 FF_SIMD_INLINE double flat_sinh(double x)
 {
     double y = x * x, s = 1 + y / 210;
@@ -170,11 +169,10 @@ FF_SIMD_INLINE double flat_sinh(double x)
     return 1 + y / 6 * s;
 }
 
-/*
- * The rate is tau0 sinh(x)/eta, x = |tau|/tau0, up to x = y, where it reaches RHEOLOGY_RATE_MAX;
- * then its tangent. y >= 1 moves with ln(eta), which the derivative by it knows: there tau0
- * e^y/eta is constant. `flat` and `steep`: points of this kind are there.
- */
+/* The rate is tau0 sinh(x)/eta, x = |tau|/tau0, up to x = y, where it reaches RHEOLOGY_RATE_MAX;
+ * beyond, it continues as its tangent. y >= 1 depends on ln(eta), since tau0 e^y/eta is
+ * constant, and the derivative over ln(eta) contains that. `flat` and `steep` tell whether such
+ * points occur. */
 FF_SIMD_INLINE int64_t rates_of(rheology_limit limit, size_t n, const double *restrict tau_0,
                                 const double *restrict ln_tau0, const double *restrict p,
                                 const double *restrict ln_eta, const double *restrict tau,
@@ -215,7 +213,7 @@ FF_SIMD_INLINE int64_t rates_of(rheology_limit limit, size_t n, const double *re
     return held;
 }
 
-/* At n <= RUN points, of which often all are of one kind. */
+/* Evaluates n <= RUN points, which are often all of one kind. */
 enum { RUN = 64 };
 FF_SIMD
 static int64_t rates_of_some(rheology_limit limit, size_t n, const double *restrict tau0,
@@ -243,7 +241,7 @@ static ff_status rate(const void *self, size_t n, const double *p, const double 
                       double *drate_dln_eta)
 {
     const ree_eyring *r = self;
-    /* where tau0 is auto the limit acts on the traction alone, never on the flow */
+    /* if tau0 is auto, the limiting stress acts on the traction only, not on the flow */
     const rheology_limit limit =
         rheology_limit_of(isnan(r->tau0) ? 0 : r->limiting_stress_coefficient);
     double tau0[RUN], by_p[RUN], unwanted[2][RUN];

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Finds the breakpoints of a mesh cycle. */
 #include "breakpoints.h"
 
 #include "contact-point.h"
@@ -20,7 +21,7 @@ static int by_phase(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* By phase; of those that agree one is left, which is a jump when one of them was. */
+/* Sorts by phase. Of breakpoints that agree one is kept; it is a jump if any of them is. */
 static void sort(stiffness_breakpoint_list *b)
 {
     size_t n = 0;
@@ -69,11 +70,11 @@ static bool same_state(const stiffness_loaded *a, const stiffness_loaded *b)
     return a->loaded == b->loaded && a->first == b->first;
 }
 
-/* The phase between low and high from which on the state is no longer that at low. */
+/* Returns the phase between low and high at which the contact state changes from that at low. */
 static double change_of_state(const stiffness_source *s, const stiffness_loaded *at_low, double low,
                               double high)
 {
-    const double fine = 1e-12; /* mesh cycles, well below STIFFNESS_PHASE_TOLERANCE */
+    const double fine = 1e-12; /* mesh cycles, far below STIFFNESS_PHASE_TOLERANCE */
     for (int k = 0; k < 50 && high - low > fine; k++) {
         double middle = (low + high) / 2;
         stiffness_loaded there = solve(s, middle, STIFFNESS_ABOVE);

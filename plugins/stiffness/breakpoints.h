@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The phases of the mesh cycle where k or e jumps or changes its slope. */
+/* The phases of the mesh cycle at which k or e jumps or changes its slope. */
 #ifndef STIFFNESS_BREAKPOINTS_H
 #define STIFFNESS_BREAKPOINTS_H
 
@@ -16,15 +16,15 @@ enum {
 typedef struct stiffness_breakpoint_list {
     size_t count;
     stiffness_breakpoint list[STIFFNESS_MAX_BREAKPOINTS];
-    double phase[STIFFNESS_MAX_BREAKPOINTS]; /* of these */
+    double phase[STIFFNESS_MAX_BREAKPOINTS]; /* at these phases k or e jumps */
 } stiffness_breakpoint_list;
 
-/* Starts the list with those that are known beforehand: ends of contact, changes in the slope of
-   the compliance, corners of the profiles. */
+/* Starts the list with the breakpoints that are known beforehand: ends of contact, changes in
+ * the slope of the compliance, corners of the profiles. */
 void stiffness_breakpoints_known(const stiffness_source *s, stiffness_breakpoint_list *b);
 
-/* Adds those where pairs gain or lose load, or another pair becomes the first to touch. False: out
-   of memory. */
+/* Adds the phases at which pairs gain or lose load, or another pair becomes the first to touch.
+ * False if memory is short. */
 bool stiffness_breakpoints_find(const stiffness_source *s, stiffness_breakpoint_list *b);
 
 #endif

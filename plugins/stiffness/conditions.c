@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads the inputs of mesh stiffness models, and the parameter mesh_cycle. */
 #include "conditions.h"
 
 #include <flankfilm/author.h>

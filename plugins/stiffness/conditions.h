@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The gears, the deviations of their flanks, their load, and the mesh cycle that is asked for. */
+/* The gears, the deviations of their flanks, their load, and the requested mesh cycle. */
 #ifndef STIFFNESS_CONDITIONS_H
 #define STIFFNESS_CONDITIONS_H
 
@@ -13,16 +13,16 @@ typedef struct stiffness_conditions {
     stiffness_gears gears;
 } stiffness_conditions;
 
-/* Which mesh cycles of the hunting period the outputs are of. */
+/* The mesh cycles of the hunting period that the outputs describe. */
 typedef struct stiffness_mesh_cycles {
     enum { STIFFNESS_CYCLE_NUMBER, STIFFNESS_CYCLE_WORST, STIFFNESS_CYCLE_ALL } which;
     size_t number;
 } stiffness_mesh_cycles;
 
-/* The parameter mesh_cycle: a number, `worst` or `all`. */
+/* Sets the parameter mesh_cycle: a number, `worst` or `all`. */
 stiffness_mesh_cycles stiffness_mesh_cycles_set(const ff_value *value);
 
-/* Reads and checks the inputs; a mesh cycle that the hunting period does not have is refused. */
+/* Reads and checks the inputs. Refuses a mesh cycle beyond the hunting period. */
 ff_status stiffness_conditions_read(const ff_host *host, const ff_array *in, const ff_reals *rim,
                                     stiffness_mesh_cycles cycles, stiffness_conditions *conditions);
 

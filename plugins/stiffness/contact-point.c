@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Finds where a pair of teeth touches. */
 #include "contact-point.h"
 
 #include "../numerics/involute.h"
@@ -20,15 +21,16 @@ double stiffness_gears_curvature(const stiffness_gears *g, double age)
     return r1 * (g->tangent_length - r1) / g->tangent_length;
 }
 
-/* The tip corner of gear `tip` against the flank of the other gear, both turned to where perfect
-   flanks of a pair of that age would meet on the line of action. Coordinates: x along the line of
-   action from the point where it touches the base circle of the flank, y towards the centre of gear
-   `tip`. */
+/* Contact of the tip corner of gear `tip` with the flank of the other gear. Both are turned to
+ * where perfect flanks of a pair of that age would meet on the line of action. Coordinates: x
+ * along the line of action from the point where it touches the base circle of the flank, y
+ * towards the centre of gear `tip`. */
 static bool meet_corner(const stiffness_gears *g, int tip, double age, double roll[2], double *gap)
 {
     const stiffness_gear *corner = &g->gear[tip], *flank = &g->gear[1 - tip];
     double radius = corner->base_radius * sqrt(1 + corner->roll_tip * corner->roll_tip);
-    /* polar angle of the corner, from the point where the line of action touches its base circle */
+    /* polar angle of the corner, from the point where the line of action touches the base circle
+     * of its gear */
     double turn = stiffness_gears_roll(g, tip, age) - numerics_involute_at_roll(corner->roll_tip);
     double x = g->tangent_length - radius * sin(turn);
     double y = corner->base_radius - radius * cos(turn) + flank->base_radius;

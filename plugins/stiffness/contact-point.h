@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Where on their flanks a pair of teeth touches: on the path of contact, and at the tip corners
-   before it begins and after it ends. */
+ * before and after it. */
 #ifndef STIFFNESS_CONTACT_POINT_H
 #define STIFFNESS_CONTACT_POINT_H
 
@@ -8,15 +8,15 @@
 
 #include <stdbool.h>
 
-/* Roll angle of gear 0 or 1 where a pair of that age is in contact on the line of action. The age
-   counts mesh cycles since SAP. */
+/* Returns the roll angle of gear 0 or 1 at which a pair of that age is in contact on the line of
+ * action. The age counts mesh cycles since SAP. */
 double stiffness_gears_roll(const stiffness_gears *g, int gear, double age);
-/* Equivalent radius of curvature of the contact there, m. */
+/* Returns the equivalent radius of curvature of that contact, m. */
 double stiffness_gears_curvature(const stiffness_gears *g, double age);
 
-/* Contact of a pair of any age with perfect flanks: the roll angles of both, and the gap along the
-   line of action. Before SAP and after the tip the tip corner of one tooth meets the flank of the
-   other off the line of action. False: it does not meet the flank. */
+/* Finds the contact of a pair of any age with perfect flanks: the roll angles of both flanks,
+ * and the gap along the line of action. Before SAP and after the tip, the tip corner of one
+ * tooth meets the flank of the other off the line of action. False if it misses the flank. */
 bool stiffness_gears_contact(const stiffness_gears *g, double age, double roll[2], double *gap);
 
 #endif

@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Least-squares piecewise cubics over the mesh cycle. */
 #include "cubic-fit.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_PIECES = 256, LEAST_SAMPLES = 4 /* of a piece */ };
+enum { MOST_PIECES = 256, LEAST_SAMPLES = 4 /* in a piece */ };
 
-/* Weight against the samples of how straight the pieces are; it decides where samples are few.
- */
+/* Weight of the straightness of the pieces against the samples; it matters only if samples are
+ * few. */
 static const double straightness = 1e-4;
 
-/* A breakpoint between two pieces, and the numbers of the unknowns on its lower and upper side. */
+/* A breakpoint between two pieces, and the indices of the unknowns on its lower and upper side. */
 typedef struct node {
     size_t point;
     size_t value[2], slope[2];
@@ -23,10 +24,11 @@ typedef struct equations {
     const bool *corner;
     size_t nodes, unknowns;
     node *node;
-    double *matrix, *x; /* normal equations, lower triangle by rows; right-hand side, solution */
+    double *matrix,
+        *x; /* normal equations, the lower triangle by rows; right-hand side, later the solution */
 } equations;
 
-/* Nodes at the corners and jumps, and at every stride-th breakpoint in between. */
+/* Places nodes at corners and jumps, and at every stride-th breakpoint in between. */
 static bool place_nodes(equations *s, size_t stride)
 {
     size_t since = 0;
@@ -48,7 +50,7 @@ static bool place_nodes(equations *s, size_t stride)
     return true;
 }
 
-/* Adds the square of weight (sum of c x - y) to what is minimised. */
+/* Adds the square of weight (sum of c x - y) to the function that is minimised. */
 static void add_row(equations *s, const size_t at[4], const double c[4], double y, double weight)
 {
     for (int a = 0; a < 4; a++) {
@@ -59,14 +61,15 @@ static void add_row(equations *s, const size_t at[4], const double c[4], double 
     }
 }
 
-/* Distance in phase from one breakpoint to a later one, across phase 1 if need be. */
+/* Returns the distance in phase from one breakpoint to a later one, which may lie beyond phase
+ * 1. */
 static double distance(const stiffness_table_phases *k, size_t from, size_t to)
 {
     double d = k->phase[to] - k->phase[from];
     return d > 0 ? d : d + 1;
 }
 
-/* Breakpoints from node i to the next one. */
+/* Counts the breakpoints from node i to the next one. */
 static size_t steps_of(const equations *s, size_t i)
 {
     size_t count = s->points->count, from = s->node[i].point,
@@ -74,7 +77,7 @@ static size_t steps_of(const equations *s, size_t i)
     return to > from ? to - from : to + count - from;
 }
 
-/* A piece runs from the upper side of node i to the lower side of the next one. */
+/* Adds the piece from the upper side of node i to the lower side of the next one. */
 static void add_piece(equations *s, size_t i)
 {
     const stiffness_table_phases *k = s->points;
@@ -93,7 +96,7 @@ static void add_piece(equations *s, size_t i)
     add_row(s, at, (const double[4]){1, 0, -1, h}, 0, straightness);
 }
 
-/* Cholesky's method, in place. */
+/* Solves by Cholesky's method, in place. */
 static void solve(equations *s)
 {
     size_t n = s->unknowns;
@@ -116,7 +119,7 @@ static void solve(equations *s)
     }
 }
 
-/* Values and slopes of the cubics at the breakpoints of one piece. */
+/* Evaluates values and slopes of the cubics at the breakpoints of one piece. */
 static void evaluate_piece(const equations *s, size_t i, stiffness_cubic_fit *fit)
 {
     const stiffness_table_phases *k = s->points;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The points of a mesh cycle, and means and harmonics over it. */
 #include "cycle.h"
 
 #include <assert.h>
@@ -58,7 +59,8 @@ double stiffness_cycle_mean(const stiffness_cycle *cycle, const double *value)
     return sum;
 }
 
-/* Spherical Bessel function j1(x) = (sin x - x cos x)/x^2, by its series where that cancels. */
+/* Spherical Bessel function j1(x) = (sin x - x cos x)/x^2, by its series for small x, where the
+ * terms cancel. */
 static double bessel_j1(double x)
 {
     double q = x * x;
@@ -67,8 +69,8 @@ static double bessel_j1(double x)
     return (sin(x) - x * cos(x)) / q;
 }
 
-/* A linear piece of length L, middle m, mean v and rise d gives, with x = pi n L,
-   exp(-2 pi i n m) L [v sin(x)/x - i d/2 j1(x)]. */
+/* A linear piece of length L with middle m, mean v and rise d contributes, with x = pi n L,
+ * exp(-2 pi i n m) L [v sin(x)/x - i d/2 j1(x)]. */
 double stiffness_cycle_amplitude(const stiffness_cycle *cycle, const double *value, int n)
 {
     double re = 0, im = 0;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Evaluates the deviations of flanks. */
 #include "deviations.h"
 
 #include "../numerics/interval.h"
@@ -108,7 +109,8 @@ double stiffness_index_deviation(const stiffness_deviations *d, long number)
     return sum;
 }
 
-/* The least common multiple of the numbers of teeth, where both gears have index deviations. */
+/* The hunting period is the least common multiple of the numbers of teeth if both gears have
+ * index deviations. */
 size_t stiffness_hunting_period(const stiffness_deviations *d)
 {
     if (!d->index[0] || !d->index[1])
@@ -124,7 +126,7 @@ size_t stiffness_hunting_period(const stiffness_deviations *d)
 
 size_t stiffness_profile_corners(const stiffness_deviations *d, int gear, double *roll, size_t room)
 {
-    /* of the range of slopes; a smaller change is the curvature of a sampled curve */
+    /* of the range of slopes; smaller changes come from a sampled curve's curvature */
     const double share = 0.05;
     double least = INFINITY, most = -INFINITY;
     size_t found = 0;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Compliance of a pair of gears with elastic teeth. */
 #include "elastic-pair.h"
 
 #include "contact-point.h"
@@ -9,12 +10,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Displacement elements lock as Poisson's ratio approaches 1/2 in plane strain. */
+/* Above this Poisson's ratio, displacement elements lock in plane strain. */
 static const double nearly_incompressible = 0.49;
 
-/* Weber 1949, Johnson 1985 eq. 5.57: approach of a surface and a point h below the middle of a
-   Hertzian line contact, 2 f (1 - nu^2)/(pi E b) (ln(2 h/a) - nu/(2 (1 - nu))), for both teeth;
-   a^2 = 4 f R/(pi E* b). In plane stress E stands for E/(1 - nu^2) and nu for nu/(1 - nu). */
+/* Weber 1949, Johnson 1985 eq. 5.57: approach between the surface and a point at depth h below
+ * the middle of a Hertzian line contact, 2 f (1 - nu^2)/(pi E b) (ln(2 h/a) - nu/(2 (1 - nu))),
+ * summed over both teeth; a^2 = 4 f R/(pi E* b). In plane stress, E replaces E/(1 - nu^2) and nu
+ * replaces nu/(1 - nu). */
 stiffness_hertz stiffness_elastic_pair_approach(const stiffness_elastic_pair *p,
                                                 const double roll[2], double curvature, bool strain)
 {
@@ -49,8 +51,8 @@ double stiffness_elastic_pair_teeth(const stiffness_elastic_pair *p, const doubl
     return sum;
 }
 
-/* Displacement of pair i under a unit force on pair k. Older pairs are ahead: on the side of the
-   loaded flank on the driving gear, on the other side on the driven one. */
+/* Displacement of pair i under a unit force on pair k. Older pairs are ahead: on the driving
+ * gear on the side of the loaded flank, on the driven gear on the other side. */
 static double cross_compliance(const stiffness_elastic_pair *p, const stiffness_position *at,
                                size_t i, size_t k)
 {
@@ -67,8 +69,8 @@ void stiffness_elastic_pair_compliance(const void *self, const stiffness_positio
     const stiffness_elastic_pair *p = self;
     for (size_t i = 0; i < at->count; i++) {
         c->compliance[i][i] = stiffness_elastic_pair_teeth(p, at->roll[i]);
-        /* the contact is narrow against the face width and stays in plane strain, whatever the
-         * tooth does */
+        /* the contact is narrow compared with the face width, so it is in plane strain, whatever
+         * the tooth is in */
         c->hertz[i] = stiffness_elastic_pair_approach(
             p, at->roll[i], stiffness_gears_curvature(p->gears, at->age[i]), true);
         for (size_t k = 0; k < i; k++)
@@ -107,8 +109,8 @@ static ff_status fail_ring(const stiffness_elasticity *m, int gear, int result)
                     "gear %d: the stiffness matrix of the elements is singular", gear + 1);
 }
 
-/* The change with half as many elements is an estimate of the error, which falls at least as their
-   number rises. */
+/* The error is estimated from the change with half as many elements; it decreases at least in
+ * proportion to their number. */
 static ff_status make_ring(const stiffness_elasticity *m, int gear, stiffness_body *b)
 {
     const stiffness_body_data *r = &b->data;

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Equilibrium of the loaded teeth at one mesh position: which pairs of teeth may touch there, their
- * gaps by corner contact and by the deviations of the flanks, and how they share the force.
- */
+/* Equilibrium of the loaded teeth at one mesh position: the pairs that may touch, their gaps
+ * from corner contact and flank deviations, and how they share the force. */
 #ifndef STIFFNESS_EQUILIBRIUM_H
 #define STIFFNESS_EQUILIBRIUM_H
 
@@ -15,7 +13,7 @@
 typedef struct stiffness_position {
     size_t count;
     double age[STIFFNESS_MAX_PAIRS];     /* mesh cycles since SAP, increasing by whole cycles */
-    double roll[STIFFNESS_MAX_PAIRS][2]; /* roll angles of the contact on both flanks */
+    double roll[STIFFNESS_MAX_PAIRS][2]; /* roll angles of the contact, on both flanks */
 } stiffness_position;
 
 enum { STIFFNESS_MAX_SLOPE_CHANGES = 8 };
@@ -25,16 +23,16 @@ typedef struct stiffness_source {
     const stiffness_conditions *conditions;
     size_t points; /* equal steps of the mesh cycle */
     stiffness_mesh_cycles cycles;
-    bool tangent;         /* k is dF/ds rather than F/(s - e) */
-    bool corner;          /* contact of tip corners off the line of action */
+    bool tangent;         /* k is dF/ds instead of F/(s - e) */
+    bool corner;          /* includes contact of tip corners off the line of action */
     double before, after; /* mesh cycles of contact before SAP and after the tip */
-    bool sharp;           /* pairs come and go at once: k jumps */
-    size_t slope_changes; /* ages where the compliance of a pair changes its slope */
+    bool sharp;           /* pairs enter and leave at once, so k jumps */
+    size_t slope_changes; /* ages at which the compliance of a pair changes its slope */
     double slope_change[STIFFNESS_MAX_SLOPE_CHANGES];
     /* Fills in compliance and Hertzian approach of the pairs. */
     void (*compliance)(const void *self, const stiffness_position *at, stiffness_contacts *c);
     const void *self;
-    const char *fault; /* parameter or port to blame when there is no solution */
+    const char *fault; /* parameter or port to name if there is no solution */
 } stiffness_source;
 
 /* Loaded teeth at a mesh position. */
@@ -43,26 +41,26 @@ typedef struct stiffness_loaded {
     stiffness_sharing sharing;
     double stiffness; /* N/m */
     bool solved;      /* false: the pairs cannot carry the force */
-    uint64_t loaded;  /* a bit for each pair with load, by its age in whole cycles */
-    int first;        /* the pair that would touch first without load, likewise */
+    uint64_t loaded;  /* a bit for each loaded pair, at its age in whole cycles */
+    int first;        /* the pair that would touch first without load, by its age in whole cycles */
 } stiffness_loaded;
 
-/* In that mesh cycle of the hunting period; `side` tells the limit that is meant where pairs come
- * or go at that phase. */
+/* Solves a phase of that mesh cycle of the hunting period. `side` selects the limit if pairs
+ * enter or leave at that phase. */
 stiffness_loaded stiffness_source_solve(const stiffness_source *s, size_t cycle, double phase,
                                         int side);
 
-/* The same under several forces, N; 0 counts as next to none. */
+/* The same under several forces, N; 0 stands for a very small force. */
 void stiffness_source_solve_all(const stiffness_source *s, size_t cycle, double phase, int side,
                                 size_t count, const double *force, stiffness_loaded *loaded);
 
-/* The force of the pair of that age, N; 0: it carries nothing. */
+/* Returns the force on the pair of that age, N; 0: it is not loaded. */
 double stiffness_loaded_force(const stiffness_loaded *loaded, double age, double phase);
 
-/* The force that the pairs carry, N. */
+/* Returns the force that the pairs carry together, N. */
 double stiffness_source_force(const stiffness_source *s);
 
-/* Transmission error without load, the least gap of all pairs, m. */
+/* Returns the transmission error without load, the least gap of all pairs, m. */
 double stiffness_source_unloaded(const stiffness_source *s, size_t cycle, double phase);
 
 #endif

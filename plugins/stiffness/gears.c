@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads the gears for models that compute the compliance of teeth. */
 #include "gears.h"
 
 #include "contact-point.h"
@@ -11,7 +12,7 @@
 /* Tip radius of the basic rack of ISO 53 (profile A), in modules. */
 static const double standard_tip_radius = 0.38;
 
-/* Root radius over rim radius that a gear without a bore is given. */
+/* Ratio of root radius to rim radius for a gear without a bore. */
 static const double default_body_ratio = 2;
 
 static ff_status read_positive(const ff_host *host, const ff_array *in, int row, size_t gear,
@@ -84,7 +85,8 @@ static ff_status read_gear(const ff_host *host, const ff_array *in, const ff_rea
                     : bore > 0 ? bore
                                : g->root_radius / default_body_ratio;
     g->full_thickness = g->thickness;
-    /* a backlash without its cause is an arc of the base circle, half of it on either gear */
+    /* a backlash without known thicknesses is an arc of the base circle, shared equally by both
+     * gears */
     g->thickness += in[STIFFNESS_IN_ALLOWANCE].data
                         ? allowance
                         : -backlash / 2 * g->reference_radius / g->base_radius;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The two gears, for sources that compute the compliance of their teeth. */
+/* The two gears, for models that compute the compliance of their teeth. */
 #ifndef STIFFNESS_GEARS_H
 #define STIFFNESS_GEARS_H
 
@@ -11,23 +11,23 @@
 typedef struct stiffness_gear {
     double teeth;
     double base_radius, reference_radius, root_radius;
-    double rim_radius;     /* inside which the body is rigid */
+    double rim_radius;     /* the body inside is rigid */
     double thickness;      /* arc at the reference circle */
-    double full_thickness; /* as the profile shift makes it */
+    double full_thickness; /* as the profile shift alone would give it */
     double tool_tip;       /* radius of the rack's tip, in modules */
     double elastic_modulus, poisson_ratio;
-    double roll_low, roll_tip; /* own roll angles of its lowest contact and of its tip */
+    double roll_low, roll_tip; /* roll angles of lowest contact and tip on its own flank */
 } stiffness_gear;
 
 typedef struct stiffness_gears {
     stiffness_gear gear[2];
     double width;
-    double tangent_length; /* between the base circles' points of tangency */
+    double tangent_length; /* length of the common tangent of the base circles */
     double roll_sap, pitch, contact_ratio;
 } stiffness_gears;
 
-/* Reads and checks the input rows from STIFFNESS_IN_BASE on. `rim`: the radii that the user states;
-   empty: bore, or half the root radius without a bore. */
+/* Reads and checks the input rows from STIFFNESS_IN_BASE on. `rim`: the radii that the user
+ * gives; if empty, the bore, or without a bore half of the root radius. */
 ff_status stiffness_gears_read(const ff_host *host, const ff_array *in, const stiffness_path *e,
                                const ff_reals *rim, stiffness_gears *gears);
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Solves all mesh cycles of a hunting period. */
 #include "hunting.h"
 
 #include "contact-point.h"
@@ -9,7 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Hertz (Johnson 1985, eq. 4.45), line contact: p = sqrt(f Er/(pi R b)), 1/Er = sum of (1 -
+/* Hertz (Johnson 1985, eq. 4.45) for a line contact: p = sqrt(f Er/(pi R b)), 1/Er = sum of (1 -
  * nu^2)/E. */
 static double pressure_of(const stiffness_gears *g, double force, double age)
 {
@@ -20,16 +21,16 @@ static double pressure_of(const stiffness_gears *g, double force, double age)
     return sqrt(force / (M_PI * softness * stiffness_gears_curvature(g, age) * g->width));
 }
 
-/* The mesh cycle in which a pair entered that has this age at this phase of `cycle`; for a pair
-   that is at SAP at the end of `cycle` it is the next one. */
+/* Returns the mesh cycle in which a pair entered that has this age at this phase of `cycle`. A
+ * pair that is at SAP at the end of `cycle` enters in the next one. */
 static size_t entered_in(size_t period, size_t cycle, double age, double phase)
 {
     long number = ((long)cycle - lround(age - phase)) % (long)period;
     return (size_t)(number < 0 ? number + (long)period : number);
 }
 
-/* Notes the pressure on the pairs on the path of contact; beyond it a tip corner meets the flank,
-   to which Hertz does not apply. */
+/* Notes the pressure on the pairs on the path of contact. Beyond it a tip corner meets the
+ * flank, for which Hertz's theory does not hold. */
 static void note_pairs(const stiffness_source *s, const stiffness_loaded *r, size_t cycle,
                        double phase, stiffness_hunting *h)
 {

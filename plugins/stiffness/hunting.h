@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * With index deviations every mesh cycle of the hunting period differs: what the pairs of teeth
- * bear in each of them, and which pair bears most.
- */
+/* With index deviations, every mesh cycle of the hunting period differs. Finds the load on the
+ * pairs of teeth in each of them, and the pair with the highest. */
 #ifndef STIFFNESS_HUNTING_H
 #define STIFFNESS_HUNTING_H
 
@@ -16,18 +14,19 @@ typedef struct stiffness_error_range {
 typedef struct stiffness_hunting {
     size_t period;
     double *pressure; /* highest Hertz pressure on the pair that enters in each mesh cycle, Pa */
-    size_t worst;     /* the cycle with the highest of them */
-    size_t teeth[2];  /* of gear 1 and 2 that meet in it, counted from 1 */
+    size_t worst;     /* the cycle with the highest pressure */
+    size_t teeth[2];  /* of gear 1 and gear 2, which meet in that cycle, counted from 1 */
     stiffness_error_range all; /* of the loaded transmission error, over all mesh cycles, m */
-    double narrowest;          /* the smallest range within one mesh cycle, m */
+    double narrowest; /* the smallest range of the loaded transmission error within one mesh cycle,
+                         m */
 } stiffness_hunting;
 
-/* Solves every mesh cycle of the hunting period at the points of `grid`. h->pressure is freed by
-   the caller, also after a failure. */
+/* Solves every mesh cycle of the hunting period at the points of `grid`. The caller frees
+ * h->pressure, also after a failure. */
 ff_status stiffness_hunting_scan(const stiffness_source *s, const stiffness_cycle *grid,
                                  stiffness_hunting *h);
 
-/* Reports as quality how far mesh cycle `number`, which stands for all, is from the worst. */
+/* Reports as quality how far mesh cycle `number`, which represents all, is from the worst. */
 void stiffness_hunting_report(const stiffness_source *s, const stiffness_hunting *h, size_t number);
 
 #endif

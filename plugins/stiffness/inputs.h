@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the models of mesh stiffness take from the gear and from the operating point. */
+/* Inputs of mesh stiffness models from the gear and from the operating point. */
 #ifndef STIFFNESS_INPUTS_H
 #define STIFFNESS_INPUTS_H
 
 #include <flankfilm/plugin.h>
 
-/* In the order of the rows. A table takes those of the path of contact, which stand first, what
-   follows a standard takes all of them, and other models all but the pinion. */
+/* In the order of the rows. A table takes the rows of the path of contact, which come first; a
+ * standard takes all rows; other models take all but the pinion. */
 enum {
     STIFFNESS_IN_ROLL,
     STIFFNESS_IN_SAP,
@@ -40,7 +40,7 @@ enum {
 };
 extern const ff_port stiffness_inputs[STIFFNESS_INPUTS];
 
-/* Reads element i of an input, 0 of a scalar; FF_INVALID when it is missing or not finite. */
+/* Reads element i of an input, 0 for a scalar; FF_INVALID if it is missing or not finite. */
 ff_status stiffness_input_read(const ff_host *host, const ff_array *in, int row, size_t i,
                                double *value);
 

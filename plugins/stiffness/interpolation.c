@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Interpolates tables over one mesh cycle. */
 #include "interpolation.h"
 
 #include "../numerics/steffen.h"
@@ -49,7 +50,9 @@ const char *stiffness_table_phases_make(stiffness_table_phases *points, size_t c
     }
     size_t n = 0, last = count - 1;
     bool at_0 = phase[0] <= 0, at_1 = phase[last] >= 1;
-    if (at_1) { /* before: the first sample at 1; after: the last of those at 1 and 0 */
+    /* the value before phase 1 is the first sample there; the value after it is the last one of
+     * those at 1 and 0 */
+    if (at_1) {
         size_t first = count > 1 && phase[last - 1] >= 1 ? last - 1 : last;
         points->phase[n] = 0;
         points->before[n] = first;
@@ -76,7 +79,8 @@ void stiffness_table_phases_free(stiffness_table_phases *points)
     *points = (stiffness_table_phases){0};
 }
 
-/* The piece between two neighbouring breakpoints that holds `phase`; the last one wraps around. */
+/* The piece between two neighbouring breakpoints that contains `phase`; the last piece wraps
+ * around. */
 typedef struct piece {
     size_t from, to;
     double length, t; /* t: 0 at `from`, 1 at `to` */
@@ -89,10 +93,12 @@ static double length_after(const stiffness_table_phases *points, size_t i)
     return points->phase[0] + (1 - points->phase[i]);
 }
 
-/* At a breakpoint `side` decides between the piece before it and the piece after it. */
+/* Finds the piece of a phase. At a breakpoint, `side` chooses between the pieces before and
+ * after it. */
 static piece find(const stiffness_table_phases *points, double phase, int side)
 {
-    size_t low = 0, high = points->count; /* breakpoints below `high` lie at or before the phase */
+    /* breakpoints with an index below `high` are at or before the phase */
+    size_t low = 0, high = points->count;
     while (low < high) {
         size_t middle = low + (high - low) / 2;
         double at = points->phase[middle];
@@ -104,7 +110,7 @@ static piece find(const stiffness_table_phases *points, double phase, int side)
     piece p = {.from = (low > 0 ? low : points->count) - 1};
     p.to = p.from + 1 < points->count ? p.from + 1 : 0;
     p.length = length_after(points, p.from);
-    double into = phase - points->phase[p.from]; /* below 0 before the first breakpoint */
+    double into = phase - points->phase[p.from]; /* negative before the first breakpoint */
     p.t = fmin(fmax((low > 0 ? into : into + 1) / p.length, 0), 1);
     return p;
 }
@@ -116,7 +122,7 @@ double stiffness_linear_at(const stiffness_table_phases *points, const double *v
     return (1 - p.t) * value[points->after[p.from]] + p.t * value[points->before[p.to]];
 }
 
-/* Of the values at both ends of the piece. */
+/* Returns the difference between the values at the ends of the piece. */
 static double difference(const stiffness_table_phases *points, const double *value, size_t from)
 {
     size_t to = from + 1 < points->count ? from + 1 : 0;

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Mesh stiffness of ISO 6336-1, method B: single stiffness c' from a series fitted to gears on
- * solid blanks, mesh stiffness c_gamma = c' (0.75 eps + 0.25). A mean that is linear in the contact
- * ratio eps means that p pairs have the stiffness c' (0.75 p + 0.25) together: the time course,
- * which the standard leaves open.
- */
+/* Mesh stiffness of ISO 6336-1, method B: single stiffness c' from a series fitted to gears on
+ * solid blanks, mesh stiffness c_gamma = c' (0.75 eps + 0.25). This mean is linear in the
+ * contact ratio eps if p pairs together have the stiffness c' (0.75 p + 0.25). That gives the
+ * variation over the mesh cycle, which the standard leaves open. */
 #include "inputs.h"
 #include "loaded-cycle.h"
 #include "outputs.h"
@@ -27,7 +25,7 @@ typedef struct iso_model {
     double blank, correction;  /* C_R, C_M */
 } iso_model;
 
-/* What the standard gives for one pair of gears. */
+/* The values that the standard gives for one pair of gears. */
 typedef struct iso_pair {
     double contact_ratio, ramp;
     double single; /* c' b, N/m */
@@ -57,7 +55,7 @@ static ff_status ready(void *self)
     return FF_OK;
 }
 
-/* Of mesh_cycle. */
+/* Sets mesh_cycle. */
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
     iso_model *m = self;
@@ -100,8 +98,8 @@ static double rack_factor(const stiffness_gears *g)
     return sum;
 }
 
-/* c' b = c'_th C_M C_R C_B (E/E_steel) b with E = 2 E1 E2/(E1 + E2); below a load of 100 N/mm it
-   falls in proportion to the load. */
+/* c' b = c'_th C_M C_R C_B (E/E_steel) b, with E = 2 E1 E2/(E1 + E2). Below a load of 100 N/mm,
+ * c' decreases in proportion to the load. */
 static ff_status set_single(const iso_model *m, const stiffness_gears *g, int pinion,
                             double line_force, double *single)
 {
@@ -134,14 +132,14 @@ static ff_status set_single(const iso_model *m, const stiffness_gears *g, int pi
     return FF_OK;
 }
 
-/* Mesh stiffness of so many pairs over the single stiffness. */
+/* Returns the stiffness of that many pairs over the single stiffness. */
 static double stiffness_factor(double pairs)
 {
     return 0.75 * pairs + 0.25;
 }
 
-/* A pair alone has the stiffness c'; of several, each moves the others so much that together they
-   have c' (0.75 p + 0.25). */
+/* A pair alone has the stiffness c'. Several pairs are coupled so that they have c' (0.75 p +
+ * 0.25) together. */
 static void couple(const iso_pair *f, stiffness_contacts *c)
 {
     double pairs = (double)c->count, own = 1 / f->single;
@@ -151,8 +149,8 @@ static void couple(const iso_pair *f, stiffness_contacts *c)
             c->compliance[i][k] = i == k ? own : shared;
 }
 
-/* How far a pair of that age takes part, from 0 to 1 over the ramps; never quite 0, so that its
-   compliance stays finite. */
+/* Returns how far a pair of that age takes part, from 0 to 1 over the ramps, but never quite 0,
+ * so that its compliance stays finite. */
 static double part(const iso_pair *f, double age)
 {
     const double least = 1e-9;

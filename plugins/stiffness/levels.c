@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Tooth forces and errors at several mesh forces. */
 #include "levels.h"
 
 #include <flankfilm/author.h>
@@ -6,7 +7,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { MEAN = 3 /* the level of F */, MOST = 10 };
+enum { MEAN = 3 /* index of the level with the mean force F */, MOST = 10 };
 
 typedef struct levels {
     const stiffness_source *source;

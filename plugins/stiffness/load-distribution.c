@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Mesh stiffness, transmission errors and tooth forces of a spur pair from the load distribution of
- * Conry & Seireg 1973: bending, shear and compression of teeth, fillets and bodies down to the
- * rim, the coupling of neighbouring teeth through the body, and load-dependent Hertzian contacts.
- */
+/* Mesh stiffness, transmission errors and tooth forces of a spur pair by the load distribution
+ * of Conry & Seireg 1973: bending, shear and compression of teeth, fillets and bodies down to
+ * the rim; coupling of neighbouring teeth through the body; load-dependent Hertzian contacts. */
 #include "contact-point.h"
 #include "elastic-pair.h"
 #include "inputs.h"
@@ -19,9 +17,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { NODES = 32 }; /* of the Gauss-Legendre rule, enough for rounding (potential-energy.c) */
+enum { NODES = 32 }; /* of the Gauss-Legendre rule; accurate to rounding (see potential-energy.c) */
 
-/* Teeth are coupled over as many places (ring.h) as mesh up to this contact ratio. */
+/* The contact ratio up to which teeth are coupled over as many places (ring.h) as pairs mesh. */
 static const double highest_contact_ratio = 4;
 
 typedef struct distribution {
@@ -75,7 +73,7 @@ static ff_status create(const ff_host *host, void **self)
     if (!m)
         return FF_NOMEM;
     m->host = m->teeth.host = host;
-    gsl_set_error_handler_off(); /* it would end the process for want of memory */
+    gsl_set_error_handler_off(); /* otherwise it would end the process if memory is short */
     m->teeth.rule = gsl_integration_glfixed_table_alloc(NODES);
     if (!m->teeth.rule) {
         destroy(m);
@@ -85,7 +83,7 @@ static ff_status create(const ff_host *host, void **self)
     return FF_OK;
 }
 
-/* Of mesh_cycle. */
+/* Sets mesh_cycle. */
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
     distribution *m = self;
@@ -129,8 +127,8 @@ static void report_mesh(const distribution *m, const stiffness_elastic_pair *p)
                      "displacements of two points of a flank under each other's load");
 }
 
-/* The local approach is that of a half plane: the contact must be narrow against the distance to
-   the axis of the tooth. */
+/* Reports whether the contact is narrow compared with the distance to the axis of the tooth,
+ * since the local approach is that of a half plane. */
 static void report_contact(const distribution *m, const stiffness_elastic_pair *p,
                            const stiffness_path *e)
 {
@@ -157,7 +155,7 @@ static void report_contact(const distribution *m, const stiffness_elastic_pair *
 typedef struct mid_path {
     double roll[2], curvature;
     double deflection; /* over the force, m/N */
-    double hertz;      /* the part of it in the contact, m/N */
+    double hertz;      /* the part of the contact in it, m/N */
 } mid_path;
 
 static mid_path at_mid_path(const stiffness_elastic_pair *p, const stiffness_path *e)
@@ -187,8 +185,9 @@ static void report_half_plane(const distribution *m, const stiffness_elastic_pai
         "share of a pair's deflection that is added since a tooth is not a half plane");
 }
 
-/* The teeth alone are in plane stress: over the width of the contact, some tenths of a millimetre,
-   steel bulges at the ends of the face alone. */
+/* Reports the effect of plane stress in the contact. Only the teeth are in plane stress: within
+ * the width of the contact, some tenths of a millimetre, steel bulges only at the ends of the
+ * face. */
 static void report_plane(const distribution *m, const stiffness_elastic_pair *p,
                          const stiffness_path *e)
 {

@@ -1,28 +1,32 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Solves the load sharing of Conry & Seireg by an active set method. */
 #include "load-sharing.h"
 
 #include <math.h>
 
-enum { MAX_STEPS = 200 /* of Newton's method */, MAX_SETS = 64 /* of pairs in contact */ };
+enum {
+    MAX_STEPS = 200 /* of Newton's method */,
+    MAX_SETS = 64 /* of the set of pairs in contact */
+};
 
-/* A pair whose force is a smaller part of F leaves the contact. */
+/* A pair with a smaller share of F leaves the contact. */
 static const double vanishing = 1e-13;
 
 typedef struct sharing_state {
     const stiffness_contacts *contacts;
     double total;
-    double unloaded; /* gaps and the approach are counted from here */
+    double unloaded; /* gaps and the approach are counted from this error */
     double force[STIFFNESS_MAX_PAIRS], approach;
     size_t count, member[STIFFNESS_MAX_PAIRS]; /* pairs in contact */
 } sharing_state;
 
-/* Approach of a contact under that force, m. */
+/* Returns the approach of a contact under that force, m. */
 static double hertz(const stiffness_hertz *h, double force)
 {
     return force > 0 ? force * (h->constant - h->slope * log(force)) : 0;
 }
 
-/* Distance between the flanks of pair i, m: 0 in contact, below 0 where they overlap. */
+/* Returns the distance between the flanks of pair i, m: 0 in contact, negative if they overlap. */
 static double separation(const sharing_state *s, size_t i)
 {
     const stiffness_contacts *c = s->contacts;
@@ -56,8 +60,8 @@ static bool solve(size_t n, double m[STIFFNESS_MAX_PAIRS][STIFFNESS_MAX_PAIRS],
     return true;
 }
 
-/* With the matrix M = C + H'(f) of the pairs in contact and their separations w: x[0] = M^-1 w and
-   x[1] = M^-1 1. False: M is not positive. */
+/* With the matrix M = C + H'(f) of the pairs in contact and their separations w, computes x[0] =
+ * M^-1 w and x[1] = M^-1 1. False if M is not positive definite. */
 static bool linearise(const sharing_state *s, double x[2][STIFFNESS_MAX_PAIRS])
 {
     const stiffness_contacts *c = s->contacts;
@@ -81,8 +85,8 @@ static void remove_pair(sharing_state *s, size_t a)
         s->member[a] = s->member[a + 1];
 }
 
-/* Newton's method for the forces of the pairs in contact and for the approach; a pair whose force
-   vanishes is removed. */
+/* Newton's method for the forces of the pairs in contact and for the approach. A pair whose
+ * force vanishes is removed. */
 static bool solve_contacts(sharing_state *s)
 {
     for (int k = 0; k < MAX_STEPS; k++) {
@@ -95,12 +99,12 @@ static bool solve_contacts(sharing_state *s)
             sums[1] += x[1][a];
         }
         double step = (missing + sums[0]) / sums[1]; /* of the approach */
-        bool held = true; /* no force was kept above 0, no pair was removed */
+        bool held = true; /* no force had to be kept positive, and no pair was removed */
         s->approach += step;
         for (size_t a = 0; a < s->count; a++) {
             double *force = &s->force[s->member[a]], next = *force + x[1][a] * step - x[0][a];
             held = held && next > 0;
-            next = next > 0 ? next : *force / 100; /* flanks do not pull */
+            next = next > 0 ? next : *force / 100; /* flanks cannot pull */
             change = fmax(change, fabs(next - *force));
             *force = next;
         }
@@ -115,8 +119,8 @@ static bool solve_contacts(sharing_state *s)
     return false;
 }
 
-/* Adds the pair without contact that overlaps most, with a small force to start from. False: none
-   overlaps. */
+/* Adds the pair without contact that overlaps most, with a small initial force. False if none
+ * overlaps. */
 static bool add_overlapping(sharing_state *s, double tolerance)
 {
     size_t worst = s->contacts->count;
@@ -133,7 +137,7 @@ static bool add_overlapping(sharing_state *s, double tolerance)
     return true;
 }
 
-/* Puts the rounding error of the sum of the forces on the largest one. */
+/* Adds the rounding error of the sum of forces to the largest force. */
 static void balance_sum(sharing_state *s)
 {
     size_t largest = s->member[0];
@@ -157,7 +161,7 @@ static void report(const sharing_state *s, stiffness_sharing *r)
     r->residual /= s->approach;
 }
 
-/* Starts from equal forces of all pairs. */
+/* Starts from equal forces on all pairs. */
 static sharing_state start_anew(const stiffness_contacts *c, double force)
 {
     sharing_state s = {.contacts = c, .total = force, .count = c->count, .unloaded = INFINITY};
@@ -169,7 +173,8 @@ static sharing_state start_anew(const stiffness_contacts *c, double force)
     return s;
 }
 
-/* Starts from the pairs that are in contact under another force, in its proportions. */
+/* Starts from the pairs that are in contact under another force, with forces in the same
+ * proportions. */
 static sharing_state start_from(const stiffness_contacts *c, double force,
                                 const stiffness_sharing *near)
 {

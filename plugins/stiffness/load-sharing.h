@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * How the pairs of teeth of one mesh position share the line force (Conry & Seireg 1973): forces
- * f >= 0 that add up to F, gaps w = C f + H(f) + gap - s >= 0, f w = 0, with the compliance C, the
- * Hertzian approach H and the loaded transmission error s. Lengths in m, forces in N.
- */
+/* How the pairs of teeth at one mesh position share the line force (Conry & Seireg 1973): forces
+ * f >= 0 that sum to F, gaps w = C f + H(f) + gap - s >= 0, f w = 0, with the compliance C, the
+ * Hertzian approach H and the loaded transmission error s. Lengths in m, forces in N. */
 #ifndef STIFFNESS_LOAD_SHARING_H
 #define STIFFNESS_LOAD_SHARING_H
 
@@ -19,7 +17,7 @@ typedef struct stiffness_hertz {
 
 typedef struct stiffness_contacts {
     size_t count;
-    double gap[STIFFNESS_MAX_PAIRS]; /* before load, m */
+    double gap[STIFFNESS_MAX_PAIRS]; /* without load, m */
     double compliance[STIFFNESS_MAX_PAIRS][STIFFNESS_MAX_PAIRS];
     stiffness_hertz hertz[STIFFNESS_MAX_PAIRS];
 } stiffness_contacts;
@@ -29,13 +27,15 @@ typedef struct stiffness_sharing {
     double unloaded;                   /* transmission error without load: the least gap */
     double deflection;                 /* s - unloaded */
     double tangent;                    /* dF/ds */
-    double residual; /* largest gap of a pair in contact, or overlap of another, over
-                        the deflection */
+    double residual; /* relative to the deflection: largest gap of a pair in contact, or largest
+                        overlap of another pair */
 } stiffness_sharing;
 
-/* Shares the force, > 0. False: no solution, as a contact would be pressed through its tooth. */
+/* Shares the force, which is positive. False if there is no solution, because a contact would be
+ * pressed through its tooth. */
 bool stiffness_share(const stiffness_contacts *c, double force, stiffness_sharing *result);
-/* The same, sooner, from the sharing of another force by the same contacts; NULL: there is none. */
+/* Does the same faster, starting from the sharing of another force by the same contacts; NULL:
+ * there is none. */
 bool stiffness_share_near(const stiffness_contacts *c, double force, const stiffness_sharing *near,
                           stiffness_sharing *result);
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Solves a mesh cycle of loaded teeth and gives its outputs. */
 #include "loaded-cycle.h"
 
 #include "breakpoints.h"
@@ -14,9 +15,9 @@
 
 const double stiffness_corner_reach = 0.45;
 
-/* Steps per mesh cycle of the transmission error without load over the hunting period, and the most
-   points over the hunting period of teeth without load and of loaded teeth; as many of the latter
-   take a second or two. */
+/* HUNTING_STEPS: steps per mesh cycle of the transmission error without load. The others limit
+ * the points over a hunting period, without load and with load; LOADED_MOST points take a second
+ * or two. */
 enum { HUNTING_STEPS = 32, HUNTING_MOST = 1 << 22, LOADED_MOST = 1 << 19 };
 
 static stiffness_loaded solve(const stiffness_source *s, double phase, int side)
@@ -29,7 +30,7 @@ static double stiffness_at(const void *self, double phase, int side)
     return solve(self, phase, side).stiffness;
 }
 
-/* Share of the force that the pair of that age carries at the mesh position of `r`. */
+/* Returns the share of the force on the pair of that age at the mesh position of `r`. */
 static double share_in(const stiffness_source *s, const stiffness_loaded *r, double age,
                        double phase)
 {
@@ -42,7 +43,7 @@ static double share(const void *self, double age, double phase, int side)
     return share_in(self, &r, age, phase);
 }
 
-/* A pair is in contact in the mesh cycle that it enters in and in the next ones. */
+/* A pair is in contact in the mesh cycle in which it enters, and in the following ones. */
 static double share_of_pair(const void *self, size_t number, double age, int side)
 {
     double phase = stiffness_phase_of(age, side);
@@ -127,8 +128,8 @@ static void report_contact(const stiffness_source *s, const samples *v)
 }
 
 /* Solves all mesh cycles of the hunting period at equal steps and at the breakpoints known
-   beforehand; the worst mesh cycle is the one that is solved from here on when that is asked for.
- */
+ * beforehand. If the worst mesh
+ * cycle is requested, it becomes the one to be solved. */
 static ff_status scan_hunting_period(stiffness_source *s, const stiffness_breakpoint_list *b,
                                      stiffness_hunting *h)
 {

@@ -5,10 +5,10 @@
 
 #include "equilibrium.h"
 
-/* Mesh cycles before SAP and after the tip within which corner contact is looked for. */
+/* Corner contact is searched for within this many mesh cycles before SAP and after the tip. */
 extern const double stiffness_corner_reach;
 
-/* Solves the mesh cycle, gives the wanted outputs and reports the quality of the solution. */
+/* Solves the mesh cycle, gives the wanted outputs, and reports the quality of the solution. */
 ff_status stiffness_loaded_cycle_publish(const stiffness_source *source, uint64_t wanted);
 
 #endif

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writes the outputs that all mesh stiffness models share. */
 #include "outputs.h"
 
 #include <flankfilm/author.h>
@@ -6,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { HARMONICS = 20 }; /* of k that are given */
+enum { HARMONICS = 20 }; /* of k */
 
 const ff_port stiffness_outputs[STIFFNESS_LEVEL_OUTPUTS] = {
     {.name = "phase",
@@ -116,7 +117,8 @@ const ff_port stiffness_outputs[STIFFNESS_LEVEL_OUTPUTS] = {
      .dims = "level gear.station"},
 };
 
-/* A station given twice is the limit from below, then from above; the tip is left from below. */
+/* Returns the side of a station. A repeated station is the limit from below, then from above;
+ * the tip is the limit from below. */
 static int station_side(const stiffness_path *path, size_t i)
 {
     if (i + 1 == path->stations)
@@ -133,7 +135,7 @@ double stiffness_station_age(const stiffness_path *path, size_t i, int *side)
     return age;
 }
 
-/* Share of F that the pair which enters in mesh cycle `number` carries at station i. */
+/* Returns the share of F on the pair that enters in mesh cycle `number`, at station i. */
 static double station_share(const stiffness_result *r, const stiffness_path *path, size_t number,
                             size_t i)
 {
@@ -149,8 +151,8 @@ static double share_above(const stiffness_result *r, double age)
     return r->share(r->self, age, stiffness_phase_of(age, STIFFNESS_ABOVE), STIFFNESS_ABOVE);
 }
 
-/* The age between `idle`, where a pair carries nothing, and `loaded`, where it does, from which on
-   it carries something. */
+/* Bisects between the ages `idle`, at which a pair carries nothing, and `loaded`, at which it
+ * does. Returns where the load begins. */
 static double start_of_load(const stiffness_result *r, double idle, double loaded)
 {
     for (int i = 0; i < 40; i++) {
@@ -160,12 +162,13 @@ static double start_of_load(const stiffness_result *r, double idle, double loade
     return loaded;
 }
 
-/* Mesh cycles from the first to the last load on a pair: on 400 steps, each end then bisected. */
+/* Returns the mesh cycles between the first and the last load on a pair, searched on 400 steps
+ * and then bisected. */
 static double loaded_ratio(const stiffness_result *r, const stiffness_path *path)
 {
     enum { STEPS = 400 };
     double from = -r->before, to = path->contact_ratio + r->after, step = (to - from) / STEPS;
-    int first = 0, last = STEPS - 1; /* loaded middles of steps */
+    int first = 0, last = STEPS - 1; /* steps whose middle is loaded */
     while (first < last && !(share_above(r, from + (first + 0.5) * step) > 0))
         first++;
     while (last > first && !(share_above(r, from + (last + 0.5) * step) > 0))
@@ -204,8 +207,8 @@ static ff_status write_stations(const ff_host *host, uint64_t wanted, const stif
     return FF_OK;
 }
 
-/* W_s at the stations, and at more places before SAP and after the tip where contact is possible.
- */
+/* Writes W_s at the stations, and at further places before SAP and after the tip where contact
+ * is possible. */
 static ff_status write_engagement(const ff_host *host, uint64_t wanted, const stiffness_result *r,
                                   const stiffness_path *path)
 {
@@ -249,7 +252,7 @@ static double at_phase(const stiffness_result *r, const stiffness_path *path, ui
         return r->loaded ? r->loaded[i] : error + path->line_force / r->stiffness[i];
     case STIFFNESS_OUT_ERROR:
         return error;
-    default: /* STIFFNESS_OUT_PAIRS */
+    default: /* this is STIFFNESS_OUT_PAIRS */
         if (r->pairs)
             return r->pairs[i];
         return (double)stiffness_pairs(path->contact_ratio, r->cycle.phase[i],
@@ -293,7 +296,7 @@ static ff_status write_hunting(const ff_host *host, uint64_t wanted, const stiff
     return FF_OK;
 }
 
-/* Pressure on the pairs of the hunting period, and which of them bears the highest. */
+/* Writes the pressure on the pairs of the hunting period, and the pair with the highest. */
 static ff_status write_worst(const ff_host *host, uint64_t wanted, const stiffness_result *r)
 {
     static const uint32_t rows[] = {STIFFNESS_OUT_HUNTING_PRESSURE, STIFFNESS_OUT_WORST_CYCLE,
@@ -321,7 +324,7 @@ static ff_status write_worst(const ff_host *host, uint64_t wanted, const stiffne
     return FF_OK;
 }
 
-/* Largest less least loaded transmission error. */
+/* Returns the largest minus the least loaded transmission error. */
 static double peak_to_peak(const stiffness_result *r, const stiffness_path *path)
 {
     double high = -HUGE_VAL, low = HUGE_VAL;
@@ -363,7 +366,7 @@ static ff_status write_cycle_figures(const ff_host *host, uint64_t wanted,
     return FF_OK;
 }
 
-/* Largest |sum of the tooth forces - F|/F over the mesh cycle. */
+/* Returns the largest |sum of the tooth forces - F|/F over the mesh cycle. */
 static double imbalance(const stiffness_result *r, const stiffness_path *path)
 {
     double worst = 0;
@@ -390,9 +393,9 @@ static void report_equilibrium(const ff_host *host, const stiffness_result *r,
                          "not fit the gear's path of contact");
 }
 
-/* Mean distance of k from the straight lines between the points, over the mean of k: an amplitude
-   of k is off by at most twice that. A parabola lies 2/3 of its distance in the middle from its
-   chord on the mean. */
+/* Reports the mean distance of k from the straight lines between the points, over the mean of k;
+ * the amplitudes of k are off by at most twice that. For a parabola, the mean distance is 2/3 of
+ * the distance from the chord in the middle. */
 static void report_interpolation(const ff_host *host, const stiffness_result *r)
 {
     const double limit = 1e-3;

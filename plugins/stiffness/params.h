@@ -1,28 +1,28 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rows of parameters that several models of mesh stiffness have. */
+/* Rows of parameters that several models of mesh stiffness share. */
 #ifndef STIFFNESS_PARAMS_H
 #define STIFFNESS_PARAMS_H
 
 #include <flankfilm/author.h>
 
-/* Equal steps of the mesh cycle: a member `points`. */
+/* Number of equal steps of the mesh cycle: the member `points`. */
 #define STIFFNESS_POINTS_ROW(type)                                                                 \
     FF_COUNT("points", type, points, FF_TUNABLE, "200", NULL, 4, 100000, 0, 0,                     \
              "equal steps of the mesh cycle that the outputs are given at")
 
-/* For stiffness_conditions_read: a member `rim`. */
+/* Radii of the rims, for stiffness_conditions_read: the member `rim`. */
 #define STIFFNESS_RIM_RADIUS_ROW(type)                                                             \
     FF_LIST("rim_radius", "mm", type, rim, FF_MIN_OPEN, NULL, NULL, 0, 1e5, 0, 0, 1, 2,            \
             "radius inside which a gear's body is rigid, one value or two; without it the bore "   \
             "radius, or half the root radius for a gear without a bore")
 
-/* A member `definition`, 1: tangent. */
+/* Definition of the stiffness, 1: tangent. The member `definition`. */
 #define STIFFNESS_DEFINITION_ROW(type)                                                             \
     FF_ONE_OF("secant|tangent", "definition", type, definition, 0, "secant",                       \
               "secant F/(e_l - e) or tangent dF/d(e_l); they differ where deviations of the "      \
               "flanks keep pairs apart")
 
-/* Read by stiffness_mesh_cycles_set, since its words differ. */
+/* Set by stiffness_mesh_cycles_set, since each word has its own meaning. */
 #define STIFFNESS_MESH_CYCLE_ROW                                                                   \
     FF_ROW("mesh_cycle", "1",                                                                      \
            "which mesh cycle of the hunting period, where teeth have index deviations, from 0; "   \

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads the path of contact and the line force. */
 #include "path-inputs.h"
 
 #include "cycle.h"
@@ -8,7 +9,7 @@
 
 #include <math.h>
 
-/* More pairs than any gear has; keeps loops over pairs short. */
+/* More than any gear has; keeps loops over pairs short. */
 static const double highest_contact_ratio = 10;
 
 static ff_status check_stations(const ff_host *host, const stiffness_path *p, double roll_tip)
@@ -40,7 +41,7 @@ ff_status stiffness_path_read(const ff_host *host, const ff_array *in, stiffness
         return status;
     if (!(teeth >= 1))
         return ff_failf(host, FF_INVALID, "gear.teeth", "a gear of %g teeth does not mesh", teeth);
-    /* back flanks meet where the roll angles of gear 1 are the same as driving ones do */
+    /* back flanks meet at the same roll angles of gear 1 as the driving flanks */
     p->line_force = p->load = fabs(p->line_force);
     double reference = 0;
     p->largest = 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The path of contact and the force that the teeth on it carry together. */
+/* The path of contact, and the force that its pairs of teeth carry together. */
 #ifndef STIFFNESS_PATH_INPUTS_H
 #define STIFFNESS_PATH_INPUTS_H
 

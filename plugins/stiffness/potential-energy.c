@@ -1,10 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Mesh stiffness of a spur pair from the strain energy of its teeth. A pair of teeth is two teeth,
- * two bodies and one contact in series; the pairs act in parallel over the geometric path of
- * contact. No pair deforms the body below another one, and a contact under load begins and ends
- * where the unloaded one does.
- */
+/* Mesh stiffness of a spur pair from the strain energy of its teeth. Two teeth, two bodies and
+ * one contact act in series; the pairs act in parallel along the geometric path of contact. A
+ * pair does not deform the body below another one, and contact begins and ends as without load. */
 #include "contact-point.h"
 #include "inputs.h"
 #include "loaded-cycle.h"
@@ -20,7 +17,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Of the Gauss-Legendre rules: the integrands are analytic, and 32 nodes reach rounding. */
+/* Nodes of the Gauss-Legendre rules. The integrands are analytic, so 32 nodes are accurate to
+ * rounding. */
 enum { NODES = 32, NODES_OF_CHECK = 64 };
 
 typedef struct energy_model {
@@ -29,7 +27,7 @@ typedef struct energy_model {
     int64_t points;
     stiffness_mesh_cycles cycles;
     ff_reals rim;
-    int32_t plane, definition; /* 1: strain; 1: tangent */
+    int32_t plane, definition; /* `plane` 1: strain; `definition` 1: tangent */
 } energy_model;
 
 /* One pair of teeth along the path of contact. */
@@ -68,7 +66,7 @@ static ff_status create(const ff_host *host, void **self)
     if (!s)
         return FF_NOMEM;
     s->host = host;
-    gsl_set_error_handler_off(); /* it would end the process for want of memory */
+    gsl_set_error_handler_off(); /* otherwise it would end the process if memory is short */
     s->rule = gsl_integration_glfixed_table_alloc(NODES);
     s->check_rule = gsl_integration_glfixed_table_alloc(NODES_OF_CHECK);
     if (!s->rule || !s->check_rule) {
@@ -79,7 +77,7 @@ static ff_status create(const ff_host *host, void **self)
     return FF_OK;
 }
 
-/* Of mesh_cycle. */
+/* Sets mesh_cycle. */
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
     energy_model *m = self;
@@ -99,7 +97,7 @@ static double pair_compliance(const beam_pair *p, double age)
     return compliance;
 }
 
-/* The pairs act in parallel. */
+/* The pairs act in parallel, so there is no coupling. */
 static void compliance(const void *self, const stiffness_position *at, stiffness_contacts *c)
 {
     for (size_t i = 0; i < at->count; i++) {
@@ -110,7 +108,7 @@ static void compliance(const void *self, const stiffness_position *at, stiffness
     }
 }
 
-/* The contact must stay on the involute, on a tooth that has not come to a point. */
+/* Checks that contact stays on the involute, and that the tooth is not pointed. */
 static ff_status check_flank(const energy_model *s, const beam_pair *p, int gear)
 {
     const double slack = 1e-9;
@@ -134,7 +132,7 @@ static ff_status make_pair(const energy_model *s, const stiffness_gears *gears, 
     for (int gear = 0; gear < 2; gear++) {
         const stiffness_gear *g = &gears->gear[gear];
         stiffness_tooth_of_gear(&p->tooth[gear], gears, gear, s->plane == 1);
-        /* Yang & Sun 1985: pi E b/(4 (1-nu^2)) for like materials; each gear adds its part */
+        /* Yang & Sun 1985: pi E b/(4 (1-nu^2)) for equal materials; each gear adds its part */
         p->contact += 2 * (1 - g->poisson_ratio * g->poisson_ratio) /
                       (M_PI * g->elastic_modulus * gears->width);
         ff_status status = check_flank(s, p, gear);
@@ -144,7 +142,8 @@ static ff_status make_pair(const energy_model *s, const stiffness_gears *gears, 
     return FF_OK;
 }
 
-/* Sainsot et al. fitted 1.4 <= h <= 7 and 0.01 <= theta <= 0.12. */
+/* Reports whether the body is in the range of the fit by Sainsot et al.: 1.4 <= h <= 7 and 0.01
+ * <= theta <= 0.12. */
 static void report_foundation(const energy_model *s, const beam_pair *p)
 {
     double worst = 0;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Interpolates a table given at several mesh forces. */
 #include "table-levels.h"
 
 #include "../numerics/steffen.h"
@@ -7,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Forces and phases that differ by no more, over the force or in mesh cycles, are the same. */
+/* Forces closer than this, relatively, and phases closer than this, in mesh cycles, count as the
+ * same. */
 static const double same_force = 1e-9, same_phase = 1e-9;
 
 static ff_status fail_at(const stiffness_table *t, size_t row, size_t column, const char *why,
@@ -35,7 +37,7 @@ static ff_status check_header(const stiffness_table *t)
     return FF_OK;
 }
 
-/* Whether a row has the force and the phase of its place. */
+/* Checks that a row has the force and the phase that belong at its place. */
 static ff_status check_row(const stiffness_table *t, size_t i, size_t phases)
 {
     const double *force = t->file->columns[COLUMN_FORCE], *at = t->file->columns[COLUMN_PHASE];
@@ -61,8 +63,8 @@ static ff_status check_row(const stiffness_table *t, size_t i, size_t phases)
     return FF_OK;
 }
 
-/* Whether the stiffness is the chord force/(error - error without load) in all rows, although the
-   slope of the errors is another: what was taken for a slope is none. */
+/* Refuses a table whose stiffness is the chord force/(error - error without load) in all rows,
+ * although the errors have another slope: the column is not the slope that it is taken for. */
 static ff_status check_slopes(const stiffness_table *t, size_t rows, size_t phases)
 {
     static const double rounded = 1e-3, other = 1e-2;
@@ -122,7 +124,7 @@ ff_status stiffness_table_levels_check(stiffness_table *t)
     return FF_OK;
 }
 
-/* The error under the forces at one phase, and its slopes by the force. */
+/* The errors under the forces at one phase, and their slopes over the force. */
 typedef struct curve {
     size_t count;
     double force[STIFFNESS_TABLE_FORCES], error[STIFFNESS_TABLE_FORCES];
@@ -134,7 +136,7 @@ static double rise(const curve *c, size_t i)
     return (c->error[i + 1] - c->error[i]) / (c->force[i + 1] - c->force[i]);
 }
 
-/* The cubic and its slope at a force between the forces low and low + 1. */
+/* Evaluates the cubic and its slope at a force between the forces low and low + 1. */
 static void read_curve(const curve *c, size_t low, double force, double *error, double *slope)
 {
     double h = c->force[low + 1] - c->force[low], x = (force - c->force[low]) / h;
@@ -155,7 +157,8 @@ static curve curve_at(const stiffness_table *t, size_t phase)
         c.error[i] = t->file->columns[COLUMN_LOADED][at];
     }
     numerics_steffen_slopes(c.count, c.force, c.error, c.slope);
-    size_t last = c.count - 1; /* a slope of 0, which Steffen allows at ends, were a rigid mesh */
+    /* a slope of 0, which Steffen's cubic may have at its ends, would be a rigid mesh */
+    size_t last = c.count - 1;
     c.slope[0] = fmax(c.slope[0], 0.1 * rise(&c, 0));
     c.slope[last] = fmax(c.slope[last], 0.1 * rise(&c, last - 1));
     for (size_t i = 0; i < c.count && k; i++) {
@@ -165,8 +168,8 @@ static curve curve_at(const stiffness_table *t, size_t phase)
     return c;
 }
 
-/* Fills in one phase of all rows; `low`: the force of the table below the line force, where that
-   is not one of them. */
+/* Fills in one phase of all rows. `low` is the force of the table below the line force, if the
+ * line force is not one of the table's. */
 static void fill_phase(const stiffness_table *t, stiffness_table_levels *l, size_t phase,
                        int between)
 {

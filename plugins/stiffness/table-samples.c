@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads and checks the samples of stiffness/table. */
 #include "table-samples.h"
 
 #include "cycle.h"
@@ -71,7 +72,7 @@ static ff_status use_columns(stiffness_table *t)
     return FF_OK;
 }
 
-/* Fails at sample i and says where it stands: in the file, or in that list. */
+/* Fails at sample i, and names its place in the file or in the list. */
 static ff_status fail_at(const stiffness_table *t, const char *list, size_t column, size_t i,
                          const char *why, double value)
 {
@@ -80,8 +81,8 @@ static ff_status fail_at(const stiffness_table *t, const char *list, size_t colu
     return ff_failf(t->host, FF_INVALID, list, "value %zu: %s; found %.9g", i + 1, why, value);
 }
 
-/* The sample at phase 1 when it differs from that at phase 0 by more than the noise of a table, 5 %
-   of its range; else NULL. */
+/* Returns the sample at phase 1 if it differs from that at phase 0 by more than the noise of a
+ * table, 5 % of its range; otherwise NULL. */
 static const double *differs_from_start(const stiffness_table *t, const double *value)
 {
     const stiffness_table_phases *k = &t->distinct;
@@ -101,8 +102,8 @@ static const char loaded_jumps[] =
     "the loaded transmission error is not periodic: at phase 1 it must have the value of phase 0, "
     "unless ends: jump says that it jumps there";
 
-/* The transmission error without load is always periodic; the stiffness may jump at the end of a
-   mesh cycle where the table says so. */
+/* Checks that the table is periodic. The transmission error without load always is; the
+ * stiffness may jump at the end of a mesh cycle if the table gives both values. */
 static ff_status check_periodic(const stiffness_table *t)
 {
     const double *stiffness = t->k ? t->k : t->loaded;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The samples of stiffness/table: from the lists or the file of its parameters, and checked. */
+/* Samples of stiffness/table, from lists or a file, after their checks. */
 #ifndef STIFFNESS_TABLE_SAMPLES_H
 #define STIFFNESS_TABLE_SAMPLES_H
 
@@ -27,24 +27,25 @@ extern const ff_param stiffness_table_columns[STIFFNESS_TABLE_COLUMNS];
 
 typedef struct stiffness_table {
     const ff_host *host;
-    const char *path;          /* NULL: the lists */
+    const char *path;          /* NULL: the lists are used */
     ff_reals phase, stiffness; /* the lists of the YAML file */
     int32_t interpolation, load_share, definition, ends;
     int64_t points;
     double tolerance;
-    ff_reals corner; /* phases where the slope of a fit may jump */
-    bool *corner_at; /* the same as a flag for each distinct phase */
+    ff_reals corner; /* phases at which the slope of a fit may jump */
+    bool *corner_at; /* the same, as a flag for each distinct phase */
     const ff_table *file;
-    size_t forces;        /* at which the file has the samples; 0: at one, that of the duty */
-    size_t count;         /* samples, of the lists or the file */
-    const double *at, *k; /* their phases and stiffnesses; k NULL: transmission errors given */
+    size_t forces; /* number of forces in the file; 0: one force, that of the operating point */
+    size_t count;  /* number of samples, in the lists or the file */
+    const double *at, *k; /* phases and stiffnesses of the samples; k NULL: transmission errors are
+                             given instead */
     const double *error, *loaded, *share;
     stiffness_table_phases distinct;
 } stiffness_table;
 
 extern const ff_param stiffness_table_columns[STIFFNESS_TABLE_COLUMNS];
 
-/* Finds the samples and their distinct phases, or refuses them where the user finds them. */
+/* Finds the samples and their distinct phases. Refuses wrong ones with their place in the file. */
 ff_status stiffness_table_samples(stiffness_table *t);
 
 #endif

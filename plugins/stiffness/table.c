@@ -13,18 +13,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* One column as a function of phase; the slopes are those of cubics. */
+/* One column as a function of phase; `before` and `after` are slopes of cubics. */
 typedef struct curve {
     const double *value;
     double *before, *after;
     stiffness_cubic_fit fit;
 } curve;
 
-/* The table as functions of phase, for one evaluation. */
+/* The table as functions of phase, during one evaluation. */
 typedef struct table_curves {
     const stiffness_table *table;
     double contact_ratio;
-    double secant_of; /* N: the stiffness is that force over the deflection; 0: the curve k */
+    double
+        secant_of; /* N: the stiffness is this force over the deflection; 0: the curve k gives it */
     curve k, error, loaded, share;
 } table_curves;
 
@@ -137,7 +138,7 @@ static double stiffness_at(const void *self, double phase, int side)
     return curve_at(s->table, &s->k, phase, side);
 }
 
-/* The pair that entered last has an age equal to the phase. */
+/* The age of the pair that entered last equals the phase. */
 static double share(const void *self, double age, double phase, int side)
 {
     const table_curves *s = self;
@@ -147,8 +148,8 @@ static double share(const void *self, double age, double phase, int side)
     return age - phase < 0.5 ? last : 1 - last;
 }
 
-/* The phases of the table and the one where the oldest pair leaves, where the number of pairs
- * jumps. */
+/* Lists the phases of the table, and the one at which the oldest pair leaves and the number of
+ * pairs jumps. */
 static size_t list_cycle_breakpoints(const stiffness_table *t, double contact_ratio,
                                      const double *k, stiffness_breakpoint *breaks)
 {
@@ -171,8 +172,8 @@ static size_t list_cycle_breakpoints(const stiffness_table *t, double contact_ra
     return n;
 }
 
-/* Phases where an integration over the mesh cycle must stop: jumps of k and e, with linear
-   interpolation also changes of their slope. */
+/* Lists the phases at which an integration over the mesh cycle must stop: jumps of k and e and,
+ * with linear interpolation, changes of their slope. */
 static size_t list_output_breakpoints(const stiffness_table *t, const double *k, double *phase)
 {
     bool (*is_break)(const stiffness_table_phases *, const double *, size_t) =
@@ -186,7 +187,7 @@ static size_t list_output_breakpoints(const stiffness_table *t, const double *k,
     return n;
 }
 
-/* k of the samples, from the transmission errors when the table holds these. */
+/* Computes k at the samples, from the transmission errors if the table gives these. */
 static ff_status sample_stiffness(const stiffness_table *t, const stiffness_path *e, double *k)
 {
     for (size_t i = 0; i < t->count; i++)
@@ -234,11 +235,11 @@ static void work_free(table_work *w)
     stiffness_table_levels_free(&w->levels);
 }
 
-/* k and e at the points of the mesh cycle. */
+/* Computes k and e at the points of the mesh cycle. */
 static ff_status sample_cycle(const stiffness_table *t, table_work *w)
 {
     table_curves *s = &w->curves;
-    /* without k, or levels of it, the error under load gave the stiffness */
+    /* without k, or with levels, the stiffness follows from the error under load */
     const double *loaded = t->k || t->forces ? t->loaded : NULL;
     size_t breaks = list_cycle_breakpoints(t, s->contact_ratio, w->sample, w->breaks);
     if (!curve_make(t, w->sample, &s->k) || !curve_make(t, t->error, &s->error) ||
@@ -287,7 +288,7 @@ static ff_status check_sharing(const stiffness_table *t, const stiffness_path *e
                     e->contact_ratio);
 }
 
-/* Fills in one row of the levels, which have `stations` tooth forces each. */
+/* Fills in one row of the levels, each of which has `stations` tooth forces. */
 static ff_status fill_level(const table_curves *at, const stiffness_path *path,
                             const stiffness_cycle *cycle, double force, const double *slopes,
                             double *rows[3])
@@ -312,7 +313,7 @@ static ff_status fill_level(const table_curves *at, const stiffness_path *path,
     return FF_OK;
 }
 
-/* Gives the levels; of a table at one force there is one, 0. */
+/* Gives the levels; a table at one force has one level, 0. */
 static ff_status publish_levels(const stiffness_table *t, const table_work *w, uint64_t wanted,
                                 const stiffness_path *path)
 {
@@ -350,8 +351,7 @@ static ff_status publish_levels(const stiffness_table *t, const table_work *w, u
     return status;
 }
 
-/* Of a table at several forces, the samples under the line force take the place of those under
-   one. */
+/* For a table at several forces, replaces the samples under load by those under the line force. */
 static ff_status take_levels(stiffness_table *t, double line_force, table_work *w)
 {
     ff_status status = stiffness_table_levels_make(t, line_force, &w->levels);
@@ -365,7 +365,7 @@ static ff_status take_levels(stiffness_table *t, double line_force, table_work *
     return FF_OK;
 }
 
-/* Of the sum of the shares: rounding, or that of the figures in a file. */
+/* limits for the sum of the shares: rounding, or the accuracy of the numbers in a file */
 static const double rounding = 1e-12, balance_of_file = 0.02;
 
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Compliance of a tooth by the potential-energy method. */
 #include "tooth-beam.h"
 
 #include "../numerics/involute.h"
 
 #include <math.h>
 
-/* Of the shear stress over a rectangular section. */
+/* Shear correction factor of a rectangular section. */
 static const double shear_factor = 1.2;
 
 double stiffness_compliance_sum(const stiffness_compliance *c)
@@ -13,8 +14,8 @@ double stiffness_compliance_sum(const stiffness_compliance *c)
     return c->bending + c->shear + c->axial + c->foundation;
 }
 
-/* Tian 2004, with M = cos(a) (x_c - x) - sin(a) y_c, I = 2/3 y^3 b, A = 2 y b:
-   bending M^2/(E I), shear 1.2 cos^2(a)/(G A), axial sin^2(a)/(E A). */
+/* Tian 2004, with M = cos(a) (x_c - x) - sin(a) y_c, I = 2/3 y^3 b, A = 2 y b: bending M^2/(E
+ * I), shear 1.2 cos^2(a)/(G A), axial sin^2(a)/(E A). */
 void stiffness_beam_density(const stiffness_beam *beam, const stiffness_section *at,
                             const stiffness_load *load, double density[3])
 {
@@ -42,8 +43,8 @@ void stiffness_beam_add(const stiffness_beam *beam, stiffness_outline outline, c
     }
 }
 
-/* Sainsot et al. 2004, their polynomial and its table of coefficients: A/theta^2 + B h^2 + C
- * h/theta + D/theta + E h + F. */
+/* Polynomial and coefficients of Sainsot et al. 2004: A/theta^2 + B h^2 + C h/theta + D/theta +
+ * E h + F. */
 stiffness_sainsot stiffness_sainsot_at(double h, double theta)
 {
     static const double table[4][6] = {
@@ -104,8 +105,8 @@ void stiffness_tooth_of_gear(stiffness_tooth *tooth, const stiffness_gears *gear
     stiffness_tooth_make(tooth, &data);
 }
 
-/* The normal of the flank at roll angle t touches the base circle and makes the angle
-   psi = t - half_angle with the normal of the tooth's axis. */
+/* The normal of the flank at roll angle t touches the base circle, at the angle psi = t -
+ * half_angle to the normal of the tooth's axis. */
 stiffness_section stiffness_tooth_involute(const void *shape, double roll)
 {
     const stiffness_tooth *tooth = shape;
@@ -128,9 +129,9 @@ stiffness_load stiffness_tooth_load(const stiffness_tooth *tooth, double roll)
     return (stiffness_load){at.x, at.half, cos(angle), sin(angle)};
 }
 
-/* Sainsot et al. 2004: cos^2(a)/(b E) {L (u/S)^2 + M u/S + P (1 + Q tan^2(a))}. The line of force
-   cuts the tooth's axis at r_b/cos(a), u above the root circle; S is the arc of the tooth at the
-   root. */
+/* Sainsot et al. 2004: cos^2(a)/(b E) {L (u/S)^2 + M u/S + P (1 + Q tan^2(a))}. The line of
+ * force crosses the tooth's axis at r_b/cos(a), u above the root circle; S is the arc of the
+ * tooth at the root. */
 static double foundation(const stiffness_tooth *tooth, const stiffness_load *load)
 {
     double c = load->across, tangent = load->along / c;

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 
 enum { COSINE, GAUSSIAN };
-enum { PER_WIDTH = 256 }; /* points of the record over the width */
+enum { PER_WIDTH = 256 }; /* points of the record over the dent's width */
 
 typedef struct dent {
     const ff_host *host;
@@ -33,7 +33,7 @@ static const ff_param params[] = {
               "ten Napel 1991); gaussian: -depth 2^(-(2 d/w)^2); d from its middle"),
 };
 
-/* Height of a dent of depth 1 at the distance d, in widths, from its middle. */
+/* Returns the height of a dent of depth 1 at the distance d, in widths, from its middle. */
 static double shape_at(int shape, double d)
 {
     if (shape == GAUSSIAN)
@@ -47,7 +47,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     const double width = s->width;
     const int shape = s->shape;
     const int reach =
-        shape == GAUSSIAN ? 3 : 1; /* in widths; beyond it less than 1e-10 of the depth is left */
+        shape == GAUSSIAN ? 3 : 1; /* in widths; beyond it, less than 1e-10 of the depth remains */
     const int half = reach * PER_WIDTH;
     surface_record record;
     (void)in;

@@ -14,16 +14,18 @@
 enum { NO_DETREND = -1, MEAN = 0, LINEAR = 1 };
 enum { PERIODIC, MIRROR, FLAT };
 
-/* In spacings: the filter then still passes half of a wave as long as the cut-off, to 1e-4. */
+/* In spacings. From this cut-off on, the filter passes half of a wave as long as the cut-off to
+ * 1e-4. */
 static const double least_cutoff = 5;
 
 typedef struct measured {
     const ff_host *host;
     const char *path[2];
-    int detrend;                                       /* order of the polynomial, or NO_DETREND */
-    double cutoff_long, cutoff_short, spacing, origin; /* NaN: none, auto */
-    int32_t direction, direction_2, extend;            /* direction_2 < 0: as direction */
-    surface_trace trace[2];                            /* n = 0: a smooth flank */
+    int detrend; /* order of the polynomial, or NO_DETREND */
+    double cutoff_long, cutoff_short, spacing,
+        origin;                             /* NaN: none for the cut-offs, auto for the others */
+    int32_t direction, direction_2, extend; /* direction_2 < 0: the same as `direction` */
+    surface_trace trace[2];                 /* n = 0: a smooth flank */
 } measured;
 
 static const ff_param params[] = {
@@ -66,13 +68,13 @@ static const ff_param params[] = {
                 "first time"),
 };
 
-/* The heights of a flank before they enter the record. */
+/* The heights of a flank before they are put into the record. */
 typedef struct flank {
     size_t n;
     double *height;
 } flank;
 
-/* Of `detrend`, the one parameter whose words differ. */
+/* Sets `detrend`, the only parameter with words of its own. */
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
     measured *s = self;
@@ -86,7 +88,7 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
 
 static const char *const file_names[2] = {"file_1", "file_2"};
 
-/* Whether flank g is turned round. */
+/* Whether flank g is reversed. */
 static bool is_reversed(const measured *s, size_t g)
 {
     return (g == 1 && s->direction_2 >= 0 ? s->direction_2 : s->direction) == 1;
@@ -109,7 +111,7 @@ static ff_status ready(void *self)
     return status;
 }
 
-/* As the parameter says, or the mean spacing of the finer one of the files. */
+/* Returns the given spacing, or the mean spacing of the finer of the files. */
 static double spacing_of(const measured *s)
 {
     double spacing = s->spacing;
@@ -146,7 +148,7 @@ static void reverse(size_t n, double *height)
     }
 }
 
-/* Resamples the trace, removes form and waviness, and turns it in the direction of x. */
+/* Resamples the trace, removes form and waviness, and orients it along x. */
 static ff_status make_flank(const measured *s, size_t g, double spacing, flank *f)
 {
     const surface_trace *trace = &s->trace[g];
@@ -185,7 +187,8 @@ static ff_status make_flank(const measured *s, size_t g, double spacing, flank *
     return FF_OK;
 }
 
-/* The step between the end of the record and what follows it, over the largest step inside it. */
+/* Returns the step between the end of the record and what follows it, over the largest step
+ * within it. */
 static double seam_of(int extend, size_t n, const double *height)
 {
     double most = 0;
@@ -209,8 +212,8 @@ static void report(const measured *s, double length, double seam)
                      "length of the record over cutoff_long; ISO 4288 wants 5");
 }
 
-/* Joins both flanks over their common length: about their means, and with the mirror image where
-   the record is extended so. */
+/* Joins both flanks over their common length, about their means, and with the mirror image if
+ * the record is extended in that way. */
 static ff_status join(const measured *s, const flank f[2], double spacing, surface_record *record)
 {
     size_t n = f[0].height ? f[0].n : f[1].n;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Gives the heights of both flanks and their roughness. */
 #include "record.h"
 
 #include <flankfilm/author.h>
@@ -89,11 +90,11 @@ static ff_status write_positions(const ff_host *host, const surface_record *reco
     return position ? FF_OK : FF_NOMEM;
 }
 
-/* Gives the roughness of both flanks, asked for or not, so that its bounds hold for every record.
- */
+/* Gives the roughness of both flanks even if nobody requests it, so that its bounds are checked
+ * for every record. */
 static ff_status give_roughness(const ff_host *host, const surface_record *record)
 {
-    static const double finished = 10e-6; /* roughest flank that is cut or ground */
+    static const double finished = 10e-6; /* of the roughest flank that is cut or ground */
     ff_status status = FF_OK;
     for (uint32_t g = 0; g < 2 && status == FF_OK; g++) {
         const double rq = record->rq[g];

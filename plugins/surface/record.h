@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * What every surface model gives: the heights of both flanks over one arc coordinate s, which runs
- * along x. At time t the point s of flank i is at x = s - origin + the integral of its speed u_i
- * from the first time to t.
- */
+/* Outputs of every surface model: the heights of both flanks over one arc coordinate s along x.
+ * At time t, the point s of flank i is at x = s - origin + the integral of its speed u_i from
+ * the first time to t. */
 #ifndef SURFACE_RECORD_H
 #define SURFACE_RECORD_H
 
@@ -26,7 +24,7 @@ enum { SURFACE_POINTS = 1 << 18 }; /* the longest record */
 
 extern const ff_port surface_outputs[SURFACE_OUTPUTS];
 
-/* Heights at s = i * spacing, positive out of the metal; lengths in m. */
+/* Heights at s = i * spacing, positive out of the metal; in m. */
 typedef struct surface_record {
     size_t n;
     double spacing, origin;
@@ -35,12 +33,12 @@ typedef struct surface_record {
     double rq[2];
 } surface_record;
 
-/* Makes n points of height 0; too many are FF_INVALID at `item`. To be freed in any case. */
+/* Makes n points with height 0; too many give FF_INVALID with `item`. To be freed in any case. */
 ff_status surface_record_make(const ff_host *host, const char *item, double n, double spacing,
                               surface_record *record);
 void surface_record_free(surface_record *record);
 
-/* Whether the parameter `flank`, 1, 2 or -1 for the word `both`, means flank g, 0 or 1. */
+/* Whether the parameter `flank` (1, 2, or -1 for `both`) includes flank g, 0 or 1. */
 static inline bool surface_has_flank(int64_t flank, int g)
 {
     return flank < 0 || flank == g + 1;

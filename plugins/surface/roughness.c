@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Removes form, waviness and short waves from heights. */
 #include "roughness.h"
 
 #include "fourier.h"
@@ -7,8 +8,8 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-/* Least squares by the polynomials that are orthogonal on the points, from their three-term
-   recurrence (Forsythe 1957). */
+/* Least squares with the polynomials that are orthogonal on the points, by their three-term
+ * recurrence (Forsythe 1957). */
 ff_status surface_detrend(size_t n, int order, double *height)
 {
     double *memory = calloc(2 * n, sizeof *memory), *p = memory, *last = memory + n;
@@ -25,7 +26,7 @@ ff_status surface_detrend(size_t n, int order, double *height)
         }
         for (size_t i = 0; i < n; i++)
             height[i] -= product / norm * p[i];
-        /* the middle term of the recurrence vanishes, since the points lie symmetrically */
+        /* the recurrence has no middle term, since the points lie symmetrically */
         double b = k > 0 ? norm / norm_last : 0;
         for (size_t i = 0; i < n; i++) {
             double t = (2 * (double)i - (double)(n - 1)) / (double)(n > 1 ? n - 1 : 1);
@@ -39,14 +40,15 @@ ff_status surface_detrend(size_t n, int order, double *height)
     return FF_OK;
 }
 
-/* Share of a wave of `length` that the Gaussian filter passes, exp(-pi (alpha cutoff/length)^2)
-   with alpha = sqrt(ln 2/pi) (ISO 16610-21): half of a wave as long as the cut-off. */
+/* Returns the share of a wave of `length` that the Gaussian filter passes, exp(-pi (alpha
+ * cutoff/length)^2), alpha = sqrt(ln 2/pi) (ISO 16610-21). It is one half for a wave as long as
+ * the cut-off. */
 static double passed(double cutoff, double length)
 {
     return exp2(-cutoff * cutoff / (length * length));
 }
 
-/* The place in a record of n points of a place beyond its ends. */
+/* Returns the index within a record of n points for one beyond its ends. */
 static size_t within(double place, size_t n, surface_end end)
 {
     double turn = floor(place / (double)n);
@@ -54,8 +56,8 @@ static size_t within(double place, size_t n, surface_end end)
     return end == SURFACE_MIRRORED && fmod(turn, 2) != 0 ? n - 1 - i : i;
 }
 
-/* The weighting function of the filter is below 1e-6 of its peak from the cut-off on, 1e-24 from
-   twice the cut-off on. */
+/* The filter's weight is below 1e-6 of its peak beyond the cut-off, and below 1e-24 beyond twice
+ * the cut-off. */
 static ff_status low_pass(size_t n, double cutoff, surface_end end, const double *height,
                           double *smooth)
 {

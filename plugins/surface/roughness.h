@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Form and waviness are removed from n evenly spaced heights. */
+/* Removes form and waviness from n evenly spaced heights. */
 #ifndef SURFACE_ROUGHNESS_H
 #define SURFACE_ROUGHNESS_H
 
 #include <flankfilm/plugin.h>
 
-/* Subtracts the polynomial of this order that fits best; order < n. */
+/* Subtracts the best polynomial of this order; order < n. */
 ff_status surface_detrend(size_t n, int order, double *height);
 
-/* What follows a record at either end: its mirror image, or the record once more. */
+/* How a record continues beyond its ends: by its mirror image, or by repeating itself. */
 typedef enum surface_end { SURFACE_MIRRORED, SURFACE_REPEATED } surface_end;
 
-/* Removes waves longer than the cut-off by subtracting what the Gaussian filter of ISO 16610-21
-   passes, or shorter waves by keeping that alone. `cutoff` is in spacings of the points, at most n
-   where the record is mirrored. The filter keeps the mean. */
+/* Remove waves longer than the cut-off, by subtracting what the Gaussian filter of ISO 16610-21
+ * passes, or shorter waves, by keeping only what it passes. `cutoff` is in spacings of the
+ * points; for a mirrored record it is at most n. The filter keeps the mean. */
 ff_status surface_remove_longer(size_t n, double cutoff, double *height);
 ff_status surface_remove_shorter(size_t n, double cutoff, surface_end end, double *height);
 

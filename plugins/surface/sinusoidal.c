@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Of a wave: straight lines between them are off by 1e-4 of the amplitude. */
+/* Points of a wave; straight lines between them are off by 1e-4 of the amplitude. */
 enum { POINTS = 256 };
 
 typedef struct sinusoidal {

@@ -1,14 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * surface/statistical: flanks whose asperities are known by their statistics alone. Of both flanks
- * they carry, by Greenwood & Tripp 1970-71 for Gaussian heights of their summits,
- *
+/* surface/statistical: flanks whose asperities are known by statistics alone. By Greenwood &
+ * Tripp 1970-71, for Gaussian heights of the summits, both flanks together carry the pressure
  *   p_a = K E'/2 F_5/2(h/sigma),   K = (16 sqrt 2/15) pi (eta beta sigma)^2 sqrt(sigma/beta)
- *
- * with h between the mean planes, sigma = hypot(Rq1, Rq2), eta summits per area of radius beta, and
- * F_5/2(H) = 4.4086e-5 (4 - H)^6.804 below H = 4, 0 above (Hu et al. 1994), or the integral that
- * this is fitted to, or p_a over h/sigma from a table.
- */
+ * with the distance h between mean planes, sigma = hypot(Rq1, Rq2), and eta summits of radius
+ * beta per area. F_5/2(H) is the integral, or its fit 4.4086e-5 (4 - H)^6.804 for H < 4 and 0
+ * above (Hu et al. 1994); or p_a over h/sigma comes from a table. */
 #include "../lubricant/curve.h"
 #include "references.h"
 
@@ -20,20 +16,20 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const double modulus = 230e9; /* E' of steel on steel, that p_a is for */
+static const double modulus = 230e9; /* E' of steel on steel, for which p_a is given */
 
 typedef struct statistical {
     const ff_host *host;
     ff_asperity service;
-    ff_reals rq;    /* m, one or two */
+    ff_reals rq;    /* m, one value or two */
     double cutoff;  /* m; NaN: that of the contact */
-    double density; /* eta, 1/m2; NaN: by summit_product */
-    double radius;  /* beta, m; NaN: by summit_slope */
+    double density; /* eta, 1/m2; NaN: from summit_product */
+    double radius;  /* beta, m; NaN: from summit_slope */
     double product, slope;
     double stiffness;      /* K modulus/2, Pa */
     int32_t closure;       /* rank of the word */
-    const char *path;      /* of the table; NULL: none */
-    lubricant_curve curve; /* ln(p_a / 1 Pa) over h/sigma, of the integral or the table */
+    const char *path;      /* of the table; NULL: there is none */
+    lubricant_curve curve; /* ln(p_a / 1 Pa) over h/sigma, from the integral or the table */
 } statistical;
 
 enum { FIT, INTEGRAL };
@@ -125,11 +121,11 @@ static int64_t carry(double stiffness, double sigma, size_t n, const double *res
     return extrapolated;
 }
 
-/* The same by the curve. */
+/* Evaluates p_a and its slope by the curve. */
 FF_SIMD
 static void carry_on(double sigma, size_t n, double *restrict p_a, double *restrict slope)
 {
-    const double most = 69; /* 1e30 Pa */
+    const double most = 69; /* ln(1e30 Pa / 1 Pa) */
     for (size_t i = 0; i < n; i++) {
         double p = ff_exp(p_a[i] < most ? p_a[i] : most);
         slope[i] = p_a[i] < most ? p * slope[i] / sigma : 0;
@@ -158,11 +154,9 @@ static ff_status pressure_by_curve(const void *self, size_t n, const double *h, 
     return extrapolated ? FF_DOMAIN : FF_OK;
 }
 
-/*
- * F_k(H) = int_H^inf (s - H)^k phi(s) ds, k = 5/2, phi of a standard normal variable. With s = H +
- * t^2 the integrand is an even analytic function of t, so that the sum over equal steps from t = 0
- * converges faster than any power of the step.
- */
+/* F_k(H) = int_H^inf (s - H)^k phi(s) ds, k = 5/2, with the density phi of a standard normal
+ * variable. With s = H + t^2 the integrand is an even analytic function of t, so that a sum over
+ * equal steps from t = 0 converges faster than any power of the step. */
 static double summits(double H)
 {
     enum { STEPS = 200 };
@@ -177,7 +171,7 @@ static double summits(double H)
 
 static ff_status make_integral(statistical *s)
 {
-    enum { POINTS = 401 }; /* from -2 to 6 */
+    enum { POINTS = 401 }; /* of H, from -2 to 6 */
     double H[POINTS], ln[POINTS];
     for (int i = 0; i < POINTS; i++) {
         H[i] = -2 + 0.02 * i;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* surface/synthetic: rough flanks of a given spectrum, the same on every machine. */
+/* surface/synthetic: rough flanks with a given spectrum, equal on every machine. */
 #include "fourier.h"
 #include "record.h"
 #include "references.h"
@@ -12,14 +12,14 @@
 enum { FIXED, GAUSSIAN };
 
 static const double longest_per_length =
-    10; /* longest waves on the record, where its length is auto */
+    10; /* if the length is auto, this many longest waves fit on the record */
 static const double points_per_shortest = 32; /* straight lines between them are off by 0.5 % */
-static const double least_per_shortest = 4;   /* fewer points do not hold the shortest wave */
+static const double least_per_shortest = 4;   /* fewer points cannot represent the shortest wave */
 static const double slack = 1e-9;             /* rounding of a length, relative */
 
 typedef struct synthetic {
     const ff_host *host;
-    ff_reals rq, seed; /* one number or two */
+    ff_reals rq, seed; /* one value or two */
     double shortest, longest, spectrum_slope, origin;
     double length, spacing; /* NaN: auto */
     int32_t amplitudes;
@@ -53,7 +53,7 @@ static const ff_param params[] = {
                 "arc coordinate of both flanks at x = 0 at the first time"),
 };
 
-/* The waves: harmonics `first` to `last` of the length of the record, on n points. */
+/* The waves: harmonics `first` to `last` of the record's length, sampled at n points. */
 typedef struct band {
     size_t n, first, last;
     double length;
@@ -105,7 +105,7 @@ static uint64_t mix(uint64_t z)
     return z ^ (z >> 31);
 }
 
-/* A number drawn evenly from [0, 1), which depends on the arguments alone. */
+/* Draws a number evenly from [0, 1) that depends only on the arguments. */
 static double draw(double seed, size_t flank, size_t harmonic, size_t which)
 {
     const uint64_t golden = UINT64_C(0x9e3779b97f4a7c15);
@@ -115,7 +115,8 @@ static double draw(double seed, size_t flank, size_t harmonic, size_t which)
     return (double)(state >> 11) * 0x1p-53;
 }
 
-/* Sums the waves of the spectrum and scales them to the Rq of the flank; `wave` holds n. */
+/* Sums the waves of the spectrum and scales them to the Rq of the flank; `wave` is work space
+ * for n numbers. */
 static ff_status make_flank(const synthetic *s, const band *b, int flank, double complex *wave,
                             surface_record *record)
 {
@@ -127,7 +128,7 @@ static ff_status make_flank(const synthetic *s, const band *b, int flank, double
     for (size_t k = b->first; k <= b->last; k++) {
         double amplitude = pow((double)k / (double)b->first, -slope / 2);
         double phase = 2 * M_PI * draw(seed, (size_t)flank, k, 0);
-        if (s->amplitudes == GAUSSIAN) /* Box and Muller 1958 */
+        if (s->amplitudes == GAUSSIAN) /* Box & Muller 1958 */
             amplitude *= sqrt(-log1p(-draw(seed, (size_t)flank, k, 1)));
         wave[k] = amplitude * cexp(phase * I);
     }

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads and resamples profilometer traces. */
 #include "trace.h"
 
 #include "record.h"
@@ -10,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A trace that is longer than 1 m is not that of a flank. */
+/* The limits of 1 m refuse traces that cannot be those of a flank. */
 const ff_param surface_trace_columns[SURFACE_TRACE_COLUMNS] = {
     {.name = "position",
      .unit = "um",
@@ -53,7 +54,7 @@ size_t surface_trace_cells(const surface_trace *t, double spacing)
     return cells <= SURFACE_POINTS ? (size_t)cells : SURFACE_POINTS + 1;
 }
 
-/* The points of the file are already where they are wanted. */
+/* Whether the points of the file are already at the requested places. */
 static bool stands_at(const surface_trace *t, double spacing, size_t n)
 {
     bool stands = t->n == n;
@@ -62,8 +63,8 @@ static bool stands_at(const surface_trace *t, double spacing, size_t n)
     return stands;
 }
 
-/* Integral of the trace from its first point to x. From call to call, with rising x, *k is the
-   interval that x lies in and *before the integral up to its start. */
+/* Returns the integral of the trace from its first point to x. For calls with rising x, *k is
+ * the interval that contains x, and *before the integral up to its start. */
 static double integral_to(const surface_trace *t, double x, size_t *k, double *before)
 {
     const double *p = t->position, *z = t->height;

@@ -18,13 +18,14 @@ extern const ff_param surface_trace_columns[SURFACE_TRACE_COLUMNS];
 ff_status surface_trace_read(const ff_host *host, const char *item, const char *path,
                              surface_trace *trace);
 
-/* The heights at position[0] + i * spacing: means, over the cells around them, of the straight
-   lines between the points of the file, so that resampling keeps the integral; points that already
-   stand there are kept as they are. `height` holds surface_trace_cells(). */
+/* Heights at position[0] + i * spacing. Each is the mean, over the cell around it, of the
+ * straight lines between the points of the file, so that resampling keeps the integral; points
+ * that are already there are kept. `height` has room for surface_trace_cells() numbers. */
 size_t surface_trace_cells(const surface_trace *trace, double spacing);
 void surface_trace_resample(const surface_trace *trace, double spacing, size_t n, double *height);
 
-/* Root mean square distance of the points of the file from the n resampled heights, m. */
+/* Returns the root mean square distance between the points of the file and the n resampled
+ * heights, m. */
 double surface_trace_distance(const surface_trace *trace, double spacing, size_t n,
                               const double *height);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Barus: eta = eta0 exp(alpha p), alpha of the law, or of the oil at each temperature. */
+/* Barus: eta = eta0 exp(alpha p), with alpha of the law or, at each temperature, of the oil. */
 #include "law.h"
 #include "references.h"
 
@@ -12,10 +12,10 @@ typedef struct barus {
     const ff_host *host;
     ff_viscosity service;
     viscosity_oil oil;
-    viscosity_alpha own; /* alpha NaN: that of the oil */
+    viscosity_alpha own; /* alpha NaN: that of the oil is used */
 } barus;
 
-/* The coefficient changes with temperature, too. */
+/* Adds the rise if alpha changes with temperature. */
 static ff_status add_rise(const barus *b, size_t n, const double *p, const double *T,
                           double *ln_eta, double *dln_dp, double *dln_dT)
 {

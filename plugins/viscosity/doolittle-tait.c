@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Doolittle free volume with the Tait equation of state (Li & Kahraman 2011, eqs 11a, 11b): V = 1 -
- * ln(1 + p (1 + K0')/K0) / (1 + K0') ln(eta/eta0) = B V_occ (1 - V) / [(V - V_occ) (1 - V_occ)] It
- * has a pole where V falls to the occupied volume V_occ; the cap stays away from it. With
- * temperature (Bair 2007), from `at` on: K0 falls by exp(-K0_decay (T - at)),  V_occ changes by
- * exp(V_occ_slope (T - at)); V_occ is over the volume at ambient pressure, which itself grows with
- * T.
- */
+/* Doolittle free volume with the Tait equation of state (Li & Kahraman 2011, eqs 11a, 11b):
+ *   V = 1 - ln(1 + p (1 + K0')/K0) / (1 + K0')
+ *   ln(eta/eta0) = B V_occ (1 - V) / [(V - V_occ) (1 - V_occ)]
+ * There is a pole where V decreases to the occupied volume V_occ; the pressure cap stays below
+ * it. With temperature (Bair 2007), relative to `at`: K0 changes by exp(-K0_decay (T - at)),
+ * V_occ by exp(V_occ_slope (T - at)). V_occ is relative to the volume at ambient pressure, which
+ * itself grows with T. */
 #include "law.h"
 #include "references.h"
 
@@ -21,11 +20,11 @@ typedef struct doolittle_tait {
     viscosity_oil oil;
     double B, V_occ, K0, K0_prime;
     double K0_decay, V_occ_slope, at; /* 1/K, 1/K, K */
-    bool thermal;                     /* one of the slopes is given */
-    double most, share;               /* of p/K0: the cap, or this share of the pole if less */
+    bool thermal;                     /* one of the slopes is not 0 */
+    double most, share; /* cap of p/K0: `most`, or `share` of the pole if that is less */
 } doolittle_tait;
 
-/* V_occ comes no nearer to the whole volume. */
+/* Upper bound of V_occ, relative to the whole volume. */
 static const double MOST_OCCUPIED = 0.98;
 
 FF_SIMD
@@ -46,12 +45,13 @@ static void curve(const void *self, double ln_eta0, size_t n, const double *rest
     }
 }
 
-/*
- * With x = p/K0(T), R = V_occ(T), w = 1 - V, f = V - R, w' = dw/dx = 1/(1 + k x), the rise and its
- * slopes are r = B R w/[f (1 - R)],   r_x = B R w'/f^2, r_xx = B R w' [2 w'/f - k w']/f^2, r_R = B
- * w [1 + R/f + R/(1 - R)]/[f (1 - R)],   r_xR = B w' [1 + 2 R/f]/f^2. Above c, which moves with R
- * where it is a share of the pole, r goes on as its tangent in x.
- */
+/* With x = p/K0(T), R = V_occ(T), w = 1 - V, f = V - R, w' = dw/dx = 1/(1 + k x), the rise and
+ * its slopes are
+ *   r = B R w/[f (1 - R)],   r_x = B R w'/f^2,
+ *   r_xx = B R w' [2 w'/f - k w']/f^2,
+ *   r_R = B w [1 + R/f + R/(1 - R)]/[f (1 - R)],   r_xR = B w' [1 + 2 R/f]/f^2.
+ * Above the cap c, r continues as its tangent in x. If c is a share of the pole, it moves with
+ * R. */
 FF_SIMD
 static int64_t rise(const void *self, size_t n, const double *restrict p, const double *restrict T,
                     double *restrict rise, double *restrict by_p, double *restrict by_T)
@@ -84,7 +84,7 @@ static int64_t rise(const void *self, size_t n, const double *restrict p, const 
     return outside;
 }
 
-/* The law of one temperature. */
+/* Returns the law at one temperature. */
 static doolittle_tait isotherm_of(const doolittle_tait *d, double T)
 {
     doolittle_tait hot = *d;
@@ -128,7 +128,7 @@ static ff_status ready(void *self)
 {
     doolittle_tait *d = self;
     double k = 1 + d->K0_prime;
-    double pole = d->K0 * expm1((1 - d->V_occ) * k) / k; /* V = V_occ */
+    double pole = d->K0 * expm1((1 - d->V_occ) * k) / k; /* where V = V_occ */
     bool given = !isnan(d->oil.pressure_cap), decays = d->K0_decay < 0 || d->K0_decay > 0;
     d->most = (given ? d->oil.pressure_cap : viscosity_highest_cap) / d->K0;
     d->share = given ? fmax(0.5, d->oil.pressure_cap / pole) : 0.5;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What viscosity laws share: the oil, the cap, and the slope over temperature. */
 #include "law.h"
 
 #include "../numerics/liquid.h"
@@ -117,7 +118,7 @@ ff_status viscosity_at_ready(const ff_host *host, double *at, double slope, cons
 {
     bool given = !isnan(*at), flat = slope <= 0 && slope >= 0;
     if (!given)
-        *at = 313.15; /* of no effect */
+        *at = 313.15; /* unused, since the slope is 0 */
     return given || flat
                ? FF_OK
                : ff_failf(
@@ -133,7 +134,7 @@ double viscosity_one_temperature(const viscosity_law *law, double at, const doub
     return law->oil.liquid ? numerics_reference_temperature(law->oil.liquid) : at;
 }
 
-/* At n <= BLOCK points. */
+/* Evaluates n <= BLOCK points. */
 static ff_status eval_rise_some(const viscosity_law *law, viscosity_rise *rise, size_t n,
                                 const double *p, const double *T, double *ln_eta, double *dln_dp,
                                 double *dln_dT)

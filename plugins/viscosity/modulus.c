@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Bode's law: ln(eta/eta0) = p/(A + B p), A = a1 + a2 T, B = b1 + b2 T (T in K), as Gold et al.
- * 2001 fit it to gear oils. The base of an oil has A and B of its ISO VG 100 oil; of another oil A
- * is those times the pressure coefficient of the VG 100 oil over its own, so that the rise at
- * ambient pressure is in proportion.
- */
+/* Bode's law: ln(eta/eta0) = p/(A + B p), A = a1 + a2 T, B = b1 + b2 T (T in K), as Gold et al.
+ * 2001 fit it to gear oils. A base oil has the A and B of its ISO VG 100 oil. For another oil of
+ * the base, A is multiplied by the pressure coefficient of the VG 100 oil over its own, so that
+ * the slope at ambient pressure is right. */
 #include "law.h"
 #include "references.h"
 
@@ -15,7 +13,7 @@
 
 enum { PARAFFINIC, NAPHTHENIC, PAO, BASES };
 
-/* Arana, Larranaga & Ulacia 2019, tables 2 and 3: measured to some 0.5 to 1 GPa, 25 to 100 degC. */
+/* Arana, Larranaga & Ulacia 2019, tables 2 and 3: measured up to 0.5 to 1 GPa, 25 to 100 degC. */
 static const double measured_to = 1e9, coldest_measured = 298.15, hottest_measured = 373.15;
 static const struct modulus_constants {
     double a1, a2, b1, b2; /* Pa, Pa/K, 1, 1/K */
@@ -25,18 +23,19 @@ static const struct modulus_constants {
     [PAO] = {-5.73e7, 3.90e5, -0.0395, 2.354e-4},
 };
 
-/* A over that of the VG 100 oil, at equal steps of temperature between which a cubic goes. */
+/* The ratio of A to that of the VG 100 oil, at equal steps of temperature, with a cubic in
+ * between. */
 enum { NODES = 111 };
 
 typedef struct modulus {
     const ff_host *host;
     ff_viscosity service;
     viscosity_oil oil;
-    double a1, a2, b1, b2; /* SI; a1 NaN: by the base */
+    double a1, a2, b1, b2; /* SI; a1 NaN: by the base oil */
     double factor;         /* on ln(eta/eta0) */
-    int32_t base;          /* -1: that of the oil */
-    double least, most;    /* K, between which the law holds */
-    bool measured;         /* the constants are those of the base */
+    int32_t base;          /* -1: the base of the wired oil */
+    double least, most;    /* K, the range of the law */
+    bool measured;         /* the constants are measured ones of the base */
     bool scaled;
     double scale[NODES], slope[NODES]; /* 1, 1/K */
 } modulus;
@@ -74,7 +73,7 @@ static moduli moduli_at(const modulus *m, double T)
     return (moduli){over * A * scale, over * B, over * (m->a2 * scale + A * slope), over * m->b2};
 }
 
-/* A law at one temperature. */
+/* The law at one temperature. */
 typedef struct isotherm {
     double A, B, cap;
 } isotherm;
@@ -92,7 +91,7 @@ static void curve(const void *law, double ln_eta0, size_t n, const double *restr
     }
 }
 
-/* 1: a measured oil is asked for more than was measured, where its law is extrapolated. */
+/* Returns 1 if a law with measured constants is extrapolated beyond the measurements. */
 static int extrapolates(const modulus *m, double p, double T)
 {
     const double rounding = 1e-9;
@@ -160,7 +159,7 @@ static const ff_param params[] = {
                 "pressure is, 1 +- 0.1"),
 };
 
-/* Takes the constants of the base, which the law or the oil names. */
+/* Takes the constants of the base oil that the law or the oil names. */
 static ff_status take_base(modulus *m)
 {
     static const int of_oil[] = {[FF_BASE_MINERAL] = PARAFFINIC, [FF_BASE_PAO] = PAO};
@@ -190,8 +189,8 @@ static ff_status take_base(modulus *m)
     return FF_OK;
 }
 
-/* The coefficient of the VG 100 oil over that of the oil, and its slope; an oil that does not tell
-   its own counts as VG 100. */
+/* Returns the pressure coefficient of the VG 100 oil over that of the oil, and its slope. An oil
+ * without a coefficient counts as VG 100. */
 static double ratio_at(const ff_liquid *liquid, double T, double *slope)
 {
     double own = NAN, by_own = NAN, base = NAN, by_base = NAN;
@@ -202,7 +201,8 @@ static double ratio_at(const ff_liquid *liquid, double T, double *slope)
     return ratio > 0 && isfinite(ratio) ? ratio : NAN;
 }
 
-/* Fills in the scale; an oil whose coefficient is known at one temperature has one scale. */
+/* Fills in the scale. If the oil's coefficient is known at one temperature, the scale is
+ * constant. */
 static void take_scale(modulus *m)
 {
     const ff_liquid *liquid = m->oil.liquid;
@@ -229,7 +229,7 @@ static bool holds_at(const modulus *m, double T, double least)
     return at.A >= least && at.A + at.B * m->oil.pressure_cap >= least;
 }
 
-/* The temperature on the way from T, where the law holds, to `last` up to which it does. */
+/* Returns how far from T, where the law holds, towards `last` it continues to hold. */
 static double end_of_range(const modulus *m, double T, double last, double least)
 {
     enum { STEPS = 500, HALVINGS = 40 };

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Roelands: ln(eta/eta0) = (ln eta0 + 9.67) [(1 + p/p0)^z - 1], eta0 in Pa s (Roelands 1966). All
- * isotherms meet at -p0, where eta = exp(-9.67) Pa s. With temperature (Houpert 1985) the factor ln
- * eta0 + 9.67 is that of the oil, or, without one, falls by [(T - 138)/(at - 138)]^-s0, T in K.
- */
+/* Roelands: ln(eta/eta0) = (ln eta0 + 9.67) [(1 + p/p0)^z - 1], eta0 in Pa s (Roelands 1966).
+ * All isotherms meet at p = -p0, where eta = exp(-9.67) Pa s. With temperature (Houpert 1985),
+ * the factor ln eta0 + 9.67 follows from the oil, or without an oil decreases by [(T - 138)/(at
+ * - 138)]^-s0, T in K. */
 #include "law.h"
 #include "references.h"
 
@@ -18,13 +17,13 @@ typedef struct roelands {
     viscosity_oil oil;
     double z, p0;
     viscosity_alpha own;   /* alpha NaN: not given */
-    double s0;             /* 0 with an oil */
-    double rise, exponent; /* ln eta0 + 9.67; z, given or found */
-    bool thermal;          /* the isotherms differ */
+    double s0;             /* 0 if an oil is wired */
+    double rise, exponent; /* ln eta0 + 9.67, and z, given or derived */
+    bool thermal;          /* the law depends on temperature */
 } roelands;
 
-/* What a liquid gives at a point, with slopes over T: L = ln eta0 + 9.67, and z = alpha p0/L where
-   the law is given no z. */
+/* The values for a point with a liquid, with slopes over T: L = ln eta0 + 9.67, and z, which is
+ * alpha p0/L if it is not given. */
 typedef struct isotherm {
     double rise, rise_T, z, z_T;
 } isotherm;
@@ -41,7 +40,7 @@ static void at_point(const roelands *r, const isotherm *at, double p, double out
     out[2] = at->rise_T * power + at->rise * power_T + slope_T * (p - q);
 }
 
-/* ln eta0 and its slope over T, at n <= NUMERICS_POINTS points. */
+/* ln eta0 and its slope over T at n <= NUMERICS_POINTS points. */
 static ff_status ambient_values(const roelands *r, size_t n, const double *T, double *ln,
                                 double *slope)
 {
@@ -98,7 +97,7 @@ static ff_status eval_thermal(const roelands *r, size_t n, const double *p, cons
     return worst;
 }
 
-/* rise and exponent at the one temperature of all points. */
+/* Sets rise and exponent for the one temperature of all points. */
 static ff_status take_isotherm(const roelands *r, const double *T, double *rise, double *z)
 {
     double ln, alpha = NAN, slope;
@@ -112,7 +111,7 @@ static ff_status take_isotherm(const roelands *r, const double *T, double *rise,
     return status;
 }
 
-/* The curve of one temperature. */
+/* The law at one temperature. */
 typedef struct isothermal {
     double rise, z, p0, cap;
 } isothermal;

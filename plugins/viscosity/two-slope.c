@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Two slopes: ln(eta/eta0) rises by alpha_1 up to the transition and by alpha_2 above it (Allen,
- * Townsend & Zaretsky 1970). Over `transition_width` the slope goes linearly from one to the
- * other, which is the cubic of Goglia, Cusano & Conry 1984 for a transition in its middle.
- */
+/* Two slopes: ln(eta/eta0) rises by alpha_1 up to the transition and by alpha_2 above it (Allen,
+ * Townsend & Zaretsky 1970). Over `transition_width` the slope changes linearly from one to the
+ * other, which is the cubic of Goglia, Cusano & Conry 1984. */
 #include "law.h"
 #include "references.h"
 
@@ -31,7 +29,7 @@ static void curve(const void *self, double ln_eta0, size_t n, const double *rest
         double q = viscosity_clip(p[i], cap);
         double over = q > end ? q - end : 0, in = q > begin ? q - begin : 0;
         double inside = in < width ? in : width, share = inside * part;
-        /* at a transition of width 0 the upper slope holds */
+        /* for a transition of width 0, the upper slope holds at the transition itself */
         double slope = first + change * (q >= end ? 1 : share);
         ln_eta[i] =
             ln_eta0 + first * q + change * (over + inside * inside * part / 2) + slope * (p[i] - q);

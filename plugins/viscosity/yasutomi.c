@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Yasutomi's free volume (Yasutomi, Bair & Winer 1984), with pressure in GPa:
+/* Yasutomi's free volume (Yasutomi, Bair & Winer 1984), with pressure in GPa:
  *   Tg = Tg0 + A1 ln(1 + A2 p),   F = 1 - B1 ln(1 + B2 p),   X = (T - Tg) F,
  *   ln(eta/eta_g) = Y = -C1 ln(10) X/(C2 + X).
- * The viscosity at ambient pressure is that of the oil, so that ln(eta/eta0) = Y(p, T) - Y(0, T)
- * and eta_g is not needed. Below Tg, where X < 0, the liquid is a glass: ln(eta) goes on linearly
- * from there.
- */
+ * The oil gives the viscosity at ambient pressure, so ln(eta/eta0) = Y(p, T) - Y(0, T), and
+ * eta_g is not needed. Below Tg, where X < 0, the liquid is a glass: ln(eta) continues linearly
+ * from there. */
 #include "law.h"
 #include "references.h"
 
@@ -22,16 +20,15 @@ typedef struct yasutomi {
     double end;                             /* Pa, where F = 0 */
 } yasutomi;
 
-/* How far above Tg0 the law is evaluated at least, K. */
+/* The law is evaluated at least this far above Tg0, K. */
 static const double ABOVE_GLASS = 1;
 
-/*
- * Slopes: with D = C1 ln(10) C2, Y_X = -D/(C2 + X)^2, Y_XX = 2 D/(C2 + X)^3,
+/* Slopes: with D = C1 ln(10) C2,
+ *   Y_X = -D/(C2 + X)^2, Y_XX = 2 D/(C2 + X)^3,
  *   r_p = Y_X X_p,  r_T = Y_X(X) F - Y_X(X0),  r_pT = Y_XX F X_p + Y_X F_p,
  *   r_pp = Y_XX X_p^2 + Y_X X_pp,   X0 = T - Tg0.
- * The end q of the liquid, X = 0, moves with T where Tg(q) = T: the tangent from there has the
- * slope r_T + (r_pT + r_pp q_T) (p - q).
- */
+ * The pressure q at the glass transition, X = 0, moves with T, since Tg(q) = T. The tangent from
+ * there has the slope r_T + (r_pT + r_pp q_T) (p - q) over T. */
 FF_SIMD
 static int64_t rise(const void *self, size_t n, const double *restrict p, const double *restrict T,
                     double *restrict rise, double *restrict by_p, double *restrict by_T)
@@ -95,7 +92,7 @@ static ff_status ready(void *self)
 {
     yasutomi *y = self;
     y->at = isnan(y->at) ? 313.15 : y->at;
-    /* at F = 0 a last bit is left, so that the slope there is that of the liquid */
+    /* slightly below F = 0, so that the slope there is still that of the liquid */
     y->end = y->B1 * y->B2 > 0 ? (exp(fmin(1 / y->B1, 60)) - 1) / y->B2 : 1e12;
     viscosity_oil_ready(&y->oil, viscosity_highest_cap);
     return FF_OK;

@@ -15,7 +15,7 @@
 
 enum { NOT_THERE = 127, MOST_SAID = 2000 };
 
-/* The path of a program in the folder of this one; the caller frees it. */
+/* Returns the path of a program in the folder of this one; the caller frees it. */
 static char *path_beside(const char *name)
 {
     char own[4096];
@@ -25,7 +25,8 @@ static char *path_beside(const char *name)
     return memory_print_text("%.*s/%s", slash ? (int)(slash - own) : 0, own, name);
 }
 
-/* The first part of what a descriptor gives until its end, without the last line end. */
+/* Reads what a descriptor gives until its end, and keeps the beginning without the last line
+ * break. */
 static void read_said(int from, char said[MOST_SAID])
 {
     size_t used = 0;

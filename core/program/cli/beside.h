@@ -7,8 +7,8 @@
 
 #include <stdbool.h>
 
-/* Runs the program of that name with two arguments and waits for its end. False: it is not there,
-   or it failed, and what it said on stderr is the error. */
+/* Runs the program of that name with two arguments and waits for its end. False if it is not
+ * there or failed; its stderr is then the error. */
 bool cli_beside(const char *name, const char *first, const char *second, ff_report *report);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The commands of the program, and what several of them use. */
+/* The commands of the program, and functions that several of them use. */
 #ifndef CLI_COMMAND_H
 #define CLI_COMMAND_H
 
@@ -7,10 +7,10 @@
 
 #include <jansson.h>
 
-/* Exit codes are EXIT_SUCCESS, the FF_FAULT_... of the errors, or this one. */
+/* An exit code is EXIT_SUCCESS, the FF_FAULT_... of an error, or this one. */
 enum { CLI_EXIT_CASES = 4 }; /* a study finished with failed cases */
 
-/* Each returns the exit code of the program. */
+/* Each command returns the exit code of the program. */
 int cli_run(const cli_options *options);
 int cli_plan_study(const cli_options *options);
 int cli_check(const cli_options *options);
@@ -25,19 +25,19 @@ int cli_write_report(const cli_options *options);
 int cli_schema(const cli_options *options);
 int cli_fit_command(const cli_options *options);
 
-/* What the cases of a study have saved by reusing results; prints nothing without cases. */
+/* Prints how much the cases of a study saved by reusing results; nothing without cases. */
 void cli_print_savings(const study_reuse_counts *savings);
 json_t *cli_json_savings(const study_reuse_counts *savings);
 
-/* Prints what came of a row of standard input; false when nobody reads it. */
+/* Prints the answer to a row of standard input; false if nobody reads it. */
 bool cli_answer_row(size_t index, const json_t *set, const json_t *record, bool known);
 
 /* Prints how many cases a study has, and what they vary. */
 void cli_print_cases(const study_definition *study);
 /* Runs the study of the session. */
 int cli_run_study(cli_session *session, const cli_options *options);
-/* Finds the part of the cases that Slurm's array and, unless array_only, its tasks give to this
-   process. False after an error. */
+/* Finds the part of the cases that Slurm gives to this process: by its array, and by its tasks
+ * unless array_only. False after an error. */
 bool cli_shard_find(study_run *run, bool array_only, ff_report *report);
 
 #endif

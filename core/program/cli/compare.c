@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Designs side by side. */
+/* The command compare: designs side by side. */
 #include "../terminal/terminal.h"
 #include "command.h"
 
@@ -13,8 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Splits "results/study:3" into the directory, which is to be freed, and the case, from 1 on; 0:
-   none is named. */
+/* Splits "results/study:3" into the directory, which is to be freed, and the case, counted from
+ * 1; 0: none is named. */
 static char *split(const char *operand, size_t *number)
 {
     const char *colon = strrchr(operand, ':');
@@ -28,7 +28,7 @@ static char *split(const char *operand, size_t *number)
     return memory_print_text("%.*s", (int)(colon - operand), operand);
 }
 
-/* Opens what an operand names; its view is to be closed. False after an error. */
+/* Opens the results that an operand names; its view is to be closed. False after an error. */
 static bool open_design(const char *operand, report_design *design, ff_report *report)
 {
     size_t number;
@@ -55,7 +55,8 @@ static void say(void *ctx, int indent, const char *line)
         puts(line);
 }
 
-/* Writes the text to PATH with that ending, in place of one that the program has written. */
+/* Writes the text to PATH with that ending. An existing file is replaced only if the program
+ * wrote it. */
 static bool write_file(const char *path, const char *ending, const char *begins, const char *text,
                        const report_template *with, ff_report *report)
 {

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * The gears of a pipeline as a drawing states them. Of values with a tolerance every combination of
- * ends is tried, so that each number stands beside the least and the largest that it can be.
- */
+/* Prints the gears of a pipeline as a drawing states them. For values with a tolerance it tries
+ * every combination of ends, so that each number stands beside the least and the largest that it
+ * can be. */
 #include "drawing.h"
 
 #include "../accuracy/models.h"
@@ -18,7 +17,7 @@
 
 enum { LABEL = 40, VALUE = 32, MOST_TOLERANCES = 10 };
 
-/* What a row is made of: an output of the gears, doubled where it is a radius. */
+/* A row of the table: an output of the gears, doubled if it is a radius. */
 typedef struct drawing_row {
     const char *label, *output, *unit;
     bool radius;
@@ -64,7 +63,7 @@ static const drawing_row rows[] = {
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };
 
-/* Parameters of the gears that stand below the numbers. */
+/* Parameters of the gears that are printed below the numbers. */
 static const struct {
     const char *label, *param;
 } words[] = {{"material", "material"},
@@ -86,7 +85,7 @@ static const struct {
              {"machining allowance", "machining_allowance"}};
 enum { WORDS = sizeof words / sizeof words[0], WORD = 120 };
 
-/* The numbers of a row in SI: one, or one of each gear. */
+/* The numbers of a row in SI: one, or one for each gear. */
 typedef struct drawing_numbers {
     size_t count;
     double value[2], low[2], high[2];
@@ -99,7 +98,7 @@ typedef struct drawing {
     const study_toleranced *toleranced[MOST_TOLERANCES];
     size_t toleranced_count;
     drawing_numbers numbers[ROWS];
-    char words[WORDS][WORD]; /* "": not given */
+    char words[WORDS][WORD]; /* "" if the parameter is not given */
 } drawing;
 
 static bool is_pair(const ff_stage *stage)
@@ -119,7 +118,7 @@ static void set_end(ff_run *run, const study_toleranced *t, bool high)
     free(text);
 }
 
-/* Takes the numbers of a run: the first are the values, all others widen their ranges. */
+/* Takes the numbers of a run. The first run gives the values; later ones widen their ranges. */
 static void take(drawing *d, const ff_stage *stage, bool first)
 {
     for (size_t i = 0; i < ROWS; i++) {
@@ -136,7 +135,8 @@ static void take(drawing *d, const ff_stage *stage, bool first)
     }
 }
 
-/* Keeps the parameters as the file says them; of one value for both gears "[15 um]" is "15 um". */
+/* Keeps the parameters as the file writes them; "[15 um]", one value for both gears, becomes "15
+ * um". */
 static void keep_words(drawing *d, const ff_stage *stage)
 {
     for (size_t i = 0; i < WORDS; i++) {
@@ -151,7 +151,7 @@ static void keep_words(drawing *d, const ff_stage *stage)
     }
 }
 
-/* The file with --set worked in, whatever a study does to it. */
+/* Reads the file and applies --set, but not the cases of a study. */
 static ff_run *read_file(const cli_session *session, const cli_options *options)
 {
     ff_run *run = run_read(session->engine, options->operand);
@@ -159,8 +159,8 @@ static ff_run *read_file(const cli_session *session, const cli_options *options)
     return run;
 }
 
-/* Evaluates the gears with their tolerances at the ends that the bits of `corner` say; without them
-   when it is negative. */
+/* Evaluates the gears. Bit k of `corner` says which end the k-th value with a tolerance takes; a
+ * negative `corner` leaves all at their middle. */
 static bool evaluate(drawing *d, long corner)
 {
     ff_run *run = read_file(d->session, d->options);
@@ -217,7 +217,7 @@ static void print_table(const drawing *d)
     ff_clean_text(title, sizeof title, pipeline->title ? pipeline->title : d->options->operand);
     printf("%s\n\n%-*s  %-*s  gear 2\n", title, LABEL + 2, d->stage, VALUE, "gear 1");
     for (size_t i = 0; i < ROWS; i++)
-        if (d->numbers[i].count > 0) /* 0: the drawing does not have it */
+        if (d->numbers[i].count > 0) /* 0 if the drawing lacks this row */
             print_row(&rows[i], &d->numbers[i]);
     for (size_t i = 0; i < WORDS; i++)
         if (*d->words[i])
@@ -234,7 +234,8 @@ static json_t *list_of(const double *numbers, size_t count)
     return list;
 }
 
-/* {output: {value, lowest, highest}} in SI, each of one or of both gears; radii, not diameters. */
+/* Returns {output: {value, lowest, highest}} in SI, each for one or for both gears, with radii
+ * in place of diameters. */
 static json_t *describe(const drawing *d)
 {
     json_t *object = json_object();
@@ -250,7 +251,7 @@ static json_t *describe(const drawing *d)
     return object;
 }
 
-/* The values of the stage that have a tolerance; false: there are too many. */
+/* Finds the values of the stage that have a tolerance; false if there are too many. */
 static bool find_toleranced(drawing *d, const study_toleranced *list, size_t count)
 {
     size_t length = strlen(d->stage);

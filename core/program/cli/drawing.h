@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a drawing says of a pair of gears, as a table. */
+/* Prints what a drawing says of a pair of gears. */
 #ifndef CLI_DRAWING_H
 #define CLI_DRAWING_H
 
 #include "options.h"
 #include "session.h"
 
-/* Prints the table of each stage that is a pair of gears; returns the exit code. */
+/* Prints a table for each stage that is a pair of gears; returns the exit code. */
 int cli_print_drawing(cli_session *session, const cli_options *options);
 
 #endif

@@ -29,7 +29,7 @@ static json_t *outputs(const ff_stage *stage)
     return list;
 }
 
-/* Returns {use, candidates} of a stage that leaves its model open. */
+/* Returns {use, candidates} for a stage that leaves its model open. */
 static json_t *describe_choice(const ff_stage *stage, ff_engine *engine)
 {
     memory_arena arena = {.blocks = NULL};
@@ -55,7 +55,8 @@ static json_t *describe_stage(const ff_pipeline *pipeline, const ff_stage *stage
     return entry;
 }
 
-/* Adds {from, to, wire, feedback} for each wire between stages of the loop, of feedback or not. */
+/* Adds {from, to, wire, feedback} for each wire between stages of the loop: the feedback wires,
+ * or the others. */
 static void add_wires(const ff_pipeline *pipeline, const ff_loop *loop, bool feedback, json_t *list)
 {
     for (size_t i = 0; i < loop->count; i++) {
@@ -100,7 +101,7 @@ static const char *text_of(const json_t *object, const char *key)
     return json_string_value(json_object_get(object, key));
 }
 
-/* Prints the outputs that will be computed; those that the file requests have a star. */
+/* Prints the outputs that will be computed, with a star at those that the file requests. */
 static void print_outputs(const json_t *list)
 {
     char *names = memory_print_text("%s", "");
@@ -160,7 +161,7 @@ static void print_stage(const json_t *stage)
     print_outputs(json_object_get(stage, "outputs"));
 }
 
-/* Draws a loop: a line for each wire, and a wavy arrow where the round before comes back. */
+/* Draws a loop: a line for each wire, and a wavy arrow for each feedback wire. */
 static void print_loop(const json_t *loop)
 {
     const json_t *entry;
@@ -214,7 +215,7 @@ static void print_plan(const ff_pipeline *pipeline, const char *file, const json
     }
 }
 
-/* What a case assigns beside its name that the first case does not. */
+/* Returns what a case assigns beyond its name and the assignments of the first case. */
 static json_t *settings_of(const study_definition *study, size_t index)
 {
     json_t *list = json_array();
@@ -226,8 +227,8 @@ static json_t *settings_of(const study_definition *study, size_t index)
     return list;
 }
 
-/* Returns [{model, settings, fault}], of the models that a study compares the file's with; the
-   fault, or null, is why one cannot be. */
+/* Returns [{model, settings, fault}] for the models that a study compares with the file's;
+ * `fault` says why one cannot be compared, or is null. */
 static json_t *describe_compared(const cli_session *session, const cli_options *options)
 {
     json_t *list = json_array();
@@ -309,7 +310,7 @@ static int explain(cli_session *session, const cli_options *options)
     return code;
 }
 
-/* With --strict a warning is an error of the input. */
+/* Returns the exit code of a check. With --strict a warning counts as a wrong input. */
 static int confirm(cli_session *session, const cli_options *options)
 {
     size_t stages = session->pipeline->count, cases = session->study ? session->study->count : 1;
@@ -325,7 +326,7 @@ static int confirm(cli_session *session, const cli_options *options)
         results_json_print(answer);
         return code;
     }
-    terminal_print_messages(session->report, stderr, terminal_colour(stderr)); /* warnings */
+    terminal_print_messages(session->report, stderr, terminal_colour(stderr)); /* the warnings */
     if (strict) {
         fprintf(stderr, "--strict: a warning counts as an error\n");
         return code;
@@ -367,7 +368,7 @@ int cli_check(const cli_options *options)
 
 static int resolve(cli_session *session, const cli_options *options)
 {
-    terminal_print_messages(session->report, stderr, terminal_colour(stderr)); /* warnings */
+    terminal_print_messages(session->report, stderr, terminal_colour(stderr)); /* the warnings */
     cli_print_resolved(session, options);
     return ff_report_fault(session->report);
 }
@@ -375,7 +376,8 @@ static int resolve(cli_session *session, const cli_options *options)
 static int draw(cli_session *session, const cli_options *options)
 {
     if (!options->json)
-        terminal_print_messages(session->report, stderr, terminal_colour(stderr)); /* warnings */
+        /* the warnings */
+        terminal_print_messages(session->report, stderr, terminal_colour(stderr));
     return cli_print_drawing(session, options);
 }
 

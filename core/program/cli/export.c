@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Results for people and other programs. */
+/* The commands export and report: results for other programs and for people. */
 #include "beside.h"
 #include "command.h"
 
@@ -19,9 +19,10 @@
 
 typedef struct form {
     const char *name;
-    const char *suffix; /* of one file: ".html"; "": it fills a directory */
-    const char *begins; /* the first bytes of the file */
-    /* From the view of the results; NULL: a program beside this one reads the directory itself. */
+    const char *suffix; /* of one file: ".html"; "": the form fills a directory */
+    const char *begins; /* the first bytes of a file that the program wrote */
+    /* Writes from the view of the results; NULL: a program beside this one reads the directory
+     * itself. */
     bool (*write)(const results_view *view, const results_target *target,
                   const cli_options *options);
 } form;
@@ -50,7 +51,7 @@ static const form forms[] = {
 };
 enum { FORMS = sizeof forms / sizeof *forms };
 
-/* NULL after an error. */
+/* Returns the form of that name; NULL after an error. */
 static const form *find_form(const char *name, ff_report *report)
 {
     const char *names[FORMS];
@@ -66,7 +67,7 @@ static const form *find_form(const char *name, ff_report *report)
     return NULL;
 }
 
-/* results.nc, or results-csv for a directory. */
+/* Returns results.nc, or results-csv for a directory. */
 static char *default_path(const char *directory, const char *stem, const form *to)
 {
     size_t length = strlen(directory);
@@ -75,7 +76,8 @@ static char *default_path(const char *directory, const char *stem, const form *t
                              *to->suffix ? "" : to->name);
 }
 
-/* A directory of results would lose them: its files are replaced together. */
+/* Refuses a directory of results as the target, since its files are replaced together and would
+ * be lost. */
 static bool holds_no_run(const char *path, ff_report *report)
 {
     const char *const names[] = {"result.json", study_description};
@@ -118,7 +120,7 @@ static bool run(const cli_options *options, const char *name, const char *stem,
     return good;
 }
 
-/* Says which file was written, or why none was. */
+/* Prints which file was written, or why none was. */
 static int answer_target(const cli_options *options, results_target *target, bool good)
 {
     int code = EXIT_SUCCESS;
@@ -144,7 +146,8 @@ static int write_with(const cli_options *options, const char *to, const char *st
     return answer_target(options, &target, good);
 }
 
-/* A page of figures alone, from a file that describes them: `report map.figure.json`. */
+/* Whether the operand describes figures, which give a page of figures alone: `report
+ * map.figure.json`. */
 static bool names_figures(const char *operand)
 {
     size_t length = strlen(operand);

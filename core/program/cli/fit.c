@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Parameters of laws from measured data. */
+/* The command fit: parameters of laws from measured data. */
 #include "../fit/fit.h"
 #include "../report/report.h"
 #include "../results/folder.h"
@@ -71,7 +71,7 @@ static bool write_files(const fit *f, const char *directory)
     return good;
 }
 
-/* results/<name of the data without its ending>; NULL: nothing is written. */
+/* Returns results/<name of the data without its ending>; NULL: nothing is written. */
 static char *directory_of(const cli_options *options)
 {
     const char *slash = strrchr(options->second, '/');

@@ -125,7 +125,7 @@ static bool find_command(cli_options *options, const char *word)
                            word[0] == '-' ? "option" : "command", word);
 }
 
-/* argv[1] is the command to describe, if there is one. */
+/* Prints help; argv[1] is the command to describe, if given. */
 static int help(cli_options *options, int argc, char **argv)
 {
     if (argc > 2 && !cli_wrong_usage(options, "help takes one command"))
@@ -183,8 +183,8 @@ static int dispatch(int argc, char **argv)
     return execute(&options, argc - 1, argv + 1);
 }
 
-/* The next file that is opened would get the number of a closed standard stream. Writing to what
-   takes its place fails, as it should. */
+/* Opens something in place of standard streams that are closed, since the next opened file would
+ * get their number. Writing to it fails, as it should. */
 static void hold_standard_streams(void)
 {
     for (int fd = 0; fd <= 2; fd++)
@@ -192,14 +192,14 @@ static void hold_standard_streams(void)
             _exit(FF_FAULT_RUN);
 }
 
-/* Whether nobody reads stdout any more, as behind "| head". */
+/* Whether nobody reads stdout any more, as after "| head" has ended. */
 static bool is_abandoned(void)
 {
     struct pollfd out = {.fd = STDOUT_FILENO, .events = POLLOUT};
     return poll(&out, 1, 0) == 1 && (out.revents & POLLERR);
 }
 
-/* Output that could not be written makes the run fail, whatever else went well. */
+/* Makes the run fail if its output could not be written, whatever else went well. */
 static int close_output(int code)
 {
     bool abandoned = is_abandoned();
@@ -217,11 +217,11 @@ static int close_output(int code)
 typedef struct command_line {
     int argc;
     char **argv;
-    int code; /* exit code */
+    int code; /* the exit code */
 } command_line;
 
-/* Whether a word of the command line has a character that moves the cursor or the like; YAML looks
-   at values itself. */
+/* Whether a word of the command line contains a control character, which may move the cursor.
+ * YAML checks its values itself. */
 static bool has_control(const char *word)
 {
     for (const unsigned char *at = (const unsigned char *)word; *at; at++)
@@ -253,7 +253,7 @@ static void dispatch_it(void *ctx)
     line->code = dispatch(line->argc, line->argv);
 }
 
-/* Says for the child how it ended, and ends likewise. */
+/* Reports how the child ended, and ends in the same way. */
 static _Noreturn void conclude(const crash_end *end, bool json)
 {
     if (end->sentence[0]) {
@@ -268,7 +268,7 @@ static _Noreturn void conclude(const crash_end *end, bool json)
     _exit(end->code);
 }
 
-/* What a sanitizer that counts memory has to say at the end. */
+/* The leak report of a sanitizer, if the program is built with one. */
 __attribute__((weak)) void __lsan_do_leak_check(void);
 
 int main(int argc, char **argv)
@@ -278,8 +278,8 @@ int main(int argc, char **argv)
     hold_standard_streams();
     if (refuse_control(argc, argv))
         return FF_FAULT_INPUT;
-    signal(SIGPIPE, SIG_IGN); /* a closed pipe shows as a write error */
-    signal(SIGXFSZ, SIG_IGN); /* so does a limit on the size of files */
+    signal(SIGPIPE, SIG_IGN); /* so that a closed pipe shows as a write error */
+    signal(SIGXFSZ, SIG_IGN); /* so that a limit on the size of files does, too */
     if (crash_lead(&end))
         conclude(&end, asks_json(argc, argv));
     if (ff_protected(dispatch_it, &line) == FF_NOMEM)
@@ -287,5 +287,6 @@ int main(int argc, char **argv)
     int code = close_output(line.code);
     if (__lsan_do_leak_check)
         __lsan_do_leak_check();
-    crash_leave(code); /* destructors of plugins do not run: all is written, and one could crash */
+    /* Leaves without the destructors of plugins, which could crash: everything is written. */
+    crash_leave(code);
 }

@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Lists all models, or those of one kind. The report gets the errors of models that cannot be
-   loaded; it may be NULL. */
+/* Lists all models, or those of one kind. The report, which may be NULL, gets the errors of
+ * models that cannot be loaded. */
 static void list(catalogue *models, ff_engine *engine, const char *kind, ff_report *report)
 {
     size_t count = 0, length = kind ? strlen(kind) : 0;

@@ -9,7 +9,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* The text that replaces "@name@". */
+/* A mark such as "@name@", and the text that replaces it. */
 typedef struct word {
     const char *name, *text;
 } word;
@@ -65,7 +65,7 @@ static bool write_file(const char *folder, const char *name, const char *templat
 }
 
 /* Finds the template of the kind, "<kind>.template.c", or the general one, "template.c", in the
-   directories of plugins. *own: it is that of the kind. NULL after an error. */
+ * directories of plugins. *own tells whether it is that of the kind. NULL after an error. */
 static char *find_template(const ff_engine *engine, const char *kind, const char *ending, bool *own,
                            ff_report *report)
 {
@@ -82,8 +82,8 @@ static char *find_template(const ff_engine *engine, const char *kind, const char
     return path;
 }
 
-/* Whether the first model of the kind is a law, which is verified with random parameters; a stage
-   needs the inputs of a real run. */
+/* Whether the first model of the kind is a law. `verify` tests a law with random parameters; a
+ * stage needs the inputs of a real run. */
 static bool is_law(ff_engine *engine, const char *kind)
 {
     size_t count = 0, length = strlen(kind);

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * What `check` finds of an oil that a run would refuse: a temperature that stands in two places,
- * and laws that contradict the oil. Evaluates the stages of the oil and what feeds them, no others.
- */
+/* Finds what a run would refuse about an oil, for `check`: a temperature that is given in two
+ * places, and laws that contradict the oil. Evaluates only the stages of the oil and those that
+ * feed them. */
 #include "oil.h"
 
 #include "../accuracy/models.h"
@@ -29,7 +28,7 @@ static bool is_oil(const ff_stage *stage)
     return true;
 }
 
-/* "outputs=[oil.temperature, ...]" of all oils; NULL: there is none. */
+/* Returns "outputs=[oil.temperature, ...]" for all oils; NULL: there is none. */
 static char *request(const ff_pipeline *pipeline)
 {
     char *text = memory_print_text("outputs=[");
@@ -45,7 +44,7 @@ static char *request(const ff_pipeline *pipeline)
     return NULL;
 }
 
-/* The law as its stage has it, with its own parameters alone. */
+/* Makes an instance of the law with the parameters of its stage and without wires. */
 static ff_instance *make_law(ff_engine *engine, const ff_stage *stage)
 {
     ff_instance *law;
@@ -86,7 +85,7 @@ static ff_status ask(void *ctx)
     return density->eval(density->self, 1, &p, &q->T, &q->answer, NULL, NULL);
 }
 
-/* eta0 or rho0 by the law at T; NaN: it does not tell. */
+/* Returns eta0 or rho0 of the law at T; NaN: the law does not tell. */
 static double ask_law(ff_instance *law, int what, double T)
 {
     question q = {.what = what, .T = T, .answer = NAN};
@@ -99,7 +98,7 @@ static double ask_law(ff_instance *law, int what, double T)
     return what == ETA0 ? exp(q.answer) : q.answer;
 }
 
-/* The place of the parameter of that name; of the stage where it has none. */
+/* Returns the place of that parameter in the file, or of the stage if it is not given. */
 static ff_place place_of(const ff_stage *stage, const char *param)
 {
     int at = ff_model_find_param(stage->loaded->model, param);
@@ -144,7 +143,8 @@ static const ff_stage *stage_on(const ff_pipeline *pipeline, const ff_stage *sta
     return NULL;
 }
 
-/* The laws of a stage that uses them beside an oil. One that takes the oil cannot contradict it. */
+/* Compares the laws of a stage with the oil that it uses. A law that takes the oil by wire
+ * cannot contradict it. */
 static void hold_laws(cli_session *session, ff_run *oils, const ff_stage *user)
 {
     static const char *const wires[] = {NULL, "viscosity", "density"};
@@ -156,7 +156,7 @@ static void hold_laws(cli_session *session, ff_run *oils, const ff_stage *user)
     }
 }
 
-/* The value that the file gives; NULL: none. */
+/* Returns the value that the file gives for the parameter; NULL: none. */
 static const ff_bound *given(const ff_stage *stage, const char *param)
 {
     int at = stage && stage->loaded && stage->params

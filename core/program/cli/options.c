@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The table of the options of all commands; parsing, usage and help are made from it. */
+/* The table of all options of all commands. Parsing, usage and help are made from it. */
 #include "options.h"
 
 #include "../memory/memory.h"
@@ -13,16 +13,16 @@
 
 typedef enum { OPTIONAL, REPEATABLE, REQUIRED } occurrence;
 
-/* An option may have several rows, each for other commands. */
+/* An option may have several rows, each for different commands. */
 typedef struct option_row {
     const char *name;
-    char letter;          /* its short form; 0: it has none */
-    const char *argument; /* its name in usage; NULL: it takes none */
-    const char *commands; /* the commands that accept it; NULL: all */
+    char letter;          /* short form; 0: none */
+    const char *argument; /* name of its argument in usage; NULL: it takes none */
+    const char *commands; /* commands that accept it; NULL: all */
     const char *text;     /* its line of help */
     occurrence occurrence;
     bool (*set)(cli_options *,
-                const char *argument); /* sets a member; NULL: cli_option alone finds it */
+                const char *argument); /* sets a member; NULL: only cli_option finds the option */
 } option_row;
 
 static bool set_jobs(cli_options *options, const char *argument);
@@ -90,9 +90,12 @@ static const option_row rows[] = {
      "look for models there first; repeatable", REPEATABLE, NULL},
     {"help", 'h', NULL, NULL, "print this", OPTIONAL, NULL},
 };
-enum { ROWS = sizeof rows / sizeof rows[0], FIRST_CODE = 256 /* above all letters */ };
+enum {
+    ROWS = sizeof rows / sizeof rows[0],
+    FIRST_CODE = 256 /* option codes, above all letters */
+};
 
-/* Whether the word is one of the words, which are separated by blanks. */
+/* Whether the word is in a list whose words are separated by blanks. */
 static bool holds(const char *words, const char *word)
 {
     size_t length = strlen(word);
@@ -107,13 +110,13 @@ static bool accepts(const cli_command *command, const option_row *row)
     return !row->commands || holds(row->commands, command->name);
 }
 
-/* The first row of the option, whose index identifies it for all commands. */
+/* Returns the first row of the option, whose index identifies it for all commands. */
 static size_t find_option(const char *name)
 {
     for (size_t i = 0; i < ROWS; i++)
         if (!strcmp(rows[i].name, name))
             return i;
-    abort(); /* the caller names an option that is not in the table */
+    abort(); /* the caller's mistake: no such option in the table */
 }
 
 const char *cli_option(const cli_options *options, const char *name)
@@ -127,7 +130,7 @@ cli_words cli_option_words(const cli_options *options, const char *name)
     return options->given[find_option(name)];
 }
 
-/* Prints " [-o DIR]". */
+/* Prints an option in usage: " [-o DIR]". */
 static void print_option(const option_row *row, FILE *out)
 {
     fputs(row->occurrence == REQUIRED ? " " : " [", out);
@@ -203,7 +206,7 @@ static bool set_directory(cli_options *options, const char *argument)
     return *argument || cli_wrong_usage(options, "-o wants the name of a file or directory");
 }
 
-/* Reads "2/8", the second of eight parts. */
+/* Reads the part of a study: "2/8" is the second of eight. */
 static bool set_shard(cli_options *options, const char *argument)
 {
     char rest;
@@ -238,7 +241,7 @@ static bool take_operand(cli_options *options, const char *text)
     return true;
 }
 
-/* `index` is that of the first row of the option. */
+/* Takes an option with its argument; `index` is that of the option's first row. */
 static bool take_option(cli_options *options, size_t index, const char *argument)
 {
     const char *name = rows[index].name;
@@ -253,8 +256,8 @@ static bool take_option(cli_options *options, size_t index, const char *argument
     return !row->set || row->set(options, argument);
 }
 
-/* `code` is that of an option which was given a value but takes none, an unknown letter, or 0 for
-   an unknown long option in `word`. */
+/* Refuses an option. `code` is the option's code if it was given a value but takes none, an
+ * unknown letter, or 0 for the unknown long option in `word`. */
 static bool refuse_unknown(const cli_options *options, const char *word, int code)
 {
     const char *names[ROWS];
@@ -300,7 +303,7 @@ static bool check_plugin_paths(const cli_options *options)
 bool cli_options_parse(cli_options *options, int argc, char **argv)
 {
     struct option table[ROWS + 1] = {{0}};
-    char letters[3 * ROWS] = "-:"; /* '-': operands come in order, as option 1 */
+    char letters[3 * ROWS] = "-:"; /* '-' makes getopt return operands in order, as option 1 */
     bool good = true;
     int code;
     for (size_t i = 0; i < ROWS; i++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The command line: commands as data, and the options of the one that was given. */
+/* The command line: the commands as data, and the options that were given. */
 #ifndef CLI_OPTIONS_H
 #define CLI_OPTIONS_H
 
@@ -14,12 +14,13 @@ typedef struct cli_words {
     size_t count;
 } cli_words;
 
-/* An absent option is NULL, 0 or false. cli_option finds those that have no member here. */
+/* An option that is absent is NULL, 0 or false. cli_option finds options that have no member
+ * here. */
 typedef struct cli_options {
-    const cli_command *command; /* NULL: none was understood */
+    const cli_command *command; /* NULL: no command was understood */
     const char *operand;        /* FILE or ID */
     const char *second;         /* the second operand */
-    cli_words further;          /* those behind it, where the command takes more */
+    cli_words further;          /* operands after the second one, if the command takes more */
     const char **sets;
     size_t set_count;
     const char **plugin_paths;
@@ -29,31 +30,32 @@ typedef struct cli_options {
     size_t shard, shards;
     bool rerun_failed, rerun_all;
     bool json;
-    cli_words *given; /* the arguments of each option, by row of the table */
+    cli_words *given; /* by row of the table: the arguments of each option */
 } cli_options;
 
 struct cli_command {
     const char *name;
-    const char *operand; /* "FILE", or two of them; in brackets when it may be left out; more may
-                            follow where it ends in "..." */
+    const char *operand; /* "FILE", or two of them; in brackets if it may be left out; "..." at the
+                            end: more may follow */
     const char *summary; /* one line */
-    const char *text;    /* what `help` says below the usage line */
+    const char *text;    /* printed by `help` below the usage line */
     int (*run)(const cli_options *options); /* returns the exit code of the program */
 };
 
-/* Reads argv[1] and on; false after cli_wrong_usage. */
+/* Reads the arguments from argv[1] on. False if they are wrong, after cli_wrong_usage. */
 bool cli_options_parse(cli_options *options, int argc, char **argv);
 void cli_options_free(cli_options *options);
 
-/* The argument of an option of the table: the last one when it was given several times, "" when it
-   takes none, NULL when it was not given. */
+/* Returns the argument of an option of the table: the last one if it was given several times, ""
+ * if it takes none, NULL if it was not given. */
 const char *cli_option(const cli_options *options, const char *name);
-/* All arguments that a repeatable option was given. */
+/* Returns all arguments of an option that may be repeated. */
 cli_words cli_option_words(const cli_options *options, const char *name);
 
-/* "usage: flankfilm", the command, its operands and its options; NULL: of the program. */
+/* Prints "usage: flankfilm", the command, its operands and its options; NULL: those of the
+ * program. */
 void cli_print_usage(const cli_command *command, FILE *out);
-/* The options of the command, a line for each. */
+/* Prints a line for each option of the command. */
 void cli_print_options(const cli_command *command);
 
 /* Prints one sentence and the usage line. Returns false. */

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-static const double noise = 1e-9; /* relative; figures show 5 digits at most */
+static const double noise = 1e-9; /* relative; at most 5 digits are printed */
 
 static study_readable unit_of(const ff_port *row, double most)
 {
@@ -36,7 +36,8 @@ static void print_range(const ff_result *result, double a, double b, char *out, 
              *unit.unit ? " " : "", unit.unit);
 }
 
-/* Where the extremes of a series lie; briefly "at 22.3 and 16.6 deg", "" if no series says it. */
+/* Prints where the extremes of a series lie; if `briefly`, "at 22.3 and 16.6 deg". "" if no
+ * series tells. */
 static void print_where(const ff_pipeline *pipeline, const ff_stage *stage, size_t output,
                         size_t least, size_t greatest, bool briefly, char *out, size_t size)
 {
@@ -69,7 +70,7 @@ static void print_shape(const ff_stage *stage, size_t output, char *out, size_t 
                                result->dims[i]);
 }
 
-/* The values of both gears, "[0.35, -0.1]": no series. */
+/* Prints the values of both gears, "[0.35, -0.1]", which are no series. */
 static bool print_pair(const ff_result *result, char *out, size_t size)
 {
     if (result->rank != 1 || result->count != 2)
@@ -83,13 +84,13 @@ static bool print_pair(const ff_result *result, char *out, size_t size)
     return true;
 }
 
-/* Adds the error that was measured, over the value; of a series, the largest. */
+/* Appends the measured relative error; for a series, the largest. */
 static void print_error(const accuracy_record *errors, const ff_result *result, char *out,
                         size_t size)
 {
     const accuracy_error *error = accuracy_find(errors, result);
     size_t length = strlen(out);
-    if (error && error->relative == 0) /* no setting changes it */
+    if (error && error->relative == 0) /* no setting changes the value */
         return;
     if (error && error->bar)
         snprintf(out + length, size - length, " +- %.2g %%", 100 * error->relative);
@@ -97,7 +98,7 @@ static void print_error(const accuracy_record *errors, const ff_result *result, 
         snprintf(out + length, size - length, " +- ?");
 }
 
-/* Whether what an output is off by is known, or is another output. */
+/* Whether the error of an output is known, or is given by another output. */
 static bool known_error(const ff_stage *stage, const ff_result *result)
 {
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {

@@ -25,7 +25,7 @@ static void on_interrupt(int signal_number, siginfo_t *info, void *context)
     }
     interrupts = 1;
     if (write(STDERR_FILENO, text, sizeof text - 1) < 0)
-        return; /* nobody is there to read it */
+        return; /* stderr is no terminal */
 }
 
 static int on_progress(void *ctx, const ff_stage *stage, double fraction)
@@ -76,7 +76,7 @@ void cli_progress_end(cli_progress *progress)
 {
     if (progress->drawn > 0)
         fputs("\r\033[K", stderr);
-    if (!interrupts) /* the echo of an interrupt may still come */
+    if (!interrupts) /* the terminal may still echo the interrupt */
         signal(SIGINT, SIG_DFL);
 }
 

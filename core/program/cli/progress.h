@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Watches a run: the progress line, the interrupt key, the log of the models. */
+/* Watches a run: draws the progress line, handles the interrupt key, keeps the log of the
+ * models. */
 #ifndef CLI_PROGRESS_H
 #define CLI_PROGRESS_H
 
@@ -10,13 +11,15 @@ typedef struct cli_progress {
     ff_report *report;
     json_t *log; /* [{stage, level, text}]; the caller frees it */
     bool terminal;
-    const ff_stage *stage; /* runs since `started`; its line was drawn last at `drawn` */
-    double started, drawn; /* s; 0: there is no line on the terminal */
+    const ff_stage
+        *stage; /* has been running since `started`; its line was drawn last at `drawn` */
+    double started, drawn; /* s; 0: no line is on the terminal */
 } cli_progress;
 
-/* Takes over SIGINT: the first one asks the stages to stop, the second ends the program. */
+/* Handles SIGINT: the first one asks the stages to stop, the second ends the program. */
 void cli_progress_begin(cli_progress *progress, ff_report *report);
-void cli_progress_end(cli_progress *progress); /* clears the line; SIGINT is as it was before */
+/* clears the line, and restores the handling of SIGINT */
+void cli_progress_end(cli_progress *progress);
 
 bool cli_interrupted(void);
 

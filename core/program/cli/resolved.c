@@ -11,8 +11,8 @@
 
 enum { COLUMN = 56, STEP = 2 };
 
-/* Prints "key: value   # remark". What nobody wrote, a preset or an automatic wire, is a comment:
-   it may change with the model, and a model may tell what was given from what was not. */
+/* Prints "key: value   # remark". A preset or an automatic wire is printed as a comment, since
+ * it may change with the model, and a model can tell given values from absent ones. */
 static void print_line(int indent, bool comment, const char *key, const char *value,
                        const char *note)
 {
@@ -30,7 +30,7 @@ static void print_line(int indent, bool comment, const char *key, const char *va
     free(name);
 }
 
-/* Prints a file that a study names, by its absolute path. */
+/* Prints the name of a file that a study uses, with its absolute path. */
 static void print_file(const ff_node *item, FILE *out)
 {
     const char *beside = item->place.source ? item->place.source->directory : ".";
@@ -49,20 +49,21 @@ static void print_files(const ff_node *list, FILE *out)
     fputc(']', out);
 }
 
-/* Whether the node is the table that a study has its cases from; "-" is standard input. */
+/* Whether the node names the table with the cases of a study; "-" is standard input. */
 static bool is_table_of_cases(const ff_node *node, const char *path)
 {
     return !strcmp(path, "study.cases") && node->kind == FF_SCALAR && strcmp(node->text, "-") != 0;
 }
 
-/* The parameter of a stage that runs; NULL: it is none. */
+/* Returns the parameter, if the stage runs and has it; NULL otherwise. */
 static const ff_bound *find_bound(const ff_stage *stage, const char *path)
 {
     int index = stage && stage->params ? ff_model_find_param(stage->loaded->model, path) : -1;
     return index < 0 ? NULL : &stage->params[index];
 }
 
-/* The value as it may stand in a file in any folder: paths are absolute. To be freed. */
+/* Returns the value so that it can stand in a file in any folder, with absolute paths. To be
+ * freed. */
 static char *print_value(const ff_bound *bound, const ff_node *node, const char *path)
 {
     bool file = bound && bound->present && bound->row->type == FF_FILE && bound->value.text;
@@ -83,15 +84,16 @@ static char *print_value(const ff_bound *bound, const ff_node *node, const char 
     return text;
 }
 
-/* What the file says of a model that it leaves open, in place of the reference. */
+/* Returns the `KIND/auto` that the file gives for an open model, instead of the reference that
+ * was put in its place. */
 static const ff_node *as_written(const ff_stage *stage, const ff_node *node, const char *path)
 {
     bool of_choice = !strcmp(path, "use") || !strcmp(path, "reference");
     return of_choice && stage && accuracy_open_use(stage) && node->replaced ? node->replaced : node;
 }
 
-/* Prints a value; one that a later layer, or another parameter of its group, has replaced is a
-   comment, as is the empty one that takes a value away. */
+/* Prints a value. It becomes a comment if a later layer or another parameter of its group has
+ * replaced it, or if it is an empty value that takes another one away. */
 static void print_leaf(const ff_stage *stage, const ff_node *node, const char *key,
                        const char *path, int indent)
 {
@@ -117,7 +119,8 @@ static void print_entry(const ff_stage *stage, const char *key, const ff_node *i
                         const char *prefix, int indent)
 {
     char *path = memory_print_text("%s%s%s", prefix, *prefix ? "." : "", key);
-    bool set = stage && !strcmp(prefix, "with"); /* the key is the model that it is for */
+    /* the key is the id of the model that the set is for */
+    bool set = stage && !strcmp(prefix, "with");
     bool other = set && strcmp(key, stage->use) != 0;
     if (item->kind != FF_MAP || item->count == 0) {
         print_leaf(stage, as_written(stage, item, path), key, path, indent);
@@ -128,8 +131,8 @@ static void print_entry(const ff_stage *stage, const char *key, const ff_node *i
     free(path);
 }
 
-/* Prints the entries of a map; `stage` is the one that it belongs to, NULL for none or one that
-   does not run. */
+/* Prints the entries of a map. `stage` is the stage that it belongs to; NULL: none, or one that
+ * does not run. */
 static void print_map(const ff_stage *stage, const ff_node *map, const char *prefix, int indent)
 {
     for (size_t i = 0; i < map->count; i++)
@@ -187,7 +190,8 @@ static void print_run(const ff_run *run, const char *file)
             print_entry(NULL, root->keys[i], root->items[i], "", 0);
 }
 
-/* The run of a session has the first case of its study laid over the file, so it is read anew. */
+/* Reads the file again, because the run of a session already contains the first case of its
+ * study. */
 void cli_print_resolved(const cli_session *session, const cli_options *options)
 {
     if (!session->study) {
@@ -198,8 +202,8 @@ void cli_print_resolved(const cli_session *session, const cli_options *options)
     run_set_all(run, options->sets, options->set_count);
     if (session->study->request)
         run_put(run, "outputs", session->study->request);
-    accuracy_build(run, session->engine, false); /* stages may lack what the cases bring */
-    if (ff_run_root(run))                        /* the file can still be read */
+    accuracy_build(run, session->engine, false); /* stages may lack what the cases give */
+    if (ff_run_root(run))                        /* the file could be read */
         print_run(run, options->operand);
     ff_run_close(run);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The file as one, with all that includes and --set have made of it, as YAML that runs to the same
-   result. Behind each value stands where it comes from. */
+/* Prints the file with all its includes and --set as one YAML file that gives the same result. A
+ * remark after each value says where it comes from. */
 #ifndef CLI_RESOLVED_H
 #define CLI_RESOLVED_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Answers the rows of standard input: a line of JSON for each, in the order in which they end. */
+/* Answers rows from standard input with one line of JSON each, in the order in which they end. */
 #include "../study/cases/rows.h"
 #include "../memory/memory.h"
 #include "../results/json.h"
@@ -11,7 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* {name: value in SI}; null for a number that is not finite, as in the record. */
+/* Returns {name: value in SI}; null for a number that is not finite, as in the record. */
 static json_t *values_of(const json_t *outputs)
 {
     const char *name;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The command run for one case: runs the pipeline, and writes and prints its results. */
 #include "../terminal/answer.h"
 #include "../terminal/terminal.h"
 #include "command.h"
@@ -29,12 +30,12 @@ static void set_status(results_outcome *outcome)
                                                            : "failed";
 }
 
-/* What a run leaves in its directory, and what it found there. */
+/* The directory of the results, and what was found in it. */
 typedef struct place {
     char *directory;        /* NULL: nothing is written */
-    results_folder *folder; /* NULL when there is none */
-    char *replaced;         /* how the inputs differ of the results that are replaced, or NULL */
-    char *removed;          /* what was made of those and is gone, or NULL */
+    results_folder *folder; /* NULL if nothing is written */
+    char *replaced;         /* how the inputs of the replaced results differ, or NULL */
+    char *removed;          /* files derived from the replaced results that are gone, or NULL */
     bool written;
 } place;
 
@@ -51,7 +52,7 @@ static void print_place(const place *to)
         printf("the earlier results in %s stay\n", to->directory);
 }
 
-/* Says in the answer what print_place says to people. */
+/* Adds as warnings to the answer what print_place prints for people. */
 static void warn_of_replaced(const place *to, ff_report *report)
 {
     if (to->written && to->replaced && *to->replaced)
@@ -62,7 +63,7 @@ static void warn_of_replaced(const place *to, ff_report *report)
                 to->directory, to->removed);
 }
 
-/* Whether --strict fails the outcome. */
+/* Whether --strict makes the outcome a failure. */
 static bool is_strict_about(const results_outcome *outcome, const cli_options *options, bool tell)
 {
     study_judgement judgement = study_judge_pipeline(outcome->pipeline, false);
@@ -110,7 +111,7 @@ static int run_session(cli_session *session, const cli_options *options, const r
     if (!good && ff_report_errors(session->report) == 0)
         ff_error(session->report, FF_FAULT_RUN, FF_NOWHERE, NULL, "the run was stopped");
     cli_progress_end(&progress);
-    ff_engine_warn_displaced(session->engine, session->report); /* models that were tried */
+    ff_engine_warn_displaced(session->engine, session->report); /* of models that were tried */
 
     limits_verdict limits = limits_judge(session->run, errors.answer, &errors);
     accept_check_pipeline(errors.answer, session->report);
@@ -122,7 +123,8 @@ static int run_session(cli_session *session, const cli_options *options, const r
                                .log = progress.log};
     set_status(&outcome);
     count_doubts(&outcome, options);
-    bool kept = to->replaced && cli_interrupted(); /* what is there is worth more */
+    /* the earlier results are worth more than an interrupted run */
+    bool kept = to->replaced && cli_interrupted();
     to->written =
         to->folder && !kept && results_write_run(&outcome, to->directory, to->folder, &to->removed);
     set_status(&outcome); /* writing may have failed */
@@ -140,7 +142,7 @@ static int run_session(cli_session *session, const cli_options *options, const r
     return outcome.exit_code;
 }
 
-/* False after an error. */
+/* Opens the directory of the results; false after an error. */
 static bool open_place(place *to, const results_input *input, ff_report *report)
 {
     if (!to->directory)

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* "kind/name", also of a name alone; the caller frees it. */
+/* Returns "kind/name", also for a name without a kind; the caller frees it. */
 static char *id_of(const char *name, const char *interface)
 {
     const char *kind = strchr(interface, '.') + 1;
@@ -16,7 +16,7 @@ static char *id_of(const char *name, const char *interface)
                              : memory_print_text("%.*s/%s", (int)strcspn(kind, "/"), kind, name);
 }
 
-/* "parameter=value" */
+/* Sets "parameter=value". */
 static bool set(ff_instance *instance, const char *assignment, ff_report *report)
 {
     const char *equals = strchr(assignment, '=');

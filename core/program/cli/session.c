@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Opening the file that a command is given. */
+/* Opens the file that a command is given. */
 #include "session.h"
 
 #include "../terminal/terminal.h"
@@ -19,9 +19,9 @@
 
 enum { MOST_ERRORS = 20 };
 
-/* Returns the case that a command shows: the first that can be built, since idle rows of a spectrum
-   may stand before, and a kind of study may look for what cannot be. `count` where there is none.
- */
+/* Returns the case by which a command shows a study: the first that can be built. Idle rows of a
+ * spectrum may come first, and a study may look for cases that cannot be. `count` if there is
+ * none. */
 static size_t first_case(const cli_session *session, const cli_options *options)
 {
     const study_definition *study = session->study;
@@ -37,8 +37,8 @@ static size_t first_case(const cli_session *session, const cli_options *options)
     return study->driver ? study->count : 0;
 }
 
-/* Lays the case that a study is shown by over the file; a file of which no case can be built stays
-   as it is. */
+/* Applies to the file the case by which the study is shown. If no case can be built, the file
+ * stays as it is. */
 static void lay_case(const cli_session *session, const cli_options *options, ff_run *run)
 {
     if (session->first < session->study->count)
@@ -65,7 +65,7 @@ static bool open_study(cli_session *session, const cli_options *options)
     return true;
 }
 
-/* Adds the messages of that severity of a run. */
+/* Adds the messages of a run that have that severity. */
 static void copy_messages(cli_session *session, ff_run *run, ff_severity severity)
 {
     const ff_report *said = ff_run_report(run);
@@ -91,8 +91,8 @@ static int32_t leave(void *ctx, const ff_stage *stage, double fraction)
     return 2;
 }
 
-/* Runs the stages that say nothing of their progress, since they are quick, and all others up to
-   their first word on it, to find what is wrong with their input. */
+/* Finds what is wrong with the inputs of the stages: runs quick stages, which report no
+ * progress, to their end, and others up to their first report of progress. */
 static void run_quick(ff_run *run)
 {
     const ff_observer watch = {.size = sizeof watch, .progress = leave};
@@ -109,18 +109,19 @@ ff_run *cli_session_try(const cli_session *session, const cli_options *options, 
     return run;
 }
 
-/* Adds the messages of that severity of a case to the report. */
+/* Adds the messages of a case that have that severity to the report. */
 static void try_case(cli_session *session, const cli_options *options, size_t index,
                      ff_severity severity)
 {
     ff_run *run = cli_session_try(session, options, index, severity == FF_ERROR);
-    if (!study_case_is_refused(session->study, ff_run_report(run))) /* the sums tell how much time
-                                                                       it is */
+    if (!study_case_is_refused(
+            session->study,
+            ff_run_report(run))) /* otherwise the sums tell how much time is affected */
         copy_messages(session, run, severity);
     ff_run_close(run);
 }
 
-/* By how much the number of a case grows with a point of an axis. */
+/* Returns by how much the number of a case grows from one point of an axis to the next. */
 static size_t stride_of(const study_definition *study, size_t axis)
 {
     size_t stride = 1;
@@ -129,7 +130,7 @@ static size_t stride_of(const study_definition *study, size_t axis)
     return stride;
 }
 
-/* Names a model that cannot take all that the file says, of each that the study swaps in. */
+/* For each model that the study swaps in, reports what of the file it cannot take. */
 static void try_swaps(cli_session *session, const cli_options *options)
 {
     const study_definition *study = session->study;
@@ -145,8 +146,8 @@ static void try_swaps(cli_session *session, const cli_options *options)
     }
 }
 
-/* Of more cases than are looked at: each value of each axis once, or the end of a range, with the
-   other axes at their first. */
+/* If there are too many cases to look at all: tries each value of each axis, or the ends of a
+ * range, once, with the other axes at their first value. */
 static void try_values(cli_session *session, const cli_options *options)
 {
     const study_definition *study = session->study;
@@ -155,7 +156,7 @@ static void try_values(cli_session *session, const cli_options *options)
         size_t last = study->points[varied->axis] - 1;
         size_t stride = stride_of(study, varied->axis);
         bool listed = varied->values || varied->names;
-        bool whole = !varied->places || k == 0; /* a row is tried once */
+        bool whole = !varied->places || k == 0; /* a row is tried once as a whole */
         for (size_t i = listed || varied->places ? 1 : last; whole && i > 0 && i <= last; i++) {
             if (varied->places && i == CLI_MOST_ROWS)
                 i = last;
@@ -165,7 +166,8 @@ static void try_values(cli_session *session, const cli_options *options)
     }
 }
 
-/* Of a study that makes its cases itself some may be such as cannot be: a warning counts them. */
+/* Tries cases of a study that makes its cases itself. Some of these may be impossible, so a
+ * warning counts them. */
 static void try_spread(cli_session *session, const cli_options *options)
 {
     const study_definition *study = session->study;
@@ -189,7 +191,7 @@ static void try_spread(cli_session *session, const cli_options *options)
     free(why);
 }
 
-/* A case that cannot be is an error of a check alone. */
+/* Tries the cases of the study. An impossible case is an error only for `check`. */
 static void try_cases(cli_session *session, const cli_options *options)
 {
     const study_definition *study = session->study;
@@ -237,7 +239,7 @@ static void warn_of_follow(const cli_session *session)
                 "changes nothing");
 }
 
-/* Of the models of the stages, and of those that a study puts in their place. */
+/* Warns of displaced files for the models of the stages and for those that a study swaps in. */
 static void warn_of_displaced(cli_session *session)
 {
     study_use at = {0};
@@ -322,7 +324,7 @@ char *cli_study_directory(const cli_options *options)
                               : default_directory(options->operand);
 }
 
-/* Adds ",duty.speed=3000rpm" to a name, in characters that no shell minds. */
+/* Appends ",duty.speed=3000rpm" to a name, in characters that shells do not interpret. */
 static void add_setting(FILE *name, const char *set)
 {
     static const char prefix[] = "pipeline.";

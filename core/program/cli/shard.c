@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which part of a study this process runs, from the environment that Slurm sets. */
+/* Finds which part of a study this process runs, from the environment that Slurm sets. */
 #include "command.h"
 
 #include <stdlib.h>

@@ -127,7 +127,7 @@ static void print_below(const json_t *sums)
     }
 }
 
-/* Says which stages rows have shared. */
+/* Prints which stages were evaluated once for several rows. */
 static void print_stages(const json_t *sums)
 {
     const char *name;
@@ -143,7 +143,7 @@ static void print_stages(const json_t *sums)
     }
 }
 
-/* Says of how much time there are no numbers, and why. */
+/* Prints for how much of the time there are no numbers, and why. */
 static void print_left_out(const json_t *sums)
 {
     const json_t *refused = json_object_get(sums, "refused");
@@ -185,7 +185,7 @@ void cli_spectrum_print(const json_t *sums)
     putchar('\n');
 }
 
-/* A row of a spectrum in the order of an output. */
+/* A row of a spectrum, for sorting by the value of an output. */
 typedef struct step {
     double value, time;
 } step;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the rows of a load spectrum make together, on the terminal and in files. */
+/* Sums over the rows of a load spectrum, for the terminal and in files. */
 #ifndef CLI_SPECTRUM_H
 #define CLI_SPECTRUM_H
 

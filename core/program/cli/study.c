@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Studies on the command line: run and plan. */
+/* The commands run and plan for studies. */
 #include "../terminal/terminal.h"
 #include "command.h"
 #include "service.h"
@@ -20,7 +20,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* The cores that this process may use. */
+/* Returns the number of cores that this process may use. */
 static size_t count_cores(void)
 {
     cpu_set_t set;
@@ -28,19 +28,19 @@ static size_t count_cores(void)
     return count > 0 ? (size_t)count : 1;
 }
 
-/* On a terminal a line that is drawn anew, else one a minute. */
+/* The progress of a study: on a terminal a line that is redrawn, elsewhere one line a minute. */
 typedef struct teller {
     const cli_session *session;
     const cli_options *options;
     results_input input;
     const char *directory;
-    bool driven; /* the driver of the study, when it has one, has run */
+    bool driven; /* the study's driver, if it has one, has run */
     bool entered;
-    char *replaced; /* how the inputs differ of what earlier runs left, or NULL */
-    char *removed;  /* what was made of that and is gone, or NULL */
+    char *replaced; /* how the inputs of earlier results differ, or NULL */
+    char *removed;  /* files derived from earlier results that are gone, or NULL */
     json_t *sums;   /* over the rows of a spectrum, or NULL */
     bool terminal;
-    double told; /* s into the run */
+    double told; /* s after the start, of the last progress line */
 } teller;
 
 static void tell_progress(void *ctx, const study_counters *counters)
@@ -66,8 +66,8 @@ static void describe(void *ctx, const study_definition *study, const study_tally
     results_write_study_json(&of, study, tally, out);
 }
 
-/* A table stands for the run that wrote it: until this one ends there is none. The cases stay in
-   the journal, whatever the inputs. A driver comes here with each batch of its cases. */
+/* Removes the table of an earlier run, since a table stands for the run that wrote it. The cases
+ * stay in the journal, whatever the inputs. A driver calls this for each batch of its cases. */
 static bool enter(void *ctx, ff_report *report)
 {
     teller *t = ctx;
@@ -83,8 +83,8 @@ static bool enter(void *ctx, ff_report *report)
     return true;
 }
 
-/* Whoever feeds rows has what came of them before he sends the next. Nobody left to read it is the
-   end, as of any program in a pipe. */
+/* Answers a row at once, since whoever feeds rows may wait for the answer before sending the
+ * next. If nobody is left to read it, the run ends, as any program in a pipe does. */
 static void answer_row(void *ctx, size_t index, const json_t *record, bool known)
 {
     const teller *t = ctx;
@@ -109,7 +109,7 @@ static bool begin_rows(study_run *run, const cli_options *options, ff_report *re
     return study_rows_begin(study->rows, report);
 }
 
-/* A line of the study's driver. */
+/* Prints a line of the study's driver. */
 static void say(void *ctx, int indent, const char *line)
 {
     const teller *t = ctx;
@@ -117,7 +117,7 @@ static void say(void *ctx, int indent, const char *line)
     if (t->options->json)
         return;
     if (t->terminal) {
-        fputs("\r\033[K", stderr); /* the line of the progress */
+        fputs("\r\033[K", stderr); /* clears the progress line */
         fflush(stderr);
     }
     if (indent == 0)
@@ -174,14 +174,15 @@ json_t *cli_json_savings(const study_reuse_counts *savings)
                      savings->saved);
 }
 
-/* Its driver has not run: these are the cases that were known. */
+/* Prints the known cases of a study whose driver has not run. */
 static void tell_rest(const study_definition *study)
 {
     printf("these are %s; the rest is done by a run in one process, which takes them over\n",
            study_cases(study));
 }
 
-/* The last line. Of a study whose number of cases its driver leaves open, that is not told. */
+/* Prints the last line. The number of cases is left out if the driver of the study leaves it
+ * open. */
 static void tell_verdicts(const study_definition *study, const study_counters *counters)
 {
     char *verdicts = study_tally_text(&counters->tally);
@@ -199,7 +200,7 @@ static void tell_verdicts(const study_definition *study, const study_counters *c
     free(verdicts);
 }
 
-/* Tells what of that is gone: files of that name may have been written again. */
+/* Prints which derived files are gone, except those that have been written again. */
 static void print_removed(char *removed, const char *files)
 {
     char *rest = NULL, *gone = memory_print_text("%s", "");
@@ -261,8 +262,8 @@ static void answer_end(const teller *t, const study_counters *counters, int code
     results_json_print(answer);
 }
 
-/* Whether the driver of the study runs it; its first cases can be run elsewhere, unless costs
-   count. False after an error. */
+/* Decides whether the driver runs the study. Its first cases can be run elsewhere, unless costs
+ * count. False after an error. */
 static bool settle_driver(const study_run *run, bool *driven, ff_report *report)
 {
     bool spread = run->executor || run->shards > 1;
@@ -272,7 +273,8 @@ static bool settle_driver(const study_run *run, bool *driven, ff_report *report)
                     "costs are measured, one case at a time: it cannot be spread");
 }
 
-/* The files of its driver go when its cases change, as what was made of results does. */
+/* Notes the driver's files, which are removed if its cases change, as files derived from results
+ * are. */
 static void note_files(const study_definition *study, const char *directory)
 {
     char *rest = NULL;
@@ -311,7 +313,7 @@ static void tell_or_answer(const teller *t, const study_counters *counters, bool
         terminal_print_messages(report, stderr, terminal_colour(stderr));
 }
 
-/* Whether --strict fails the study. */
+/* Whether --strict makes the study a failure. */
 static bool is_strict_about(const study_counters *counters, const cli_options *options,
                             const ff_report *report, bool tell)
 {
@@ -321,7 +323,7 @@ static bool is_strict_about(const study_counters *counters, const cli_options *o
                                report, tell);
 }
 
-/* Returns the exit code. */
+/* Runs the study and prints its progress and results; returns the exit code. */
 static int run_and_tell(const study_run *run, teller *t, ff_report *report)
 {
     const study_definition *study = run->study;
@@ -365,7 +367,7 @@ int cli_run_study(cli_session *session, const cli_options *options)
                           .sets = options->sets,
                           .set_count = options->set_count,
                           .pipeline = session->pipeline,
-                          .accuracy = "", /* it is in the keys of the cases */
+                          .accuracy = "", /* the keys of the cases contain it */
                           .key = results_input_key(session->pipeline, ""),
                           .replace = cli_option(options, "replace") != NULL},
                 .directory = directory,
@@ -432,7 +434,7 @@ static void print_plan(const study_run *run, const study_plan *plan)
         printf("  %.*s\n", (int)strcspn(line, "\n"), line);
 }
 
-/* The lines as a list. */
+/* Returns the lines as a list. */
 static json_t *changes(const char *lines)
 {
     json_t *list = json_array();

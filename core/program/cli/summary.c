@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Prints the answers of a run: what the file asks for, and what needs attention. */
 #include "summary.h"
 #include "output-text.h"
 
@@ -15,7 +16,7 @@
 #include <string.h>
 
 enum { VALUE = 24, BAR = 12, MOST_NAME = 40, VERDICT = 65, ERROR = 9 }; /* columns */
-/* Of the lines of what is asked for: the widest name and value, in columns. */
+/* Widths, in columns, of the longest name and value among the requested outputs. */
 typedef struct print_widths {
     int name, value;
 } print_widths;
@@ -23,10 +24,10 @@ typedef struct print_widths {
 typedef struct paper {
     const accuracy_record *errors;
     bool colour;
-    const char *heading; /* waits until something stands below it */
+    const char *heading; /* printed only once a line follows it */
 } paper;
 
-/* Prints text in a colour, or bold, where colour is welcome. */
+/* Prints text in a colour or bold, if the terminal has colours. */
 static void paint(const paper *page, const char *code, const char *text)
 {
     if (page->colour)
@@ -72,7 +73,7 @@ static void print_stage(paper *page, const ff_stage *stage)
     int column = printf("  %-16s  ", stage->name);
     if (stage->seconds > 0)
         column += printf("%-32s  %6.3g %s", stage->use, stage->seconds * time.factor, time.unit);
-    else /* a law by itself takes no time */
+    else /* a law alone takes no time */
         column += printf("%s", stage->use);
     if (*word) {
         printf("%*s", VERDICT - column, "");
@@ -93,8 +94,8 @@ static void print_result(const paper *page, const ff_pipeline *pipeline, const f
     free(words);
 }
 
-/* Prints an output that is asked for: what it is called, and where its extremes lie if the line has
-   room. */
+/* Prints a requested output: its name and value, and the place of its extremes if the line has
+ * room. */
 static void print_asked(const paper *page, const ff_pipeline *pipeline, const results_asked *asked,
                         print_widths widths)
 {
@@ -114,7 +115,7 @@ static void print_asked(const paper *page, const ff_pipeline *pipeline, const re
     free(words);
 }
 
-/* The requested results, and the scalars that were computed besides. */
+/* Whether an output is shown: it was requested, or is a scalar. */
 static bool is_shown(const ff_stage *stage, size_t output)
 {
     const ff_result *result = &stage->results[output];
@@ -138,8 +139,7 @@ static void print_results(paper *page, const ff_pipeline *pipeline, const ff_sta
     }
 }
 
-/* Whether the output is a field, or what others of them are plotted against: it has no value that
-   a line could give. */
+/* Whether the output is a field or an axis of others, which a line cannot show. */
 static bool is_array_only(const ff_result *result, const ff_result *const *axes)
 {
     while (*axes && *axes != result)
@@ -153,7 +153,7 @@ static int widest(int width, const char *text)
     return own > width ? own : width;
 }
 
-/* Prints what the file asks for, in its order, a line for each but fields and axes. */
+/* Prints what the file requests, in its order: a line for each output except fields and axes. */
 static void print_answer(paper *page, const ff_pipeline *pipeline)
 {
     size_t count, length = 0;
@@ -186,7 +186,7 @@ static void print_answer(paper *page, const ff_pipeline *pipeline)
     results_free_asked(list, count);
 }
 
-/* Says how the answers stand to their limits: those that are not surely met one by one. */
+/* Prints a count of the limits that are met, and each limit that is not surely met. */
 static void print_limits(const paper *page, const limits_verdict *limits)
 {
     static const int colours[LIMITS_STANDINGS] = {FF_GOOD, FF_DOUBTFUL, FF_BAD};
@@ -219,7 +219,8 @@ static void print_limits(const paper *page, const limits_verdict *limits)
     free(sentence);
 }
 
-/* What is not good of the numbers, or of the range of the models. */
+/* Prints quality lines that are not good: those about the numbers, or those about the range of
+ * the models. */
 static void print_quality(paper *page, const ff_stage *stage, bool range)
 {
     for (size_t i = 0; i < stage->quality_count; i++) {
@@ -256,7 +257,7 @@ static void print_accepted(paper *page, const ff_stage *stage)
     }
 }
 
-/* Remarks of the models; their warnings stand in the report. */
+/* Prints remarks of the models; their warnings are in the report. */
 static void print_log(paper *page, const json_t *log)
 {
     size_t i;
@@ -279,7 +280,8 @@ static bool is_missed(const accuracy_error *e)
     return !isnan(e->goal) && !(e->relative <= e->goal);
 }
 
-/* Of one output: the error, what the file asks for, and what the error comes from. */
+/* Prints for one output: the error, the error that the file allows, and what the error comes
+ * from. */
 static void print_error_row(const paper *page, const accuracy_error *e, int width)
 {
     char *error = accuracy_print_relative(e), *rest = accuracy_describe(e);
@@ -301,7 +303,7 @@ static void print_error_row(const paper *page, const accuracy_error *e, int widt
     free(error);
 }
 
-/* What the search for the accuracy ended with. */
+/* Prints how the search for the accuracy ended. */
 static void print_search(const accuracy_record *errors, size_t missed)
 {
     if (missed > 0 && *errors->given)
@@ -335,7 +337,7 @@ static int survey_errors(const accuracy_record *errors, size_t *goals, size_t *m
     return (int)width;
 }
 
-/* What was reached of what was asked for, and where errors come from, the largest first. */
+/* Prints which goals were reached, and the sources of error, the largest first. */
 static void print_errors(paper *page, const results_outcome *outcome)
 {
     const accuracy_record *errors = outcome->errors;
@@ -356,7 +358,7 @@ static void print_errors(paper *page, const results_outcome *outcome)
         puts("  no error is told: no output is a scalar or a series of finite numbers");
     }
     for (size_t i = 0; i < errors->count; i++)
-        if (errors->errors[i].relative != 0) /* else no setting changes it */
+        if (errors->errors[i].relative != 0) /* no setting changes the others */
             print_error_row(page, &errors->errors[i], width);
     if (errors->failure)
         terminal_print_wrapped(errors->failure, printf("  a twin failed: "), 4);
@@ -372,7 +374,7 @@ static void print_errors(paper *page, const results_outcome *outcome)
     page->heading = NULL;
 }
 
-/* Prints each stage, with its time, and whatever was computed. */
+/* Prints each stage with its time, and everything that was computed. */
 static void print_everything(paper *page, const ff_pipeline *pipeline)
 {
     page->heading = "Stages";
@@ -395,7 +397,7 @@ static void print_failures(paper *page, const ff_pipeline *pipeline)
             print_stage(page, &pipeline->stages[pipeline->order[i]]);
 }
 
-/* Prints what ran, how many checks were good, and where the rest is. */
+/* Prints what ran, how many checks were good, and where to find more. */
 static void print_tally(const ff_pipeline *pipeline)
 {
     size_t ran = 0, checks = 0, good = 0;

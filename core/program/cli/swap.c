@@ -10,10 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A sentence that grows. */
+/* A sentence under construction. */
 typedef struct sentence {
     char *text;
-    size_t length, count; /* of the list that it ends with */
+    size_t length, count; /* `count`: items of the list at its end */
     FILE *out;
 } sentence;
 
@@ -23,7 +23,7 @@ static void add_to_list(sentence *s, const char *begin, const char *text)
     s->count++;
 }
 
-/* Parameters that the file gives: "z, p0 (card.yaml:33)". */
+/* Adds the parameters that the file gives: "z, p0 (card.yaml:33)". */
 static void add_taken(sentence *s, const ff_stage *stage)
 {
     char last[512] = "";
@@ -80,7 +80,7 @@ static void print_swap(const ff_pipeline *pipeline, const ff_stage *stage, const
 
 void cli_print_swaps(const cli_session *session, const cli_options *options)
 {
-    ff_run *written = NULL; /* the file alone */
+    ff_run *written = NULL; /* the file without --set */
     for (size_t i = 0; i < options->set_count; i++) {
         const char *set = options->sets[i], *equals = strchr(set, '='), *rest = "";
         size_t length = equals ? (size_t)(equals - set) : 0;

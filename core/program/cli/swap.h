@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What an assignment such as "viscosity.use=viscosity/barus" moved. */
+/* What changes when the command line swaps a model: "viscosity.use=viscosity/barus". */
 #ifndef CLI_SWAP_H
 #define CLI_SWAP_H
 
 #include "session.h"
 
-/* Prints, for each stage whose model the command line has changed, what of the file the new one
-   takes and what it cannot take. */
+/* Prints, for each stage whose model the command line has swapped, which parameters of the file
+ * the new model takes and which it cannot take. */
 void cli_print_swaps(const cli_session *session, const cli_options *options);
 
 #endif

@@ -8,8 +8,8 @@
 #include <stdlib.h>
 
 typedef struct verdicts {
-    json_t *tests;       /* NULL: TAP goes to stdout */
-    const char *operand; /* the plugin, for how to repeat a test */
+    json_t *tests;       /* NULL: TAP is printed */
+    const char *operand; /* the plugin, to print how to repeat a test */
     const char *pipeline;
     size_t count, faulty;
 } verdicts;
@@ -50,7 +50,7 @@ static void print_verdict(void *ctx, size_t number, const verify_result *result)
     fflush(stdout);
 }
 
-/* Seconds that a test may take. */
+/* Returns the seconds that a test may take. */
 static double time_limit(void)
 {
     const char *text = getenv("FLANKFILM_VERIFY_LIMIT"), *end;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The SHA-256 of a text, by which a page names the scripts that it may run. */
 #ifndef REPORT_SHA256_H
 #define REPORT_SHA256_H
 

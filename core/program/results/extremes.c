@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Finds the least and the greatest number of a result. */
 #include "extremes.h"
 
 #include "../accuracy/axis.h"

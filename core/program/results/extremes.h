@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The least and the greatest number of a result, with the stage that it comes from. */
 #ifndef RESULTS_EXTREMES_H
 #define RESULTS_EXTREMES_H
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lists what a file requests, and writes its arrays. */
 #include "../arrays/npy.h"
 #include "write.h"
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What an output is called for people. */
 #ifndef RESULTS_LABEL_H
 #define RESULTS_LABEL_H
 

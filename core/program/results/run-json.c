@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Describes a run in JSON: result.json, and the answer of --json. */
 #include "extremes.h"
 #include "json.h"
 #include "write.h"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Calls of ff_run_* that end the program if memory is short. */
 #include "run.h"
 
 #include "../memory/memory.h"
@@ -17,7 +18,7 @@ ff_run *run_copy(const ff_run *run)
     return memory_require(copy);
 }
 
-/* A run that had no memory has no messages. */
+/* Ends the program if the run ran out of memory; it has no messages then. */
 static void require(ff_run *run)
 {
     memory_require(ff_run_report(run));

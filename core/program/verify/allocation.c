@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Allocations of the plugin itself: its calls of malloc, calloc, realloc and free are redirected in
- * its table of imported addresses. Those of the libraries that it uses stay as they are. Behind
- * each block lies a zone that shows a write past its end.
- */
+/* Failing allocations. The plugin's own calls of malloc, calloc and realloc are redirected in
+ * its table of imported addresses; those of the libraries that it uses are not. */
 #include "private.h"
 
 #include "../memory/memory.h"
@@ -16,14 +13,15 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-enum { ZONE = 256, FILLING = 0xA5 }; /* bytes */
+/* State of the child process, which only the redirected functions touch. */
+enum { ZONE = 256, FILLING = 0xA5 };
 
 typedef struct block {
     unsigned char *first;
-    size_t size; /* without the zone */
+    size_t size; /* the last ones; a freed block may be among them */
 } block;
 
-/* Of the child process. A model may allocate in several threads at once. */
+/* Writes an address into the table, which full RELRO leaves read-only. */
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static size_t made, failing;
 static block *blocks; /* in use, in the order of their making but for gaps that were filled */

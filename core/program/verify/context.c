@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The context of a test, and its checks of the process. */
 #include "private.h"
 
 #include "../memory/memory.h"
@@ -54,7 +55,7 @@ void verify_check_process(verify_context *context)
     if (!context->watching)
         return;
     if (getpid() != context->pid)
-        _exit(0); /* a copy of the test that the model made */
+        _exit(0); /* The process is a copy of the test that the model has forked. */
     const char *change = ff_environment_restore(context->environment);
     change = change ? change : verify_process_changed(&context->process);
     if (change)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The functions that a check of a kind works the model under test with. */
+/* The functions by which the check of a kind works with the model under test. */
 #include "private.h"
 
 #include "../memory/memory.h"
@@ -13,8 +13,8 @@
 typedef struct fixture {
     ff_fixture functions;
     verify_context *context;
-    verify_setup *changed; /* values of size 0: as they were */
-    bool *inputs_changed;  /* rows whose input or service stands in `changed` */
+    verify_setup *changed; /* values of size 0 are unchanged */
+    bool *inputs_changed;  /* input rows whose array or service stands in `changed` */
     bool any_change;
 } fixture;
 
@@ -63,7 +63,7 @@ static int32_t set(void *ctx, const char *param, const char *text)
 {
     fixture *f = ctx;
     int index = ff_model_find_param(f->context->model, param);
-    const char *message; /* a check may leave the calibrated range */
+    const char *message; /* true: a check may leave the calibrated range */
     ff_value value;
     if (index < 0 || !verify_read_param(f->context, (size_t)index, text, &value, &message))
         return 0;
@@ -114,7 +114,7 @@ static void clear_group(verify_setup *setup, size_t param)
     }
 }
 
-/* That of the user's run, or a random one, with the changes of the check. */
+/* Returns the setup of the user's run, or a random one, with the check's changes. */
 static verify_setup *make_setup(fixture *f)
 {
     verify_context *context = f->context;
@@ -191,7 +191,7 @@ static const void *service(void *ctx, void *instance, uint32_t output)
     return call.table;
 }
 
-/* Those of the words that name an output of data, but for one. */
+/* Returns the words that name a data output, except `refused`. */
 static char *known_words(const ff_model *model, const char *words, const char *refused)
 {
     char *known = memory_copy_text("", 0), word[64];

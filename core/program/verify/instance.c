@@ -34,7 +34,8 @@ static const char *created(void *ctx, void *self)
     return instance->bare ? "is not needed any further" : NULL;
 }
 
-/* A model may be stopped while it works, and doubt what it has evaluated, without a word. */
+/* Whether a model owes a reason for this status. It may be stopped, or be doubtful after
+ * evaluate, without one. */
 static bool owes_reason(const char *action, ff_status status)
 {
     bool evaluates = !strcmp(action, "evaluate");
@@ -67,8 +68,8 @@ static void log_line(void *ctx, const ff_stage *stage, int32_t level, const char
         breach(ctx, "logged no text");
 }
 
-/* Keeps why the last call failed, for when the instance is closed: of a fault the whole sentence.
- */
+/* Keeps why the last call failed, for use after the instance is closed; for a fault of the
+ * plugin, the whole sentence. */
 static ff_status note(verify_instance *instance, ff_status status)
 {
     const ff_message *first = ff_report_first(ff_instance_report(instance->made));
@@ -87,7 +88,7 @@ static ff_status set(const verify_instance *instance, const ff_param *row, const
     return ff_instance_set_reals(instance->made, row->name, &number, 1);
 }
 
-/* Gives the arrays of the setup. */
+/* Gives the instance the arrays of the setup. */
 static ff_status feed(const verify_instance *instance, const verify_setup *setup)
 {
     ff_status status = FF_OK;
@@ -109,7 +110,7 @@ ff_status verify_instance_new(verify_instance *instance, const verify_setup *set
     const ff_observer observer = {
         .size = sizeof observer, .ctx = instance, .progress = progress, .log = log_line};
     ff_status status = ff_instance_new(context->engine, context->model->id, &instance->made);
-    memory_require(instance->made); /* the model has been loaded */
+    memory_require(instance->made); /* cannot fail, since the model is loaded */
     const ff_model *model = instance->model = ff_instance_stage(instance->made)->loaded->model;
     ff_instance_watch(instance->made, &instance->hooks);
     ff_instance_observe(instance->made, &observer);

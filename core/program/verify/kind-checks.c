@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a kind offers for tests: its checks, and plain laws. */
 #include "private.h"
 
 #include "../memory/memory.h"
@@ -40,7 +41,8 @@ void verify_kind_checks_close(verify_kind_checks *checks)
     *checks = (verify_kind_checks){.offer = NULL};
 }
 
-/* The plain law of the first kind that may feed the row and has one of its interface. */
+/* Returns the plain law of the first kind that may feed the row and offers one with its
+ * interface. */
 static const void *plain_law(ff_engine *engine, const ff_port *row)
 {
     ff_report *report = ff_report_new();
@@ -48,7 +50,8 @@ static const void *plain_law(ff_engine *engine, const ff_port *row)
     char kind[64];
     for (size_t i = 0; !law && ff_word_at(row->from ? row->from : row->name, i, kind, sizeof kind);
          i++) {
-        verify_kind_checks *checks = memory_alloc(sizeof *checks); /* until the process ends */
+        /* lives until the process ends */
+        verify_kind_checks *checks = memory_alloc(sizeof *checks);
         if (verify_kind_checks_open(checks, engine, kind, report) && checks->offer->service &&
             !strcmp(checks->offer->service, row->service))
             law = checks->offer->plain;

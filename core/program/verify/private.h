@@ -16,17 +16,18 @@
 #include <sys/time.h>
 #include <sys/types.h>
 
-/* kind-checks.c: the model conformance/KIND, which says what models of that kind owe. */
+/* kind-checks.c: the model conformance/KIND, which states what models of that kind must do. */
 typedef struct verify_kind_checks {
     const ff_conformance *offer;
     ff_instance *instance;
 } verify_kind_checks;
 
-/* False when there is no such model, or with an error. `offer` lives until it is closed. */
+/* False if there is no such model, or with an error. `offer` lives until it is closed. */
 bool verify_kind_checks_open(verify_kind_checks *checks, ff_engine *engine, const char *kind,
                              ff_report *report);
 void verify_kind_checks_close(verify_kind_checks *checks);
-/* For each service input of the model a plain law that the law's kind offers; NULL: none. */
+/* Returns, for each service input of the model, a plain law that the law's kind offers; NULL:
+ * none. */
 const void **verify_plain_laws(ff_engine *engine, const ff_loaded *loaded);
 
 /* random.c: Splitmix64, which gives the same numbers in every run. */
@@ -34,15 +35,15 @@ typedef struct verify_random {
     uint64_t state;
 } verify_random;
 
-double verify_uniform(verify_random *random); /* [0, 1) */
+double verify_uniform(verify_random *random); /* in [0, 1) */
 size_t verify_below(verify_random *random, size_t count);
 
-/* What a child tells its parent; lies in memory that both share. */
+/* What a child tells its parent, in memory that both share. */
 typedef struct verify_outcome {
     bool finished;
     verify_finding finding;
-    char step[128];          /* the call at hand */
-    ff_guard_mirror running; /* whose code */
+    char step[128];          /* the call in progress */
+    ff_guard_mirror running; /* whose code is running */
     char why[512];
 } verify_outcome;
 
@@ -54,25 +55,25 @@ enum { VERIFY_SIGNALS = 32, VERIFY_LIMITS = RLIM_NLIMITS };
 /* context.c: an engine that finds the plugins of the folder before all others. */
 ff_engine *verify_open_engine(const char *root);
 
-/* process.c: what of the process a model must leave alone beside arithmetic and locale. */
+/* process.c: state of the process that a model must not change, beside arithmetic and locale. */
 typedef struct verify_process {
     struct sigaction signals[VERIFY_SIGNALS];
     sigset_t blocked;
-    stack_t stack; /* of the handlers */
+    stack_t stack; /* on which signal handlers run */
     struct itimerval timers[3];
     struct stat streams[3];
     char folder[PATH_MAX];
     mode_t mask;
     struct rlimit limits[VERIFY_LIMITS];
     uint64_t variables; /* a hash of the environment */
-    long children;      /* differs once there was one more */
+    long children;      /* changes if a child process was made */
     size_t threads;
     int priority;
-    bool has_timers; /* of timer_create */
+    bool has_timers; /* made by timer_create */
 } verify_process;
 
 void verify_process_look(verify_process *process);
-/* What is not as it was then: completes 'the plugin ...'. NULL: nothing. */
+/* Returns what has changed since, to complete 'the plugin ...'. NULL: nothing. */
 const char *verify_process_changed(const verify_process *was);
 
 /* context.c: one test of one model. */
@@ -81,30 +82,30 @@ typedef struct verify_context {
     ff_engine *engine;
     const ff_loaded *loaded;
     const ff_model *model; /* under test */
-    const void **laws;     /* of each service input a plain law; NULL: none */
+    const void **laws;     /* a plain law for each service input; NULL: none */
     verify_random random;
-    FILE *table;                /* for a model that reads one, in memory; NULL: none yet */
-    ff_run *user;               /* the user's pipeline, from which: */
+    FILE *table;                /* in memory, for a model that reads a table; NULL: none yet */
+    ff_run *user;               /* the user's pipeline; the next two come from it */
     struct verify_setup *given; /* NULL: there is none */
     verify_outcome *outcome;
     ff_report *messages; /* about the parameter that was read last */
-    bool redirected;     /* its calls of malloc */
-    bool watching;       /* from verify_watch on the model may change nothing of the process */
+    bool redirected;     /* since verify_watch the model may change nothing of the process */
+    bool watching;       /* the environment to be kept; NULL: nothing is watched yet */
     pid_t pid;
-    ff_environment *environment; /* as it was; NULL: nothing is watched yet */
+    ff_environment *environment; /* Begins a test; `loaded` and `outcome` are set. */
     verify_process process;
 } verify_context;
 
-/* `loaded` and `outcome` are set. */
+/* Fails if the process has changed, which is then blamed on the current step. */
 void verify_context_begin(verify_context *context, ff_engine *engine);
 void verify_watch(verify_context *context);
-/* Fails when the process is not as it was, or a block of the model's memory was overrun, which the
-   step at hand has done. */
+/* Names the next call, for findings such as a crash, a hang or a change of the process. */
 void verify_check_process(verify_context *context);
 
-/* Names the call in which a crash, a hang or a change of the process is then found. */
+/* Record a finding; only the first one is kept. Both return false. */
 void verify_step(verify_context *context, const char *format, ...) FF_PRINTF(2, 3);
-/* Only the first finding is kept. Return false. */
+/* Reads a parameter from text as a user writes it; NULL: from its preset. False if it is
+ * refused. *message: the first error or warning, valid until the next call, or NULL. */
 bool verify_fail(verify_context *context, const char *format, ...) FF_PRINTF(2, 3);
 bool verify_skip(verify_context *context, const char *format, ...) FF_PRINTF(2, 3);
 
@@ -113,30 +114,32 @@ bool verify_skip(verify_context *context, const char *format, ...) FF_PRINTF(2, 
 bool verify_read_param(verify_context *context, size_t param, const char *text, ff_value *value,
                        const char **message);
 
-double verify_now(void);                             /* s */
-uint64_t verify_data_outputs(const ff_model *model); /* one bit for each of the first 64 */
+double verify_now(void); /* s */
+/* setup.c: the parameters, services and inputs of an instance. */
+uint64_t verify_data_outputs(const ff_model *model);
 
 /* setup.c: what an instance is made of and fed with. */
 typedef struct verify_setup {
     verify_context *context;
     ff_value *values;      /* of each parameter; size 0: not set */
     ff_array *inputs;      /* of each input row */
-    const void **services; /* the table of a service input; NULL: not connected */
+    const void **services; /* a required file for which no contents could be drawn; NULL: none */
     size_t (*shapes)[FF_MAX_RANK];
-    const char *lacks; /* a required file that could not be drawn; NULL: none */
+    const char *lacks; /* Parameters in their calibrated range; within and at their physical limits;
+                          or only the required ones, in their calibrated range. */
 } verify_setup;
 
-/* Parameters in their calibrated range; anywhere in their physical limits, and at them; or in the
-   calibrated range, the required ones alone. */
+/* with the plain laws and nothing else */
 typedef enum verify_range { VERIFY_CALIBRATED, VERIFY_PHYSICAL, VERIFY_REQUIRED } verify_range;
 
-verify_setup *verify_setup_new(verify_context *context); /* plain laws, and nothing else */
-/* random.c: of a parameter, in its unit. */
+/* random.c: draws a value of a parameter, in the row's unit. */
+verify_setup *verify_setup_new(verify_context *context);
+/* table.c: returns the path of a file with the columns of the model, with different numbers at
+ * each call. It lasts as long as the process. NULL: the model states no columns. */
 double verify_draw_number(const ff_param *row, verify_random *random, verify_range range);
-/* table.c: the path of a file with the columns of the model and other numbers at each call, which
-   lasts as long as the process; NULL: it states none. */
+/* Whether everything required could be drawn. If not, the test is skipped, unless `quietly`. */
 const char *verify_make_table(verify_context *context);
-/* Whether all that is required could be drawn; else the test is skipped, unless `quietly`. */
+/* Whether a service that is connected replaces the parameter. */
 bool verify_setup_can_be_used(const verify_setup *setup, bool quietly);
 /* A service that is there takes the place of the parameter. */
 bool verify_setup_is_replaced(const verify_setup *setup, const ff_param *row);
@@ -144,14 +147,15 @@ void verify_setup_draw_params(verify_setup *setup, verify_random *random, verify
 void verify_setup_draw_inputs(verify_setup *setup, verify_random *random);
 void verify_setup_give(verify_setup *setup, size_t input, const double *data, uint32_t rank,
                        const size_t *shape);
-bool verify_setup_is_complete(const verify_setup *setup); /* every required input is there */
+/* user-run.c: takes the parameters of the stage of the user's pipeline that uses the model, and,
+ * if `run`, the arrays that other stages feed it. False with errors in the report. */
+bool verify_setup_is_complete(const verify_setup *setup);
 
-/* user-run.c: takes the parameters of the stage of the user's pipeline that uses the model and,
-   with `run`, what the other stages feed it. False with errors in the report. */
+/* instance.c: one instance of the model, which the engine makes and runs under watch. */
 bool verify_take_user_run(verify_context *context, const verify_request *request, ff_engine *engine,
                           bool runs);
 
-/* instance.c: one instance of the model, which the engine makes and runs under watch. */
+/* as loaded by the engine of the instance */
 typedef struct verify_instance {
     verify_context *context;
     ff_instance *made;
@@ -159,59 +163,62 @@ typedef struct verify_instance {
     ff_hooks hooks;
     bool bare, created;
     void *self;
-    size_t room;      /* bytes that were allocated for `self`; 0: not known */
-    char text[700];   /* why the last call failed; "" */
-    char breach[400]; /* of the interface: completes 'it ...' */
-    double stop_at;   /* progress asks to stop from then on */
+    size_t room;      /* why the last call failed, or "" */
+    char text[700];   /* how the model broke the interface, to complete 'it ...' */
+    char breach[400]; /* from this time on, progress asks the model to stop */
+    double stop_at; /* Makes an instance with the parameters, laws and inputs of the setup, without
+                       calling the model yet. It must be closed whatever the status; so must those
+                       of the next two functions. */
     bool asked_to_stop;
 } verify_instance;
 
-/* An instance with the parameters, laws and inputs of the setup, of which the model knows nothing
-   yet. To be closed whatever the status is, like those below. */
+/* Calls create alone, for an instance without parameters. False after a failure. */
 ff_status verify_instance_new(verify_instance *instance, const verify_setup *setup);
-/* create alone, of an instance without parameters. False after a failure. */
+/* Calls create, set, wire and ready. */
 bool verify_instance_create(verify_instance *instance, verify_context *context);
-/* create, set, wire, ready. */
+/* Evaluates the named outputs with the inputs of the setup; NULL: all outputs that the model
+ * does not refuse. */
 ff_status verify_instance_open(verify_instance *instance, const verify_setup *setup);
-/* Evaluates for the outputs named, with the inputs of the setup; NULL: for all that the model does
-   not refuse. */
+/* Calls work(ctx), which calls that function of the model. */
 ff_status verify_instance_run(verify_instance *instance, const char *outputs,
                               const verify_setup *setup);
-/* Calls work(ctx), which calls that function of the model. */
+/* Fails if a call that gave this status broke the interface, reported a fault of the plugin, or
+ * wrote outside its memory. */
 ff_status verify_instance_call(verify_instance *instance, const char *function,
                                ff_status (*work)(void *ctx), void *ctx);
-/* Fails when a call, which came to that status, broke the interface, found a fault of its own, or
-   wrote where it must not. */
+/* search.c: finds parameters and inputs that the model works with. */
 bool verify_instance_is_sound(const verify_instance *instance, ff_status status);
 void verify_instance_close(verify_instance *instance);
 
-/* search.c: what the model works with. */
+/* Opens an instance with inputs and with parameters that the model accepts: the user's, or
+ * random ones. NULL if none were found, which skips the test unless `quietly`. */
 
 static inline bool verify_is_good(ff_status status)
 {
     return status == FF_OK || status == FF_DOMAIN;
 }
 
-/* Opens an instance with parameters that the model accepts, those of the user or random ones, and
-   inputs. NULL when none were found, which is a skip unless `quietly`. */
+/* Opens an instance and finds inputs that it can work with. *served: the names of the outputs
+ * that it then gives. NULL if there are none. */
 verify_setup *verify_open_accepted(verify_context *context, verify_instance *instance,
                                    bool quietly);
-/* Opens an instance and finds inputs that it can work with. *served: the names of the outputs that
-   it then gives. NULL when there are none. */
+/* The same, trying the outputs one by one until the time is up; false after a failure. */
 verify_setup *verify_find_work(verify_context *context, verify_instance *instance, char **served);
-/* The same with the outputs found one by one until the time is up; false after a failure. */
+/* Fails unless both have the same outputs to the bit. */
 bool verify_find_served(verify_context *context, verify_instance *instance,
                         const verify_setup *setup, char **served, double end);
 /* Fails unless the outputs of both are the same to the bit. */
 bool verify_outputs_agree(verify_context *context, const verify_instance *a,
                           const verify_instance *b, const char *when);
 
-/* fixture.c: runs a check of the model's kind. */
+/* allocation.c: makes the n-th allocation of the plugin fail (0: none), and counts them. False
+ * if the plugin's calls cannot be redirected. */
 void verify_run_check(verify_context *context, const ff_check *check);
 
-/* allocation.c: the plugin's own calls of malloc. False when they cannot be redirected. */
+/* Returns the bytes from the address to the end of the block of the plugin that holds it; 0: no
+ * such block. */
 bool verify_allocations_redirect(const ff_model *model);
-/* Makes the n-th allocation from now on fail (0: none), and counts them. */
+/* test-life.c, test-outputs.c: requirements on any model. False after a failure. */
 void verify_allocations_fail(size_t nth);
 size_t verify_allocations_made(void);
 /* Bytes from there to the end of the block that the plugin allocated; 0: it is in none. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What of its process a model must leave alone, beside arithmetic and locale. */
+/* The state of the process that a model must not change, beside arithmetic and locale. */
 #include "private.h"
 
 #include "../study/store/hash.h"
@@ -22,7 +22,7 @@ static size_t count_threads(void)
     return count;
 }
 
-/* Of timer_create. */
+/* Whether the process has timers of timer_create. */
 static bool has_timers(void)
 {
     FILE *list = fopen("/proc/self/timers", "re");
@@ -32,7 +32,7 @@ static bool has_timers(void)
     return any;
 }
 
-/* Over "NAME=value" of all. */
+/* Hashes the texts "NAME=value" of the environment. */
 static uint64_t hash_variables(void)
 {
     uint64_t hash = STUDY_HASH_START;
@@ -41,7 +41,8 @@ static uint64_t hash_variables(void)
     return hash;
 }
 
-/* Memory of the largest process that this one has waited for; -1: one is there still. */
+/* Returns the memory of the largest child process that has ended; -1: a child is still there. A
+ * change shows that there was another child. */
 static long children(void)
 {
     struct rusage usage;
@@ -63,7 +64,7 @@ void verify_process_look(verify_process *process)
     if (!getcwd(process->folder, sizeof process->folder))
         process->folder[0] = 0;
     for (int i = 0; i < 3; i++)
-        fstat(i, &process->streams[i]); /* of a closed one: zeros */
+        fstat(i, &process->streams[i]); /* zeros for a closed stream */
     for (int i = 0; i < VERIFY_LIMITS; i++)
         getrlimit((__rlimit_resource_t)i, &process->limits[i]);
     for (int i = 0; i < 3; i++)
@@ -75,7 +76,8 @@ void verify_process_look(verify_process *process)
     process->has_timers = has_timers();
 }
 
-/* A thread that was waited for may still be listed for a moment. */
+/* Whether there are more threads than before. A thread that was joined may still be listed for a
+ * moment. */
 static bool has_more_threads(const verify_process *was, const verify_process *is)
 {
     const struct timespec moment = {.tv_nsec = 1000000};

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Random numbers, and random values of parameters. */
 #include "private.h"
 
 #include <math.h>
@@ -16,7 +17,8 @@ size_t verify_below(verify_random *random, size_t count)
     return (size_t)(verify_uniform(random) * (double)count);
 }
 
-/* Evenly over the numbers, or over their magnitudes when these span more than two decades. */
+/* Draws evenly over the numbers, or over their logarithms if the range spans more than two
+ * decades. */
 static double between(verify_random *random, double low, double high)
 {
     double share = verify_uniform(random);
@@ -27,7 +29,7 @@ static double between(verify_random *random, double low, double high)
     return low + share * (high - low);
 }
 
-/* In the row's unit. */
+/* The result is in the row's unit. */
 double verify_draw_number(const ff_param *row, verify_random *random, verify_range range)
 {
     double low = row->low, high = row->high;

@@ -17,19 +17,19 @@
 #include <time.h>
 #include <unistd.h>
 
-/* What a test tries: loading the model, the user's file, what any model owes, what its kind asks.
- */
+/* What a test is about: loading the model, the user's file, rules for any model, rules of its
+ * kind. */
 typedef enum matter { LOADING, USER_FILE, ANY_MODEL, ITS_KIND } matter;
 
-/* Which models a test concerns; from WITH_DATA on it needs inputs. */
+/* Which models a test applies to; those from WITH_DATA on need inputs. */
 typedef enum concern { ALL, WITH_PARAMS, WITH_PLACES, WITH_DATA } concern;
 
 typedef struct test {
     const char *name, *claim;
     matter matter;
     concern concern;
-    bool (*run)(verify_context *context); /* ANY_MODEL */
-    const ff_check *check;                /* ITS_KIND */
+    bool (*run)(verify_context *context); /* for ANY_MODEL */
+    const ff_check *check;                /* for ITS_KIND */
 } test;
 
 static const test descriptor = {
@@ -68,7 +68,8 @@ typedef struct session {
     size_t number;
     ff_report *report;
     bool good;     /* the user's file can be used */
-    char *missing; /* a copy of `only`, blank where a test has that name; NULL: tests are tried */
+    char *missing; /* a copy of `only`, in which names of existing tests are blanked; NULL: tests
+                      are tried */
 } session;
 
 static bool concerns(const test *t, const ff_model *model)
@@ -86,7 +87,7 @@ static bool concerns(const test *t, const ff_model *model)
     return true;
 }
 
-/* A warning at loading fails the test, too: the loader has undone what it is about. */
+/* Loads the model. A warning fails the test, too, since the loader has undone what it warns of. */
 static bool load(verify_context *context, ff_engine *engine, const char *id)
 {
     ff_report *report = ff_report_new();
@@ -97,7 +98,8 @@ static bool load(verify_context *context, ff_engine *engine, const char *id)
     return context->loaded && context->outcome->finding == VERIFY_PASSED;
 }
 
-/* Inputs cost a run of the pipeline; parameters do not. */
+/* Takes the user's pipeline for a test. With `inputs` the pipeline is run; parameters alone need
+ * no run. */
 static bool take_user_run(verify_context *context, const verify_request *request, ff_engine *engine,
                           bool inputs)
 {
@@ -139,10 +141,11 @@ static void try_model(verify_context *context, const session *s, ff_engine *engi
         run_watched(context, t, inputs || t->run == verify_test_environment);
 }
 
-/* The program itself does without them, but other programs that use the library may not. */
+/* Runs the destructors of the plugin. The program skips them, but other users of the library may
+ * not. */
 static void run_destructors(verify_context *context)
 {
-#ifndef __SANITIZE_ADDRESS__ /* which would count what the test has left behind */
+#ifndef __SANITIZE_ADDRESS__ /* a sanitizer would count the memory that the test has left */
     context->watching = false;
     verify_step(context, "running its destructors");
     exit(0);
@@ -151,9 +154,11 @@ static void run_destructors(verify_context *context)
 #endif
 }
 
-static verify_outcome *watched; /* of the test in this process: a handler takes no argument */
+static verify_outcome
+    *watched; /* of the test in this process; global since a signal handler takes no argument */
 
-/* A model that forks at each call would fill the machine with copies of the test. */
+/* Ends the child, since a model that forks at each call would fill the machine with copies of
+ * the test. */
 static void on_fork(void)
 {
     snprintf(watched->why, sizeof watched->why, "started another process while %s", watched->step);
@@ -182,7 +187,7 @@ static _Noreturn void child(const session *s, const test *t, verify_outcome *out
     _exit(0);
 }
 
-/* What the child printed, its first line; "" for nothing. */
+/* Writes the first line that the child printed; "" if it printed nothing. */
 static void first_words(FILE *capture, char *out, size_t size)
 {
     rewind(capture);
@@ -194,7 +199,7 @@ static void first_words(FILE *capture, char *out, size_t size)
 static void conclude(verify_outcome *outcome, int status, bool late, FILE *capture,
                      const verify_request *request, verify_result *result)
 {
-    static const char told[] = "error: "; /* by the handler of crashes */
+    static const char told[] = "error: "; /* written by the crash handler */
     char words[380], end[CRASH_SENTENCE];
     first_words(capture, words, sizeof words);
     result->finding = outcome->finding;
@@ -221,7 +226,8 @@ static void conclude(verify_outcome *outcome, int status, bool late, FILE *captu
         snprintf(result->why, sizeof result->why, "printed \"%.100s\"", words);
 }
 
-/* Waits for the child, but not for ever, and ends what it has started; true when it was late. */
+/* Waits for the child until the limit, and ends the processes that it has started. True if it
+ * was late. */
 static bool await(pid_t pid, double limit, int *status)
 {
     double end = verify_now() + limit;
@@ -265,7 +271,7 @@ static void run_test(const session *s, const test *t, verify_result *result)
     munmap(outcome, sizeof *outcome);
 }
 
-/* Parts ".../kind/name.so" into root and id, each to be freed. */
+/* Splits ".../kind/name.so" into root and id, each to be freed. */
 static bool part(const char *path, char **root, char **id)
 {
     const char *name = strrchr(path, '/');
@@ -284,7 +290,7 @@ static bool part(const char *path, char **root, char **id)
     return good;
 }
 
-/* Returns where the name stands in a list with commas; NULL where it does not. */
+/* Returns where the name stands in a comma-separated list; NULL: it does not. */
 static const char *find_among(const char *name, const char *names)
 {
     size_t length = strlen(name);
@@ -296,14 +302,14 @@ static const char *find_among(const char *name, const char *names)
     return NULL;
 }
 
-/* Overwrites the name of a test with blanks wherever it is asked for. */
+/* Blanks the name of a test wherever it is requested. */
 static void cross_out(session *s, const char *name)
 {
     for (const char *at; (at = find_among(name, s->missing));)
         memset(s->missing + (at - s->missing), ' ', strlen(name));
 }
 
-/* False where a name that is asked for is that of no test, or none is asked for. */
+/* False, with an error, if a requested name is that of no test, or none is requested. */
 static bool check_asked(session *s)
 {
     const char *only = s->request->only;
@@ -316,7 +322,7 @@ static bool check_asked(session *s)
     return ff_report_errors(s->report) == 0;
 }
 
-/* False when nothing else can be tried. */
+/* Tries a test. False if no other can be tried. */
 static bool try(session *s, const test *t)
 {
     verify_result result = {.test = t->name, .claim = t->claim, .finding = VERIFY_LISTED};
@@ -324,7 +330,7 @@ static bool try(session *s, const test *t)
     bool asked = !s->request->only || find_among(t->name, s->request->only);
     if (file && !s->request->pipeline)
         return true;
-    if (s->missing) { /* the names are looked up before anything is tried */
+    if (s->missing) { /* first, the requested names are looked up */
         cross_out(s, t->name);
         return true;
     }
@@ -332,7 +338,7 @@ static bool try(session *s, const test *t)
         s->tell(s->ctx, ++s->number, &result);
         return true;
     }
-    if (!asked && !file) /* a test loads the model in its own process */
+    if (!asked && !file) /* in the process of each test, the model is loaded again */
         return true;
     run_test(s, t, &result);
     if (file && result.finding != VERIFY_PASSED)
@@ -393,7 +399,7 @@ bool verify_plugin(const verify_request *request,
         return ff_error(report, FF_FAULT_INPUT, FF_NOWHERE,
                         "its place must be KIND/NAME.so, as its id says", "%s is not a plugin",
                         request->path);
-    setenv("OPENBLAS_NUM_THREADS", "1", 1); /* a thread that stays is then the model's own */
+    setenv("OPENBLAS_NUM_THREADS", "1", 1); /* so that a thread that remains is the model's own */
     setenv("OMP_NUM_THREADS", "1", 1);
     s.engine = verify_open_engine(s.root);
     if (request->only && !request->list) {

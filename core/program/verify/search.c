@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Looks for parameters and inputs that the model works with. */
+/* Searches for parameters and inputs that the model works with. */
 #include "private.h"
 
 #include "../memory/memory.h"
@@ -18,7 +18,7 @@ verify_setup *verify_open_accepted(verify_context *context, verify_instance *ins
         if (!context->given)
             verify_setup_draw_params(setup, &context->random, VERIFY_CALIBRATED);
         if (!context->given ||
-            !verify_setup_is_complete(setup)) /* their pipeline may not have run */
+            !verify_setup_is_complete(setup)) /* the user's pipeline may not have run */
             verify_setup_draw_inputs(setup, &context->random);
         if (!verify_setup_can_be_used(setup, quietly))
             return NULL;
@@ -49,13 +49,14 @@ bool verify_find_served(verify_context *c, verify_instance *instance, const veri
             return false;
         if (ff_instance_result(instance->made, row->name, &result) == FF_OK)
             memory_add_text(served, " %s", row->name);
-        else if (status != FF_UNSUPPORTED && status != FF_STOPPED) /* stopped: too slow to tell */
+        else if (status != FF_UNSUPPORTED &&
+                 status != FF_STOPPED) /* FF_STOPPED: too slow to tell */
             return verify_fail(c, "\"%s\" cannot be had alone: %s", row->name, instance->text);
     }
     return true;
 }
 
-/* The names of the outputs of the last run. */
+/* Returns the names of the outputs of the last run. */
 static char *list_given(const verify_instance *instance)
 {
     const ff_result *result;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Random parameters and inputs. */
+/* Draws random parameters and inputs. */
 #include "private.h"
 
 #include "../memory/memory.h"
@@ -79,7 +79,8 @@ static void draw_value(verify_setup *setup, size_t param, verify_random *random,
     }
 }
 
-/* Of a group's members that may be drawn, the one to give: drawn with equal chance. */
+/* Chooses which member of a group to give, each with equal chance, among those that can be
+ * drawn. */
 static size_t choose_member(const ff_model *model, size_t first, verify_random *random)
 {
     const char *group = ff_model_param(model, first)->group;
@@ -104,7 +105,7 @@ static bool is_first_of_group(const ff_model *model, size_t index)
     return true;
 }
 
-/* The group does without any of its members given. */
+/* Whether no member of the group must be given, since one has a preset. */
 static bool has_preset(const ff_model *model, size_t member)
 {
     const char *group = ff_model_param(model, member)->group;
@@ -141,7 +142,7 @@ bool verify_setup_can_be_used(const verify_setup *setup, bool quietly)
     return !setup->lacks && !law;
 }
 
-/* A service that replaces parameters is there in every other draw, so that both ways are tried. */
+/* Connects a service that replaces parameters in every other draw, so that both ways are tried. */
 static void draw_replacements(verify_setup *setup, verify_random *random)
 {
     const ff_model *model = setup->context->model;
@@ -199,7 +200,8 @@ static size_t stir(size_t sum, const char *text, size_t length)
     return sum;
 }
 
-/* Equal names of one wire, equal lengths; before 1.3 of all wires. */
+/* Returns the length of a dimension: equal for equal names of one wire, and before 1.3 of all
+ * wires. */
 static size_t length_of(const ff_model *model, const ff_port *row, uint32_t at, size_t seed)
 {
     static const size_t lengths[] = {1, 2, 3, 7, 0};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A file for a model that reads a table: its columns are those that the model states. */
+/* Makes a file for a model that reads a table, with the columns that the model states. */
 #include "private.h"
 
 #include "../memory/memory.h"
@@ -30,7 +30,7 @@ static void draw_column(const ff_param *column, size_t rows, verify_random *rand
         memory_sort(numbers, rows, sizeof *numbers);
 }
 
-/* The required columns, and any of the others. */
+/* Writes the required columns, and a random choice of the others. */
 static void write_table(FILE *file, const ff_model *model, verify_random *random)
 {
     size_t columns = 0, rows = count_rows(model);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Tests of models that compute arrays. */
+/* Tests for models that compute arrays. */
 #include "private.h"
 
 #include <pthread.h>
@@ -56,7 +56,8 @@ static void *work(void *argument)
     return NULL;
 }
 
-/* At the same time, unless the model forbids it. Nobody watches: there is one thread more. */
+/* Runs two instances at the same time, unless the model forbids it. The process is not watched,
+ * since it has one more thread. */
 static void work_twice(verify_context *c, shift *here, shift *there)
 {
     pthread_t thread;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Takes parameters and inputs for a test from a pipeline of the user. */
 #include "private.h"
 
 #include "../accuracy/models.h"
@@ -10,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The name of the stage that uses the model; NULL after an error. */
+/* Returns the name of the stage that uses the model; NULL after an error. */
 static const char *find_stage(ff_run *user, const char *id)
 {
     const ff_node *stages = ff_node_get(ff_run_root(user), "pipeline");
@@ -33,8 +34,8 @@ static bool is_connected(const ff_stage *stage, const char *wire)
     return false;
 }
 
-/* Whether the result tells of an oil that the laws of the tests, which stand in for those of the
-   file, know nothing of. */
+/* Whether the result depends on the oil. The tests replace the laws of the file, so such a
+ * result would not agree with them. */
 static bool is_of_oil(const ff_pipeline *pipeline, const ff_result *result)
 {
     for (size_t i = 0; i < pipeline->count; i++) {
@@ -47,7 +48,8 @@ static bool is_of_oil(const ff_pipeline *pipeline, const ff_result *result)
     return false;
 }
 
-/* Plain laws stand for those that feed the stage. */
+/* Takes the parameters of the stage and what feeds it, with plain laws in place of the stages
+ * that give services. */
 static bool take_stage(verify_context *context, const ff_pipeline *pipeline, const char *name)
 {
     const ff_model *model = context->model;
@@ -83,7 +85,7 @@ bool verify_take_user_run(verify_context *context, const verify_request *request
     const char *name = run_has_errors(user) ? NULL : find_stage(user, model->id);
     if (!name)
         return false;
-    bool data = verify_data_outputs(model); /* a law has none, and no output asks for it */
+    bool data = verify_data_outputs(model); /* a law has no data outputs that could be requested */
     char *outputs = memory_print_text("outputs=[%s.*]", name);
     if (data)
         run_set(user, outputs, NULL, NULL);

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Outputs of dynamics/coupled. */
 #include "../oscillator/landings.h"
 #include "../oscillator/motion-view.h"
 #include "coupled-motion.h"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Follows a motion with oil between the flanks. */
 #include "flow-run.h"
 
 #include <float.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The motion of gears without load, at rest in the backlash. */
 #include "motion.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Losses of the film. */
 #include "results.h"
 
 #include "../contact/lanes.h"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Measures the error of the pressure peak on more cells. */
 #include "../solvers/grid-level.h"
 #include "results.h"
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Errors of the pressure peak by the time steps. */
 #ifndef EHL_TIME_ERROR_H
 #define EHL_TIME_ERROR_H
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Static condensation of a sector by a sparse Cholesky factorisation. */
 #include "condense.h"
 
 #include "../../numerics/room.h"
@@ -10,16 +11,16 @@
 
 typedef struct work {
     const stiffness_sector *sector;
-    /* First degree of freedom of each node, those inside first, then those of the left and of the
-       right side; STIFFNESS_NO_NODE where it is held. */
+    /* Index of the first degree of freedom of each node: first the nodes inside, then those on
+     * the left and on the right side; STIFFNESS_NO_NODE for a held node. */
     size_t *freedom;
     size_t inside, side;
     cholmod_common common;
     cholmod_triplet *triplets;
     cholmod_factor *factor;
-    size_t *place;                  /* where the factor has a degree of freedom */
+    size_t *place;                  /* position of each degree of freedom in the factor */
     double *corner;                 /* L_ss, column-major, in the factor's order */
-    cholmod_dense *load, *solution; /* a column for each load, in the factor's order */
+    cholmod_dense *load, *solution; /* one column for each load, in the factor's order */
     cholmod_dense *spare[2];
 } work;
 
@@ -55,7 +56,7 @@ static void add_triplet(cholmod_triplet *t, size_t row, size_t column, double va
     t->nnz++;
 }
 
-/* Adds the stiffness of one element to the matrix, of which the lower half is kept. */
+/* Adds the stiffness of one element to the matrix, of which the lower half is stored. */
 static void add_element(work *w, size_t element, double k[16][16])
 {
     size_t at[16];
@@ -74,7 +75,7 @@ static double *column_of(const cholmod_dense *matrix, size_t column)
     return (double *)matrix->x + column * matrix->d;
 }
 
-/* Analyses and factorises with the sides behind all that lies inside. */
+/* Analyses and factorises the matrix, with the degrees of freedom of the sides last. */
 static int factorise_ordered(work *w, cholmod_sparse *matrix, int *behind, int *order)
 {
     for (size_t i = 0; i < matrix->nrow; i++)
@@ -102,8 +103,8 @@ static int factorise(work *w)
     return w->common.status == CHOLMOD_OK ? STIFFNESS_CONDENSED : STIFFNESS_CONDENSE_SINGULAR;
 }
 
-/* A matrix of m x k, or its transpose ('T'), by one of k x n. By its name in Fortran: under that in
-   C a program that is linked with GSL finds GSL's own, which is many times slower. */
+/* Multiplies an m x k matrix, or its transpose ('T'), by a k x n matrix. The Fortran name is
+ * used because a program linked with GSL finds GSL's own, much slower function under the C name. */
 static void multiply(char a_form, char b_form, int m, int n, int k, double *a, int a_rows,
                      double *b, int b_rows, double *product)
 {
@@ -112,8 +113,8 @@ static void multiply(char a_form, char b_form, int m, int n, int k, double *a, i
     (&a_form, &b_form, &m, &n, &k, &one, a, &a_rows, b, &b_rows, &zero, product, &m);
 }
 
-/* Copies L_ss out of the supernodes, whose columns have the rows of L in order, the diagonal
-   first. */
+/* Copies L_ss out of the supernodes, whose columns hold the rows of L in order, the diagonal
+ * first. */
 static void copy_corner(const work *w)
 {
     const cholmod_factor *f = w->factor;
@@ -150,7 +151,8 @@ static int solve(work *w, int system, cholmod_dense *known)
                           &w->spare[1], &w->common);
 }
 
-/* Adds a matrix whose rows, and where it is square columns, are the sides in the factor's order. */
+/* Adds a matrix whose rows are the sides in the factor's order; the columns, too, if it is
+ * square. */
 static void put_in_order(const work *w, const double *from, size_t columns, int square, double *to)
 {
     size_t both = 2 * w->side;
@@ -161,8 +163,8 @@ static void put_in_order(const work *w, const double *from, size_t columns, int 
     }
 }
 
-/* From L y = f: L_ss y_s, the forces on the sides, and x = L_ii'^-1 y_i with x' f, the compliance.
- */
+/* From L y = f, computes L_ss y_s, the forces on the sides, and with x = L_ii'^-1 y_i the
+ * compliance x' f. */
 static int condense_loads(work *w, stiffness_condensed *c, double *product)
 {
     size_t both = 2 * w->side, all = w->inside + both;
@@ -183,9 +185,10 @@ static int condense_loads(work *w, stiffness_condensed *c, double *product)
     return done;
 }
 
-/* Static condensation (Guyan 1965) with i inside, s on the sides, loads f: the stiffness K_ss -
-   K_si K_ii^-1 K_is = L_ss L_ss' (George & Liu 1981, Computer solution of large sparse positive
-   definite systems), the forces on the sides -K_si K_ii^-1 f, the compliance f' K_ii^-1 f. */
+/* Static condensation (Guyan 1965), with i inside, s on the sides, and loads f: the stiffness
+ * K_ss - K_si K_ii^-1 K_is = L_ss L_ss' (George & Liu 1981, Computer solution of large sparse
+ * positive definite systems), the forces on the sides -K_si K_ii^-1 f, the compliance f' K_ii^-1
+ * f. */
 static int condense(work *w, stiffness_condensed *c)
 {
     size_t both = 2 * w->side;
@@ -227,7 +230,7 @@ int stiffness_condense(stiffness_condensed *c, const stiffness_sector *sector,
     *c = (stiffness_condensed){.loads = loads};
     cholmod_start(&w.common);
     w.common.print = 0;
-    /* the order is ours, so that no other one is tried; L is read as supernodes */
+    /* keeps the given order without trying others; L is read as supernodes */
     w.common.nmethods = 1;
     w.common.method[0].ordering = CHOLMOD_GIVEN;
     w.common.supernodal = CHOLMOD_SUPERNODAL;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Contour of a tooth space from the rack that cuts it. */
 #include "contour.h"
 
 #include "../../numerics/involute.h"
@@ -11,9 +12,9 @@ static double half_angle_at(const stiffness_contour *o, double roll)
     return o->half_angle - numerics_involute_at_roll(roll);
 }
 
-/* The point of the fillet that the rounded tip of the rack cuts when its centre is `travel` beside
-   the pitch point: the normal there passes through the pitch point (Litvin & Fuentes 2004). The
-   middle of the tooth space then lies an arc of travel - land of the reference circle behind. */
+/* Point of the fillet that the rounded tip of the rack cuts when its centre is `travel` beside
+ * the pitch point; the normal there passes through the pitch point (Litvin & Fuentes 2004). The
+ * middle of the tooth space is then an arc of travel - land on the reference circle behind. */
 static void fillet(const stiffness_contour *o, double travel, double *radius, double *half_angle)
 {
     double reach = hypot(travel, o->depth);
@@ -23,8 +24,8 @@ static void fillet(const stiffness_contour *o, double travel, double *radius, do
     *half_angle = o->half_sector - (atan2(x, y) - (travel - o->land) / o->reference_radius);
 }
 
-/* Half angle of the tooth at a point of the fillet, less that of the involute at the same radius:
-   above 0 where the fillet lies outside the involute. */
+/* Half angle of the tooth at a point of the fillet minus that of the involute at the same
+ * radius; positive where the fillet is outside the involute. */
 static double excess(const stiffness_contour *o, double travel)
 {
     double radius, angle;
@@ -33,8 +34,8 @@ static double excess(const stiffness_contour *o, double travel)
     return angle - half_angle_at(o, ratio > 1 ? sqrt(ratio * ratio - 1) : 0);
 }
 
-/* Ends the fillet where it crosses the involute above the base circle, as that of an undercut tooth
-   does; 0: it does not. */
+/* Ends the fillet where it crosses the involute above the base circle, as in an undercut tooth;
+ * 0: it does not cross. */
 static int cross_undercut(stiffness_contour *o, double last)
 {
     enum { STEPS = 400 };
@@ -61,7 +62,7 @@ static int cross_undercut(stiffness_contour *o, double last)
     return 1;
 }
 
-/* The rack with tip rounding that cuts this root circle and this tooth thickness. */
+/* Finds the rack with a rounded tip that cuts this root circle and this tooth thickness. */
 static const char *make_rack(stiffness_contour *o, const stiffness_contour_data *d)
 {
     double r = d->reference_radius, c = d->base_radius / r, s = sqrt(1 - c * c);
@@ -72,7 +73,7 @@ static const char *make_rack(stiffness_contour *o, const stiffness_contour_data 
         return "the root circle lies above the reference circle";
     if (!(tip > 0))
         return "the tooth space comes to a point above the root circle";
-    /* largest rounding with which the straight flank still cuts the lowest point of contact */
+    /* largest rounding for which the straight flank still reaches the lowest point of contact */
     double fits = (depth - s * (r * s - d->base_radius * d->contact_roll)) / (1 - s);
     if (!(fits > 0))
         return "contact reaches below the straight part of the rack that cuts to this root circle";
@@ -80,7 +81,7 @@ static const char *make_rack(stiffness_contour *o, const stiffness_contour_data 
     o->depth = depth - o->round;
     o->land = tip - o->round * (1 - s) / c;
     o->fillet_end = o->depth * c / s;
-    /* the straight flank ends depth - round (1 - s) below the rolling line */
+    /* the straight flank ends at depth - round (1 - s) below the rolling line */
     o->form_roll = (r * s - (depth - o->round * (1 - s)) / s) / d->base_radius;
     if (o->form_roll <= 0 && !cross_undercut(o, o->fillet_end))
         return "the root is undercut by more than the involute can stand";
@@ -134,7 +135,7 @@ double stiffness_contour_middle(const stiffness_contour *o)
 
 stiffness_flank_force stiffness_contour_force(const stiffness_contour *o, double roll)
 {
-    /* the normal touches the base circle and leans by psi against the normal of the axis */
+    /* the normal touches the base circle and is at the angle psi to the normal of the axis */
     double psi = roll - o->half_angle, c = cos(psi), s = sin(psi);
     return (stiffness_flank_force){.radius = o->base_radius * sqrt(1 + roll * roll),
                                    .direction = {-s, -c},

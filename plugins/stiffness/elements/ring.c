@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Compliance of a ring of equal sectors by circumferential harmonics. */
 #include "ring.h"
 
 #include "condense.h"
@@ -8,8 +9,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Loads: forces on the flank, at the axis below, and at two places of the flank a pressure, a force
-   in its middle, a force at the axis. */
+/* Loads: forces on the flank; forces at the axis below them; and for two places of the flank a
+ * pressure, a force in its middle, and a force at the axis. */
 enum {
     ROLLS = STIFFNESS_RING_ROLLS,
     PLACES = 2,
@@ -22,11 +23,11 @@ enum {
     PARTS = 2 * ROLLS + PLACES * (PRESSURE_PARTS + 2)
 };
 
-/* Where on the flank the pressures lie, from its lowest point (0) to the tip (1), and their half
-   width over the depth of the axis below. */
+/* Places of the pressures on the flank, from its lowest point (0) to the tip (1), and their half
+ * width over the depth of the axis below. */
 static const double place[PLACES] = {0.3, 0.7}, width_ratio = 0.3;
 
-/* Chebyshev points with both ends, and their barycentric weights. */
+/* Chebyshev points including both ends, and their barycentric weights. */
 static void place_rolls(stiffness_ring *r)
 {
     for (int i = 0; i < ROLLS; i++) {
@@ -42,7 +43,7 @@ static stiffness_nodal part_of(size_t load, stiffness_nodal part)
     return part;
 }
 
-/* Elliptical pressure as parallel forces at Gauss-Chebyshev points. */
+/* Adds an elliptical pressure as parallel forces at Gauss-Chebyshev points. */
 static size_t add_pressure(const stiffness_sector *s, size_t load, double roll,
                            stiffness_nodal *part)
 {
@@ -82,9 +83,9 @@ static void make_loads(const stiffness_ring *r, const stiffness_sector *s,
     }
 }
 
-/* Johnson 1985 eq. 5.57 under an elliptical pressure of half width a, depth h, plane strain:
-   2 (1 - nu^2)/(pi E b) (ln(2 h/a) - nu/(2 (1 - nu))); plane stress: 2/(pi E b) (ln(2 h/a) -
-   nu/2). */
+/* Johnson 1985 eq. 5.57 for an elliptical pressure of half width a and depth h. Plane strain: 2
+ * (1 - nu^2)/(pi E b) (ln(2 h/a) - nu/(2 (1 - nu))); plane stress: 2/(pi E b) (ln(2 h/a) -
+ * nu/2). */
 static double half_plane(const stiffness_material *m)
 {
     double e = m->elastic_modulus, nu = m->poisson_ratio;
@@ -95,7 +96,7 @@ static double half_plane(const stiffness_material *m)
     return 2 / (M_PI * e * m->width) * (log(2 / width_ratio) - nu / 2);
 }
 
-/* Approach of flank and axis under the pressures, less that of a half plane. */
+/* Computes the approach of flank and axis under the pressures, minus that of a half plane. */
 static void add_thinness(stiffness_ring *r, const stiffness_condensed *c,
                          const stiffness_material *material)
 {
@@ -110,8 +111,8 @@ static void add_thinness(stiffness_ring *r, const stiffness_condensed *c,
     }
 }
 
-/* Turns x and y of the nodes on the right side into the frame of the next sector: in the rows of a
-   matrix with `columns` columns of 2 side numbers, and in the columns of a square one. */
+/* Turns x and y of the nodes on the right side into the frame of the next sector: in the rows of
+ * a matrix with `columns` columns of 2 side numbers, and in the columns of a square matrix. */
 static void turn_rows(double *matrix, size_t side, size_t columns, double c, double s)
 {
     for (size_t k = 0; k < columns; k++)
@@ -137,8 +138,8 @@ typedef struct harmonic {
     double complex *matrix, *load; /* side x side, side x LOADS */
 } harmonic;
 
-/* Harmonic n: the right side moves as z times the left one, z = exp(2 pi i n/teeth). Leaves
-   L^-1 h in `load`, where L L^H is the harmonic's stiffness and h its loads. */
+/* Harmonic n: the right side moves as z times the left one, z = exp(2 pi i n/teeth). Leaves L^-1
+ * h in `load`, where L L^H is the stiffness of the harmonic and h its loads. */
 static int solve_harmonic(const stiffness_condensed *c, double complex z, harmonic *h)
 {
     size_t n = c->side;
@@ -165,7 +166,8 @@ static double complex product(const harmonic *h, size_t a, size_t b)
     return sum;
 }
 
-/* Adds the harmonic's part of all compliances; a load on one sector has every harmonic alike. */
+/* Adds the harmonic's contribution to all compliances. A load on one sector contains every
+ * harmonic equally. */
 static void add_harmonic(stiffness_ring *r, const harmonic *h, double complex z, double part)
 {
     for (size_t a = 0; a < ROLLS; a++) {
@@ -205,12 +207,12 @@ static int add_harmonics(stiffness_ring *r, stiffness_condensed *c, size_t teeth
     return result;
 }
 
-/* Adds the compliance with the sides held, and measures how far the sum is from symmetric. */
+/* Adds the compliance with held sides, and measures how far the sum is from symmetric. */
 static void add_held(stiffness_ring *r, const stiffness_condensed *c)
 {
     double worst = 0, largest = 0;
     for (size_t a = 0; a < ROLLS; a++) {
-        r->own[a] += c->held[(ROLLS + a) * LOADS + a]; /* axis under the flank's force */
+        r->own[a] += c->held[(ROLLS + a) * LOADS + a]; /* axis below the force on the flank */
         for (size_t b = 0; b < ROLLS; b++)
             r->other[0][a][b] += c->held[b * LOADS + a];
     }
@@ -253,11 +255,11 @@ out:
     return result;
 }
 
-/* Roll angles nearer than this, in rad, are one. */
+/* Roll angles closer than this, in rad, count as one. */
 static const double same_roll = 1e-12;
 
-/* Barycentric interpolation (Berrut & Trefethen 2004): the weights of the points in the value at
- * `roll`. */
+/* Barycentric interpolation (Berrut & Trefethen 2004): the weights of the points for the value
+ * at `roll`. */
 static void shares(const stiffness_ring *r, double roll, double share[ROLLS])
 {
     double sum = 0;

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Finite element mesh of one sector of a gear. */
 #include "sector.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* The contour over the length of its arc, at equal steps of its parameter. */
+/* The contour over its arc length, from equal steps of its parameter. */
 enum { TABLE = 600 };
 typedef struct arc_table {
     const stiffness_contour *contour;
@@ -26,7 +27,7 @@ static void arc_table_make(arc_table *m, const stiffness_contour *o, double from
     }
 }
 
-/* The point of the contour at that fraction of its length. */
+/* Returns the point of the contour at that fraction of its length. */
 static stiffness_point arc_table_at(const arc_table *m, double fraction)
 {
     double length = fraction * m->length[TABLE];
@@ -40,8 +41,8 @@ static stiffness_point arc_table_at(const arc_table *m, double fraction)
     return stiffness_contour_at(m->contour, m->p[low] + t * (m->p[high] - m->p[low]));
 }
 
-/* Numbers of elements: across the tooth, across half the space, along the flank, through the body.
- */
+/* Numbers of elements: across the tooth, across half of the space, along the flank, through the
+ * body. */
 typedef struct counts {
     size_t tooth, space, flank, body;
 } counts;
@@ -59,7 +60,7 @@ static size_t *cell(const stiffness_sector *s, size_t row, size_t column)
     return &s->grid[row * s->columns + column];
 }
 
-/* Elements of eight nodes have none in their middle; outside the body there is the tooth alone. */
+/* Elements of eight nodes have none in their middle; outside the body, only the tooth has nodes. */
 static int has_node(const stiffness_sector *s, size_t row, size_t column)
 {
     if (row % 2 == 1 && column % 2 == 1)
@@ -67,7 +68,7 @@ static int has_node(const stiffness_sector *s, size_t row, size_t column)
     return row < s->body_rows || (column >= s->tooth_from && column <= s->tooth_to);
 }
 
-/* Numbers the nodes of the grid and lists those of each element. 0: out of memory. */
+/* Numbers the nodes of the grid, and lists those of each element. 0 if memory is short. */
 static int number_nodes(stiffness_sector *s, const counts *c)
 {
     s->body_rows = 2 * c->body + 1;
@@ -88,7 +89,7 @@ static int number_nodes(stiffness_sector *s, const counts *c)
             if (*cell(s, i + 2, j) == STIFFNESS_NO_NODE ||
                 *cell(s, i + 2, j + 2) == STIFFNESS_NO_NODE)
                 continue;
-            /* rows go outward along x, columns towards y */
+            /* rows go outwards along x, columns towards y */
             const size_t at[8][2] = {{i, j},     {i + 2, j},     {i + 2, j + 2}, {i, j + 2},
                                      {i + 1, j}, {i + 2, j + 1}, {i + 1, j + 2}, {i, j + 1}};
             for (int k = 0; k < 8; k++)
@@ -98,7 +99,8 @@ static int number_nodes(stiffness_sector *s, const counts *c)
     return 1;
 }
 
-/* Outer end of a column of the body: land and lower fillet, or the chord between the fillets. */
+/* Returns the outer end of a column of the body: on the land or lower fillet, or on the chord
+ * between the fillets. */
 static stiffness_point body_end(const stiffness_sector *s, const arc_table *root, size_t column)
 {
     size_t last = s->columns - 1, from = s->tooth_from;
@@ -115,9 +117,9 @@ static stiffness_point body_end(const stiffness_sector *s, const arc_table *root
     return at;
 }
 
-/* Steps through the body grow inward in a geometric series from `first`, over the depth of the
-   body, by a ratio between 1 and 4; fraction[i] is the part of the depth between the rim and row i.
- */
+/* Steps through the body grow inwards in a geometric series, with a ratio between 1 and 4, from
+ * `first` over the depth of the body. fraction[i] is the part of the depth between the rim and
+ * row i. */
 static void grade(double *fraction, size_t steps, double first)
 {
     double low = 1, high = 4;
@@ -152,8 +154,8 @@ static void place_body(stiffness_sector *s, const arc_table *root, double rim,
     }
 }
 
-/* Rows across the tooth are straight at the fillets and take the curvature of the tip circle
-   towards the tip. */
+/* Places the rows across the tooth, which are straight at the fillets and gradually take the
+ * curvature of the tip circle. */
 static void place_tooth(stiffness_sector *s, const arc_table *flank)
 {
     double tip = s->contour->tip_radius;
@@ -204,7 +206,7 @@ void stiffness_sector_free(stiffness_sector *s)
     *s = (stiffness_sector){0};
 }
 
-/* Shape functions of a side of three nodes, -1 <= t <= 1. */
+/* Shape functions of a side with three nodes, -1 <= t <= 1. */
 static void side_shape(double t, double n[3])
 {
     n[0] = t * (t - 1) / 2;
@@ -212,8 +214,8 @@ static void side_shape(double t, double n[3])
     n[2] = t * (t + 1) / 2;
 }
 
-/* The point of a column of nodes, from first_row outward, at that distance from the gear's centre:
-   the side of an element that it lies on, and the shape functions there. */
+/* Finds the point of a column of nodes, from first_row outwards, at a distance from the gear's
+ * centre: the side of the element on which it lies, and the shape functions there. */
 static stiffness_nodal locate(const stiffness_sector *s, size_t column, size_t first_row,
                               double height)
 {
@@ -255,8 +257,8 @@ stiffness_nodal stiffness_sector_axis(const stiffness_sector *s, double roll)
     return f;
 }
 
-/* Derivatives of the shape functions of the element of eight nodes, counter-clockwise from
-   (-1, -1), middles of the sides from the first. */
+/* Derivatives of the shape functions of the eight-node element: corners counter-clockwise from
+ * (-1, -1), then the middles of the sides from the first side on. */
 static void shape_slopes(double a, double b, double da[8], double db[8])
 {
     static const double corner[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
@@ -275,7 +277,7 @@ static void shape_slopes(double a, double b, double da[8], double db[8])
     db[7] = -b * (1 - a);
 }
 
-/* Hooke's law of the plane: sigma_x = d e_x + c e_y, tau = g gamma, times the width. */
+/* Hooke's law in the plane: sigma_x = d e_x + c e_y, tau = g gamma, times the width. */
 typedef struct hooke {
     double d, c, g;
 } hooke;
@@ -295,7 +297,7 @@ static hooke hooke_of(const stiffness_material *m)
 void stiffness_sector_stiffness(const stiffness_sector *s, size_t element,
                                 const stiffness_material *material, double k[16][16])
 {
-    /* Gauss's rule of 3 x 3 points, +-sqrt(3/5) and 0 */
+    /* Gauss's rule with 3 x 3 points, at +-sqrt(3/5) and 0 */
     static const double place[3] = {-0.77459666924148337704, 0, 0.77459666924148337704};
     static const double weight[3] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
     const hooke h = hooke_of(material);

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Plane finite elements of one sector of a gear: a tooth with its fillets and the body below it,
- * held at the rim radius. Quadratic elements of eight nodes on a grid that follows the contour.
- */
+/* Plane finite elements of one sector of a gear: a tooth with its fillets, and the body below
+ * it, held at the rim radius. Quadratic eight-node elements on a grid that follows the contour. */
 #ifndef STIFFNESS_SECTOR_H
 #define STIFFNESS_SECTOR_H
 
@@ -15,9 +13,9 @@ typedef struct stiffness_material {
     int plane_strain;
 } stiffness_material;
 
-/* A part of a load, spread over the three nodes of a side of an element. */
+/* A part of a load, distributed over the three nodes of an element's side. */
 typedef struct stiffness_nodal {
-    size_t load; /* which one it is part of */
+    size_t load; /* the load that it is part of */
     size_t node[3];
     double weight[3];
     stiffness_point direction;
@@ -26,26 +24,26 @@ typedef struct stiffness_nodal {
 typedef struct stiffness_sector {
     size_t nodes, elements;
     stiffness_point *node;
-    size_t (*element)[8];        /* corners, then the middles of the sides, counter-clockwise */
+    size_t (*element)[8];        /* corners, then middles of the sides, counter-clockwise */
     size_t rows, columns;        /* of the grid of nodes */
-    size_t body_rows;            /* rows from the rim to the fillets, both included */
-    size_t tooth_from, tooth_to; /* columns that go on into the tooth */
+    size_t body_rows;            /* from the rim to the fillets, both included */
+    size_t tooth_from, tooth_to; /* columns that continue into the tooth */
     size_t *grid;                /* node at row and column, or STIFFNESS_NO_NODE */
     const stiffness_contour *contour;
 } stiffness_sector;
 #define STIFFNESS_NO_NODE ((size_t)-1)
 
-/* About `elements` elements between the rim radius and the tip. 0: out of memory. */
+/* Makes about `elements` elements between the rim radius and the tip. 0 if memory is short. */
 int stiffness_sector_make(stiffness_sector *s, const stiffness_contour *contour, double rim_radius,
                           size_t elements);
 void stiffness_sector_free(stiffness_sector *s);
 
-/* A unit normal force on the flank at that roll angle, and the unit displacement along it of the
-   point of the axis of the tooth below. */
+/* A unit normal force on the flank at that roll angle; and the unit displacement, along the
+ * force, of the point of the tooth's axis below. */
 stiffness_nodal stiffness_sector_force(const stiffness_sector *s, double roll);
 stiffness_nodal stiffness_sector_axis(const stiffness_sector *s, double roll);
 
-/* Stiffness of an element for the displacements x0 y0 x1 y1 ... of its nodes. */
+/* Computes the stiffness of an element for the displacements x0 y0 x1 y1 ... of its nodes. */
 void stiffness_sector_stiffness(const stiffness_sector *s, size_t element,
                                 const stiffness_material *material, double k[16][16]);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reads what stands under `study:` into axes with their points. */
+/* Reads the map under `study:` into axes with their points. */
 #include "listed.h"
 #include "rows.h"
 #include "spectrum.h"
@@ -16,7 +16,7 @@ typedef struct reading {
     ff_report *report;
     bool single;        /* a single value counts as a list of one */
     bool sampled;       /* ranges without "points" are sampled, on axis 0 */
-    uint32_t dimension; /* the next dimension of the sample */
+    uint32_t dimension; /* the next free dimension of the sample */
     uint64_t seed;
     ff_place place; /* of the path that is being read */
 } reading;
@@ -88,8 +88,8 @@ static char *file_name(const ff_node *list, size_t at)
     return name;
 }
 
-/* Adds files that are laid over the file of the study, one in each case: `path` only names the
-   choice. */
+/* Adds files to be included over the file of the study, one in each case; `path` is only a name
+ * for the choice. */
 static bool add_files(reading *r, const char *path, const ff_node *map)
 {
     const ff_node *list = map->items[0];
@@ -113,8 +113,7 @@ static bool add_files(reading *r, const char *path, const ff_node *map)
     return true;
 }
 
-/* Reads the direction of the chains along the axis that is added next: "up" goes towards larger
-   values. */
+/* Reads the direction of the chains along the next axis; "up" goes towards larger values. */
 static bool read_follow(reading *r, const ff_node *node, const char *path, bool falling)
 {
     study_definition *study = r->study;
@@ -184,8 +183,8 @@ static bool read_span(reading *r, const ff_node *map, const char *path, span *s)
     return true;
 }
 
-/* Returns the assignment of the value at a share from 0 to 1 of the span; 12 digits hide the
-   rounding of the division. */
+/* Returns the assignment of the value at a share from 0 to 1 of the span. It has 12 digits,
+ * which hides the rounding of the division. */
 static const char *span_text(reading *r, const char *path, const span *s, double share)
 {
     double value =
@@ -246,7 +245,7 @@ static bool read_range(reading *r, const ff_node *map, const char *path)
         return refuse(r, follow->place, NULL, "a range that is drawn from cannot be followed",
                       path);
     if (points && too_many(r, points->place, cases_of(r->study) * (double)count))
-        return false; /* before memory is allocated for them */
+        return false; /* too many, refused before memory is allocated for them */
     if (follow && !read_follow(r, follow, path, s.to < s.from))
         return false;
     size_t axis = drawn ? 0 : add_axis(r, (size_t)count);
@@ -259,7 +258,7 @@ static bool read_range(reading *r, const ff_node *map, const char *path)
     return true;
 }
 
-/* Whether all values of the map are maps: then its keys name them. */
+/* Whether all values of the map are maps, so that its keys name them. */
 static bool is_named(const ff_node *map)
 {
     size_t maps = 0;
@@ -340,7 +339,7 @@ static bool read_sample(reading *r, const ff_node *map)
     return true;
 }
 
-enum { LEAST_MEMORY = 16 /* MiB, for what a worker keeps of its cases */ };
+enum { LEAST_MEMORY = 16 /* MiB, needed for what a worker keeps between cases */ };
 
 bool study_read_limits(study_definition *study, const ff_node *node, ff_report *report)
 {
@@ -435,7 +434,7 @@ study_definition *study_read(const ff_node *node, ff_report *report)
     reading r = {.study = study, .report = report};
     if (study_read_limits(study, node, report) && read_all(&r, node))
         return study;
-    if (study->rows) /* the table stays, which messages quote */
+    if (study->rows) /* messages quote the table, so it stays */
         return study;
     study_definition_free(study);
     return NULL;

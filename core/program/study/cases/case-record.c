@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a case leaves: the record of what it was given, and of what it gave. */
+/* Writes the record of a case: its inputs and its results. */
 #include "case.h"
 
 #include "chain.h"
@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Writes the text as one word of a shell. */
+/* Writes the text as one word for a shell. */
 static void put_quoted(FILE *out, const char *text)
 {
     fputc('\'', out);
@@ -21,7 +21,7 @@ static void put_quoted(FILE *out, const char *text)
     fputc('\'', out);
 }
 
-/* Returns the command that runs the case again: alone, unless it starts from its neighbour. */
+/* Returns the command that runs the case again, alone unless it starts from its neighbour. */
 static json_t *command_of(const study_run *run, size_t index)
 {
     const study_definition *study = run->study;
@@ -110,8 +110,8 @@ static const char *status_of(const study_definition *study, const ff_report *rep
                                     : "plugin fault";
 }
 
-/* Adds what the case is warned of, none without: its own values and models, not what nothing reads,
-   which holds for the whole study. */
+/* Adds the warnings about the case's own values and models, if there are any. Warnings of unused
+ * settings are left out, since they hold for the whole study. */
 static void add_warnings(json_t *record, const ff_report *report, json_t *logged)
 {
     json_t *warnings = json_array();
@@ -126,8 +126,9 @@ static void add_warnings(json_t *record, const ff_report *report, json_t *logged
     json_decref(warnings);
 }
 
-/* Adds {stage: {name: [value, limit, verdict, text, why it is accepted, true where it is of a
-   range]}} without what is not there, and the outputs that are known from below alone. */
+/* Adds {stage: {name: [value, limit, verdict, text, reason for accepting it, true if it is about
+ * a model's range]}} without absent members, and the outputs of which only a lower bound is
+ * known. */
 static void add_quality(json_t *record, const ff_pipeline *pipeline)
 {
     json_t *all = json_object();
@@ -159,7 +160,7 @@ json_t *study_json_seconds(double seconds)
     return json_real(round(seconds * 1e6) / 1e6);
 }
 
-/* Adds the requested scalars, and how long each stage took or that it was reused. */
+/* Adds the requested scalars, and for each stage its time, or that it was reused. */
 static void add_results(json_t *record, const ff_pipeline *pipeline)
 {
     json_t *outputs = json_object(), *seconds = json_object(), *reused = json_object();
@@ -185,8 +186,8 @@ static void add_results(json_t *record, const ff_pipeline *pipeline)
     json_object_set_new(record, "reused", reused);
 }
 
-/* Adds the error bars of scalars as outputs beside them; those of series are in the quality; and
-   the settings that were chosen. */
+/* Adds the error bars of scalars as outputs, and the settings that were chosen. The bars of
+ * series are in the quality. */
 static void add_bars(json_t *record, const accuracy_record *errors)
 {
     json_t *outputs = json_object_get(record, "outputs");
@@ -204,7 +205,7 @@ static void add_bars(json_t *record, const accuracy_record *errors)
     }
 }
 
-/* Adds how the case stands to the limits of the file, if it has any. */
+/* Adds whether the case meets the limits of the file, if there are any. */
 static void add_limits(json_t *record, const study_case *c, const accuracy_record *errors)
 {
     limits_verdict verdict = limits_judge(c->run, c->pipeline, errors);
@@ -221,7 +222,7 @@ static bool keep_results(study_case *c, const study_run *run, size_t index, json
     add_results(record, c->pipeline);
     if (measure)
         study_measure_record(c, run->study, record);
-    bool repeats = measure && measure->repeat[index] > 0; /* which gives the same arrays */
+    bool repeats = measure && measure->repeat[index] > 0; /* a repeat would give the same arrays */
     return repeats || study_arrays_keep(&memory->arrays, c, record);
 }
 

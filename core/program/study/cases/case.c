@@ -18,7 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Adds all that is written under a key of the file. */
+/* Adds everything that the file has under a key. */
 static uint64_t hash_node(uint64_t hash, const ff_node *node)
 {
     hash = study_hash_text(hash, node->text ? node->text : "");
@@ -30,7 +30,8 @@ static uint64_t hash_node(uint64_t hash, const ff_node *node)
     return hash;
 }
 
-/* Adds what a case is judged by: limits as they are meant, reasons as they are written. */
+/* Adds what the case is judged by: limits by their meaning, reasons for accepting a doubt by
+ * their text. */
 static uint64_t hash_judging(uint64_t hash, const ff_run *run)
 {
     const ff_node *accept = ff_node_get(ff_run_root(run), "accept");
@@ -42,7 +43,8 @@ static uint64_t hash_judging(uint64_t hash, const ff_run *run)
     return accept ? hash_node(study_hash_text(hash, "accept"), accept) : hash;
 }
 
-/* A case that cannot be built has no resolved parameters, so its key comes from its assignments. */
+/* Hashes the assignments of a case that cannot be built, which has no resolved parameters for a
+ * key. */
 static uint64_t hash_assignments(const study_definition *study, size_t index)
 {
     uint64_t hash = study_hash_text(STUDY_HASH_START,
@@ -67,7 +69,8 @@ void study_kept_free(study_kept *kept)
     *kept = (study_kept){.keys = kept->keys};
 }
 
-/* Whether one path leads to the other, or both to one place: then their order counts. */
+/* Whether both paths lead to the same place, or one lies below the other, so that their order
+ * matters. */
 static bool paths_meet(const char *one, const char *other)
 {
     static const char top[] = "pipeline.";
@@ -77,7 +80,7 @@ static bool paths_meet(const char *one, const char *other)
     return !strncmp(one, other, shorter) && (a == b || (a < b ? other : one)[shorter] == '.');
 }
 
-/* Lists what differs between two cases; false where that is more than values. */
+/* Lists the values in which two cases differ; false if they differ in more than values. */
 static bool list_changes(const study_definition *study, size_t from, size_t to, const char **list,
                          size_t *count)
 {
@@ -98,7 +101,8 @@ static bool list_changes(const study_definition *study, size_t from, size_t to, 
     return true;
 }
 
-/* Goes on with the run of the case before; false when there is none, or it will not do. */
+/* Reuses the run of the previous case with other values; false if there is none or it cannot be
+ * reused. */
 static bool take_kept(study_case *c, const study_run *run, size_t index, study_kept *kept)
 {
     enum { MOST_CHANGES = 200 };
@@ -157,7 +161,8 @@ void study_case_open(study_case *c, const study_run *run, size_t index, study_ke
 
 void study_case_close(study_case *c)
 {
-    /* what was said of a stage that does not change would not be said again */
+    /* A pipeline with messages is not kept: messages of an unchanged stage would not be
+     * repeated. */
     if (c->kept && c->pipeline && ff_report_count(c->report) == 0) {
         c->kept->run = c->run;
         c->kept->index = c->index;
@@ -176,7 +181,7 @@ static void note_warning(void *ctx, const ff_stage *stage, int32_t level, const 
         json_array_append_new(reuse->warnings, json_sprintf("%s: %s", stage->name, text));
 }
 
-/* Runs the case, whose pipeline is then the one that the answer comes from. */
+/* Runs the case, and sets its pipeline to the one that gave the answer. */
 static void compute(study_case *c, const study_run *run, study_reuse *reuse,
                     accuracy_record *errors)
 {
@@ -207,7 +212,7 @@ json_t *study_case_run(study_case *c, const study_run *run, size_t index, study_
     accuracy_record errors = {.count = 0};
     ff_pipeline *asked = c->pipeline;
     double start = study_seconds_now();
-    /* running may drop outputs that a model refuses */
+    /* before running, which may drop outputs that a model refuses */
     json_t *parameters = study_case_parameters(c, memory->seen);
     if (study_case_is_good(c))
         compute(c, run, &reuse, &errors);

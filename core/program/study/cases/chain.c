@@ -33,7 +33,7 @@ static bool runs_backwards(const study_definition *study, size_t index)
     return down != study->backwards;
 }
 
-/* Difference of the indices of two neighbours in a chain. */
+/* Returns the difference of the case numbers of two neighbours in a chain. */
 static size_t stride_of(const study_definition *study)
 {
     size_t stride = 1;
@@ -80,8 +80,8 @@ static int digit_of(char c)
     return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
 }
 
-/* Reads two hexadecimal digits for each byte. A text with other characters, which this program
-   never writes, gives an empty state. */
+/* Reads a state from two hexadecimal digits for each byte. Another text, which this program
+ * never writes, gives an empty state. */
 static void read_state(ff_stage *stage, const char *text)
 {
     size_t size = strlen(text) / 2;

@@ -17,7 +17,7 @@ static bool is_blank(char c)
     return c == ' ' || c == '\t' || c == '\r';
 }
 
-/* Returns NULL, or why the file cannot be read. */
+/* Reads the whole file. Returns NULL, or why it cannot be read. */
 static const char *read_file(int fd, ff_source *source)
 {
     struct stat info;
@@ -44,7 +44,8 @@ static const char *read_file(int fd, ff_source *source)
 const char *study_csv_open(study_csv *table, const char *path)
 {
     const char *slash = strrchr(path, '/');
-    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* a pipe would not end */
+    /* so that opening a pipe does not block */
+    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     *table =
         (study_csv){.source = {.name = memory_copy_text(path, strlen(path)),
                                .text = memory_copy_text("", 0),

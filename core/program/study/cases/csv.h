@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Tables of texts, whose lines the engine splits; the first one that says something is the head. */
+/* Tables of texts, whose lines the engine splits. The first line that is neither blank nor a
+ * remark is the head. */
 #ifndef STUDY_CSV_H
 #define STUDY_CSV_H
 
@@ -7,7 +8,7 @@
 
 #include <stdio.h>
 
-enum { STUDY_CSV_FIELDS = 1000 }; /* at most; of more, one is kept */
+enum { STUDY_CSV_FIELDS = 1000 }; /* at most; one more is kept, to notice a longer line */
 
 typedef struct study_csv_field {
     char *text;
@@ -17,11 +18,11 @@ typedef struct study_csv_field {
 
 typedef struct study_csv {
     ff_source source;
-    uint32_t line;           /* that was read last */
-    study_csv_field *fields; /* of that line */
+    uint32_t line;           /* of the current line */
+    study_csv_field *fields; /* of the current line */
     size_t count;
-    const char *fault; /* why the last of them is none, or NULL */
-    const char *at;    /* what follows the line */
+    const char *fault; /* why the last field is invalid, or NULL */
+    const char *at;    /* the text after the line */
     bool headed;
     char separator;
     struct ff_field *parts;
@@ -29,7 +30,7 @@ typedef struct study_csv {
     size_t room;
 } study_csv;
 
-/* Reads a file whole. NULL, or why it cannot be read; it is to be closed all the same. */
+/* Reads a whole file. Returns NULL, or why it cannot be read; it must be closed in either case. */
 const char *study_csv_open(study_csv *table, const char *path);
 /* Splits the next line that is neither blank nor a remark; false at the end. */
 bool study_csv_next(study_csv *table);
@@ -40,11 +41,11 @@ bool study_csv_is_silent(const char *line, size_t length);
 /* Splits a line from elsewhere; the first one is the head. */
 void study_csv_split(study_csv *table, const char *line, size_t length);
 
-/* Parts a head such as "duty.torque [N m]": ends its text behind the name, and returns the unit, ""
-   without one. NULL: the brackets are not at its end, or stand alone. */
+/* Splits a head such as "duty.torque [N m]": ends its text after the name, and returns the unit,
+ * "" if there is none. NULL: the brackets are not at its end, or there is no name. */
 const char *study_csv_unit(study_csv_field *head);
 
-/* Writes a field, in quotes where it needs them or `always`. */
+/* Writes a field, in quotes if it needs them or `always` is set. */
 void study_csv_write(FILE *out, const char *text, size_t length, bool always);
 
 #endif

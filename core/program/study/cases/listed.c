@@ -12,7 +12,7 @@ bool study_listed_is(const ff_node *cases)
     return cases->kind == FF_SEQUENCE && cases->count > 0 && cases->items[0]->kind == FF_MAP;
 }
 
-/* Returns the column of a path, which is added when it is new. */
+/* Returns the column of a path, adding it if it is new. */
 static study_varied *find_column(study_definition *study, const ff_node *cases, size_t row,
                                  size_t key)
 {
@@ -35,7 +35,8 @@ static study_varied *find_column(study_definition *study, const ff_node *cases, 
     return v;
 }
 
-/* A file is looked for beside the one that names it. */
+/* Returns the assignment of a value. The path of a file is made relative to the file that names
+ * it. */
 static char *assignment_of(const char *path, const ff_node *value)
 {
     if (strcmp(path, "include") != 0 || value->kind != FF_SCALAR)
@@ -86,7 +87,7 @@ bool study_listed_read(study_definition *study, const ff_node *cases, ff_report 
     study->varied = memory_arena_alloc(&study->arena, (paths + 1) * sizeof *study->varied);
     study->points = memory_arena_alloc(&study->arena, sizeof *study->points);
     study->axis_count = study->followed = study->direction = 1;
-    ff_node rows = *cases; /* that last for a time */
+    ff_node rows = *cases; /* a temporary copy */
     rows.items = memory_arena_alloc(&study->arena, cases->count * sizeof *rows.items);
     rows.count = 0;
     for (size_t i = 0; i < cases->count; i++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a case assigns, and how that is laid over the file. */
+/* The assignments of a case, and how they are applied to the file. */
 #include "case.h"
 #include "rows.h"
 

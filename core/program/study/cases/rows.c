@@ -14,9 +14,9 @@
 enum { MOST_ROWS = 1000000, LONGEST_ROW = 1 << 20, MOST_ERRORS = 20, BLOCK = 1 << 16 };
 
 typedef struct column {
-    size_t varied; /* SIZE_MAX: the user's own, or how long a row lasts */
+    size_t varied; /* SIZE_MAX: a column of the user's own, or the duration of the row */
     bool time;
-    char *unit; /* of numbers without one, or "" */
+    char *unit; /* the unit for numbers without one, or "" */
 } column;
 
 struct study_rows {
@@ -25,7 +25,7 @@ struct study_rows {
     column *columns;
     size_t column_count;
     size_t room;
-    /* standard input alone */
+    /* these members are for standard input alone */
     bool streams, ended, cut;
     char **texts; /* of the rows, for other processes */
     char *buffer;
@@ -94,7 +94,7 @@ static bool add_column(study_rows *rows, study_csv_field *f, column *c, ff_repor
     return true;
 }
 
-/* Takes the columns of the line that was split. */
+/* Reads the columns from the line that was split. */
 static bool read_heads(study_rows *rows, ff_report *report)
 {
     size_t errors = ff_report_errors(report);
@@ -114,7 +114,7 @@ static bool read_heads(study_rows *rows, ff_report *report)
             refuse(rows, NULL, report, NULL, "no column names a path of the pipeline"));
 }
 
-/* Makes room for a row of that number. */
+/* Makes room for a row with that number. */
 static void make_room(study_rows *rows, size_t index)
 {
     study_definition *study = rows->study;
@@ -134,7 +134,7 @@ static void make_room(study_rows *rows, size_t index)
     }
 }
 
-/* A file is looked for beside the table. */
+/* Returns the assignment of a field. The path of a file is made relative to the table. */
 static char *assignment_of(const study_rows *rows, const column *c, const study_csv_field *f)
 {
     const char *path = rows->study->varied[c->varied].path, *end;
@@ -155,7 +155,7 @@ static char *assignment_of(const study_rows *rows, const column *c, const study_
     return text;
 }
 
-/* Takes how long the row lasts; *empty: it takes no time, so that it is no case. */
+/* Takes the duration of the row; *empty: it lasts no time, so it is no case. */
 static bool take_time(const study_rows *rows, bool *empty, ff_report *report)
 {
     const study_csv *l = &rows->table;
@@ -182,7 +182,7 @@ static const char *keep(study_rows *rows, char *text)
     return kept;
 }
 
-/* Whether the fields of the line are a case; reports why not, where there is a report. */
+/* Whether the fields of the line form a case; says why not if there is a report. */
 static bool check_row(const study_rows *rows, ff_report *report)
 {
     char why[120];
@@ -204,7 +204,7 @@ static bool check_row(const study_rows *rows, ff_report *report)
                     why);
 }
 
-/* Takes what the line assigns into the row of that number; nothing when it is no case. */
+/* Takes the assignments of the line into the row with that number; none if the line is no case. */
 static void take_row(study_rows *rows, size_t index)
 {
     const study_csv *l = &rows->table;
@@ -264,7 +264,7 @@ static bool add_row(study_rows *rows, ff_report *report)
     return true;
 }
 
-/* Reads the lines of the file; all that is wrong is reported, up to a number of errors. */
+/* Reads the lines of the file, and reports all errors up to a limit. */
 static bool read_lines(study_rows *rows, ff_report *report)
 {
     size_t errors = ff_report_errors(report);
@@ -294,7 +294,8 @@ static bool read_table(study_definition *study, const ff_node *node, ff_report *
     return good;
 }
 
-/* "-" without quotes behind `--set study.cases=` is a list of nothing to YAML. */
+/* Whether the node stands for "-": without quotes behind `--set study.cases=`, YAML takes it for
+ * a list with an empty item. */
 static bool is_dash(const ff_node *node)
 {
     const ff_node *only = node->kind == FF_SEQUENCE && node->count == 1 ? node->items[0] : NULL;
@@ -319,7 +320,7 @@ bool study_rows_read(study_definition *study, const ff_node *node, ff_report *re
     return true;
 }
 
-/* Takes the next line out of the buffer; NULL when it has not come whole. */
+/* Takes the next line out of the buffer; NULL if it is not complete yet. */
 static char *take_line(study_rows *rows)
 {
     const char *from = rows->buffer ? rows->buffer + rows->taken : "";
@@ -330,7 +331,8 @@ static char *take_line(study_rows *rows)
     size_t length = end ? (size_t)(end - from) : left;
     char *text = memory_copy_text(from, length);
     for (size_t i = 0; i < length; i++)
-        text[i] = text[i] ? text[i] : '\1'; /* which no value may hold either */
+        /* a zero byte becomes another one that no value may contain */
+        text[i] = text[i] ? text[i] : '\1';
     rows->taken += length + (end != NULL);
     rows->table.line++;
     return text;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What was chosen for the accuracy. */
+/* Records the settings that the program chose for the accuracy. */
 #include "study.h"
 
 #include "../../memory/memory.h"

@@ -57,7 +57,7 @@ double study_sobol(uint32_t index, uint32_t dimension, uint64_t seed)
     for (uint32_t k = 0; k < BITS; k++)
         if (gray >> k & 1)
             x ^= v[k];
-    if (seed) /* a digital shift keeps the points evenly spread */
+    if (seed) /* a digital shift, which keeps the points evenly spread */
         x ^= (uint32_t)(scramble(scramble(seed) + dimension) >> 32);
     return (double)x / 4294967296.0;
 }

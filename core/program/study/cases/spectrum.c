@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The durations of the rows of a load spectrum, and the sums over them. */
 #include "spectrum.h"
 
 #include "case.h"
@@ -15,9 +16,9 @@
 
 const char study_time_name[] = "time";
 
-enum { MOST_VALUES = 1000 }; /* most rows whose numbers are listed beside the sums */
+enum { MOST_VALUES = 1000 }; /* beyond this many rows, only the sums are listed */
 
-/* Shares whose sum is off by more than this lack a class, even if they have few digits. */
+/* Shares that miss 100 % by more than this lack a class, even if they are given with few digits. */
 static const double most_rounding = 1e-2;
 
 static const char expected[] = "expected a share such as 12 %, or a time such as 300 h, 0 or above";
@@ -114,7 +115,7 @@ bool study_spectrum_finish(study_definition *study, const ff_node *cases, const 
     return !below || read_below(study, below, report);
 }
 
-/* Unit of an output that the cases are asked for; NULL if they are not asked for it. */
+/* Returns the unit of a requested output; NULL if it is not requested. */
 static const char *find_unit(const ff_pipeline *pipeline, const char *path)
 {
     const ff_stage *stage;

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * A study runs many cases of one pipeline. A case is the file with some assignments, like those of
- * --set, laid over it. What a case gave is one line of a journal in the study's directory.
- */
+/* A study runs many cases of one pipeline. A case is the file with some assignments, like those
+ * of --set. The result of a case is one line of a journal in the study's directory. */
 #ifndef STUDY_H
 #define STUDY_H
 
@@ -22,104 +20,104 @@ typedef struct study_place {
 typedef struct study_rows study_rows;
 typedef struct study_spectrum study_spectrum;
 
-/* A path with the values that it takes along one axis. */
+/* A path, and the values that it takes along one axis. */
 typedef struct study_varied {
     const char *path; /* as --set takes it, or a name for what the axis varies */
     size_t axis;
     /* "path=value in YAML" for each point of the axis; "" assigns nothing */
     const char **assignments;
-    const char **names;    /* of the points; NULL when their values are their names */
-    ff_place place;        /* of the path in its file; its source is NULL when no file has it */
-    const ff_node *values; /* one for each point; NULL when the program made the values */
-    study_place *places;   /* of the values in the table that has the path; NULL: it is none */
+    const char **names; /* of the points; NULL if the values are the names */
+    ff_place
+        place; /* where the file names the path; its source is NULL if the path is in no file */
+    const ff_node *values; /* one for each point; NULL if the program made the values */
+    study_place *places;   /* of the values, if a table has the path; otherwise NULL */
 } study_varied;
 
-/* What measure.c records of each case beside its scalars: series, and the cost. */
+/* What measure.c records of each case beside its scalars: series and costs. */
 typedef struct study_measure {
-    const ff_node *request; /* list of outputs that replaces the file's */
-    const char *along;  /* name of the series that others are plotted against; NULL lets the program
-                           find one */
-    const char **knobs; /* stages in which cases differ: they and those that they feed are evaluated
-                           in every case */
+    const ff_node *request; /* list of outputs in place of the file's */
+    const char *along;  /* name of the series against which others are plotted; NULL: the program
+                           finds one */
+    const char **knobs; /* stages in which cases differ; they and the stages that they feed are
+                           evaluated in every case */
     size_t knob_count;
     bool all; /* every stage is evaluated in every case */
-    /* the repeat of each case, from 0: the same inputs with another repeat are another case */
+    /* the repeat number of each case, from 0; cases that differ only in it are different cases */
     const size_t *repeat;
 } study_measure;
 
 typedef struct study_definition {
     study_varied *varied; /* the paths of a zip or a sample share their axis */
     size_t varied_count;
-    /* how many points each axis has; the cases are the product, in which the last axis varies
-       fastest */
+    /* number of points of each axis; the cases are the product, and the last axis varies fastest */
     size_t *points;
     size_t axis_count;
-    size_t count;        /* how many cases there are */
-    size_t followed;     /* axis along which each case starts from its neighbour's state */
-    size_t direction;    /* axis of up and down; this and `followed` are axis_count when there is no
-                            such axis */
-    bool backwards;      /* chains run from the last point of `followed` to the first */
-    double time_limit;   /* s for a case; 0 means no limit */
-    double memory_limit; /* bytes for a worker; 0 means its share of the machine's */
-    const ff_node *request; /* list of outputs that replaces the file's; NULL keeps that */
+    size_t count;      /* number of cases */
+    size_t followed;   /* axis along which each case starts from its neighbour's state */
+    size_t direction;  /* axis of the directions up and down; this and `followed` are axis_count if
+                          there is no such axis */
+    bool backwards;    /* chains run from the last point of `followed` to the first */
+    double time_limit; /* s for a case; 0: no limit */
+    double memory_limit;    /* bytes for a worker; 0: its share of the machine's memory */
+    const ff_node *request; /* list of outputs in place of the file's; NULL: the file's */
     /* other results to record, "stage.name", in the cases that have them */
     const char *const *extras;
     size_t extra_count;
-    const study_measure *measure; /* NULL when nothing is measured */
-    struct study_driver *driver;  /* NULL when all cases are known from the start */
+    const study_measure *measure; /* NULL if nothing is measured */
+    struct study_driver *driver;  /* NULL if all cases are known from the start */
     study_rows *rows;             /* the table that lists the cases, or NULL */
-    bool streams; /* its rows come from standard input while the study runs; none is there yet */
-    study_spectrum *spectrum; /* how long each row lasts; NULL: no row says it */
+    bool streams; /* its rows come from standard input while the study runs; none has come yet */
+    study_spectrum *spectrum; /* the duration of each row; NULL: rows have none */
     memory_arena arena;
 } study_definition;
 
 void study_definition_free(study_definition *study);
 
-/* The keys under `study:` that do not name a driver; NULL ends the list. */
+/* The keys under `study:` that name no driver; NULL ends the list. */
 extern const char *const study_keys[];
 
 /* Reads a study without a driver; NULL after an error. */
 study_definition *study_read(const ff_node *node, ff_report *report);
 
-/* Reports every key that is not in the list, which NULL ends; keys that begin with "x-" are
-   allowed. */
+/* Reports every key that is not in the list, which NULL ends. Keys that begin with "x-" are
+ * allowed. */
 bool study_check_keys(const ff_node *map, const char *where, const char *const *known,
                       ff_report *report);
 /* Reads time_limit and memory_limit. */
 bool study_read_limits(study_definition *study, const ff_node *node, ff_report *report);
 
-/* Reads a map from paths to what they take, as under `sweep:`, or to one value. NULL after an
-   error. */
+/* Reads a map from paths to the values that they take, as under `sweep:`, or to one value. NULL
+ * after an error. */
 study_definition *study_expand(const ff_node *sweep, ff_report *report);
 
-/* Walks through the models that cases put into a stage, the same one perhaps more than once: the
-   next one; NULL after the last. Begins at {0}. */
+/* Iterates over the models that cases use in a stage; a model may come more than once. Returns
+ * the next one, NULL after the last. Starts at {0}. */
 typedef struct study_use {
     size_t path, point;
 } study_use;
 const char *study_next_use(const study_definition *study, study_use *at);
-/* Returns what a case assigns to path k: "path=value" or "". */
+/* Returns the assignment of a case for path k: "path=value" or "". */
 const char *study_assignment(const study_definition *study, size_t k, size_t index);
-/* Return the value, or its name, at a point of a path; that of path k in a case. */
+/* Return the value, or its name: at a point of a path, and of path k in a case. */
 const char *study_varied_value(const study_varied *varied, size_t point);
 const char *study_value(const study_definition *study, size_t k, size_t index);
 /* Returns the point of a case on an axis. */
 size_t study_rank(const study_definition *study, size_t axis, size_t index);
 
-/* Lays a case over the file of a run: first the files that it includes, then `sets`, then its
+/* Applies a case to the file of a run: first the files that it includes, then `sets`, then its
  * values. */
 void study_overlay(const study_definition *study, size_t index, const char *const *sets,
                    size_t set_count, ff_run *run);
 
-/* chain.c: the cases form chains, along which a state is handed on; without `follow` every case is
-   a chain of its own. */
+/* chain.c: the cases form chains along which a state is handed on. Without `follow` every case
+ * is a chain of its own. */
 size_t study_chains(const study_definition *study);
 size_t study_chain_length(const study_definition *study);
 /* returns a case */
 size_t study_chain_case(const study_definition *study, size_t chain, size_t position);
 
-/* Returns a coordinate in [0,1) of a point of the Sobol sequence; dimensions count from 0, and a
-   seed other than 0 shifts the sequence. */
+/* Returns a coordinate in [0,1) of a point of the Sobol sequence. Dimensions count from 0; a
+ * seed other than 0 shifts the sequence. */
 enum { STUDY_SOBOL_DIMENSIONS = 16 };
 double study_sobol(uint32_t index, uint32_t dimension, uint64_t seed);
 
@@ -128,38 +126,40 @@ struct study_counters;
 typedef struct study_run {
     const study_definition *study;
     const char *file;
-    const ff_run *base; /* the file, of which each case is a copy; NULL: each reads it anew */
+    const ff_run *base; /* the file, of which each case is a copy; NULL: each case reads it again */
     const char **sets;
     size_t set_count;
     ff_engine *engine;
     const char *directory;
-    const ff_pipeline *pipeline; /* of the file, whose plugins are compared with those of earlier
-                                    runs; NULL: they are not */
+    const ff_pipeline *pipeline; /* that of the file, whose plugins are compared with those of
+                                    earlier runs; NULL: no comparison */
     size_t jobs;
-    ff_instance *executor; /* offers FF_EXECUTOR_ID; NULL: workers of this process run all cases */
+    ff_instance *executor; /* an instance that offers FF_EXECUTOR_ID; NULL: workers of this process
+                              run all cases */
     size_t shard, shards;  /* this run does shard number `shard`, from 1 to `shards` */
-    size_t begin, end; /* the chains to run, after which no table is written; end 0 means all, with
-                          the table */
+    size_t begin,
+        end; /* range of chains to run without writing a table; end 0: all chains, and the table */
     enum study_rerun rerun;
     bool fail_fast;
 
-    const char *input; /* the key of the file's own inputs, which each record keeps; may be NULL */
+    const char *input; /* key of the inputs that the file itself gives, which each record keeps; may
+                          be NULL */
 
-    /* Tells what came of a row of standard input, as soon as the journal has it. */
+    /* Called with the answer to a row of standard input, once it is in the journal. */
     void (*answer)(void *ctx, size_t index, const json_t *record, bool known);
 
-    study_records **rows;         /* gets what the journals have at the end; NULL: nobody asks */
-    char (*keys)[STUDY_KEY_SIZE]; /* filled in with the key of each case that ran or was known; NULL
-                                     when the caller does not need them */
+    study_records **rows; /* gets the contents of the journals at the end; NULL: not wanted */
+    /* receives the key of each case that ran or was known; NULL: not wanted */
+    char (*keys)[STUDY_KEY_SIZE];
 
-    /* Returns the names of what each dimension of an array is plotted against, "" for its index;
-       NULL: none is noted. */
+    /* Returns, for each dimension of an array, the name of the series against which it is
+     * plotted, "" for its index. NULL: nothing is noted. */
     json_t *(*against)(const ff_pipeline *pipeline, const ff_stage *stage, size_t output);
-    /* Looks, with the directory locked, at what is there, and removes what was made of it; false
-       after an error. NULL: nothing is looked at. */
+    /* Looks at what is in the locked directory, and removes files derived from it; false after
+     * an error. NULL: not called. */
     bool (*enter)(void *ctx, ff_report *report);
-    /* Describes the study for those who read its directory; `tally` is of all its cases, NULL while
-       they are not all done. */
+    /* Describes the study for readers of its directory. `tally` covers all its cases; NULL until
+     * they are all done. */
     const study_definition *described;
     void (*describe)(void *ctx, const study_definition *study, const study_tally *tally, FILE *out);
     void (*say)(void *ctx, int indent, const char *line); /* prints a line of a driver */
@@ -170,7 +170,7 @@ typedef struct study_run {
 /* Whether a result goes to a log instead of the journal. */
 bool study_is_array(const ff_result *result);
 
-/* {path: value} of assignments "path=value". */
+/* Returns {path: value} from assignments "path=value". */
 json_t *study_settings_record(const char *const *assignments, size_t count);
 
 #endif

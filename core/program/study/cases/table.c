@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Writes table.csv: a row for each case with what was varied and the scalars that it gave. */
+/* Writes table.csv: a row for each case with the varied values and the scalar results. */
 #include "table.h"
 
 #include "csv.h"
@@ -14,8 +14,8 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-/* Returns the unit that follows a number, and sets the length of the number; NULL when there is no
-   number. */
+/* Returns the unit behind a number, and sets the length of the number; NULL if there is no
+ * number. */
 static const char *unit_of(const char *value, size_t *digits)
 {
     double number;
@@ -26,8 +26,8 @@ static const char *unit_of(const char *value, size_t *digits)
     return end + strspn(end, " ");
 }
 
-/* Returns the unit that all values share; NULL when their units differ or one of them is not a
-   number. */
+/* Returns the unit that all values share; NULL if their units differ or one of them is not a
+ * number. */
 static const char *common_unit(const study_definition *study, const study_varied *varied)
 {
     size_t digits;
@@ -41,14 +41,14 @@ static const char *common_unit(const study_definition *study, const study_varied
     return unit;
 }
 
-/* A further cell; NULL leaves it empty. */
+/* Writes a further cell; NULL leaves it empty. */
 static void put_text(FILE *out, const char *text)
 {
     fputc(',', out);
     study_csv_write(out, text ? text : "", text ? strlen(text) : 0, false);
 }
 
-/* A name may be any text that the file gives an axis. */
+/* Writes the name of a column; the name of an axis may be any text. */
 static void put_name(FILE *out, const char *name, const char *unit)
 {
     char *head =
@@ -57,11 +57,11 @@ static void put_name(FILE *out, const char *name, const char *unit)
     free(head);
 }
 
-/* What some case has. */
+/* What at least one case has, which decides the columns of the table. */
 typedef struct table_has {
-    json_t *columns;    /* {name: unit} of its outputs, in the order of the cases */
-    bool limits, range; /* judged by limits; with a model outside of its range */
-    json_t *lines;      /* {"STAGE.LINE": true} of its quality */
+    json_t *columns;    /* {name: unit} of the outputs, in the order in which cases bring them */
+    bool limits, range; /* some case is judged by limits; uses a model outside of its range */
+    json_t *lines;      /* {"STAGE.LINE": true} for the quality lines */
 } table_has;
 
 static void put_head(FILE *out, const study_definition *study, const char *const *units,
@@ -80,14 +80,14 @@ static void put_head(FILE *out, const study_definition *study, const char *const
             found->range ? ",range" : "");
 }
 
-/* The same of a text that is freed. */
+/* Writes a further cell and frees the text. */
 static void put_made(FILE *out, char *text)
 {
     put_text(out, text);
     free(text);
 }
 
-/* Two cells or three, which are empty for a case that has not run. */
+/* Writes two or three cells, empty for a case that has not run. */
 static void put_judgement(FILE *out, const study_judgement *judgement, bool range)
 {
     fprintf(out, ",%s", judgement ? study_verdict_name(judgement->verdict) : "");
@@ -128,7 +128,7 @@ static void put_row(FILE *out, const study_definition *study, const char *const 
     fputc('\n', out);
 }
 
-/* Adds the names of the lines {stage: {name: line}}. */
+/* Adds the names of the quality lines in {stage: {name: line}}. */
 static void add_lines(json_t *names, json_t *quality)
 {
     const char *stage, *name;
@@ -152,7 +152,8 @@ static table_has find_columns(const study_definition *study, study_records *reco
     const char *name;
     for (size_t i = 0; i < study->count; i++) {
         const char *form = study_records_form(records, keys[i]);
-        if (json_object_get(known, form)) /* outputs and units are a part of the form */
+        if (json_object_get(known,
+                            form)) /* records of the same form have the same outputs and units */
             continue;
         if (*form)
             json_object_set_new(known, form, json_true());
@@ -171,7 +172,7 @@ static table_has find_columns(const study_definition *study, study_records *reco
     return found;
 }
 
-/* Writes the head and a row for each case, and counts their verdicts. Returns what they have. */
+/* Writes the head and a row for each case, and counts the verdicts. Returns what the cases have. */
 static table_has put_table(FILE *out, const study_definition *study, study_records *records,
                            char (*keys)[STUDY_KEY_SIZE], study_tally *tally)
 {
@@ -226,8 +227,8 @@ bool study_table_write(const study_run *run, char (*keys)[STUDY_KEY_SIZE], study
     char *marker = memory_print_text("%s/%s", run->directory, study_marker);
     int lock = open(marker, O_RDONLY | O_CLOEXEC);
     if (lock >= 0)
-        flock(lock, LOCK_EX); /* so that of shards that end together the last one writes the table,
-                                 with all cases */
+        /* If several shards end together, the last one writes the table with all cases. */
+        flock(lock, LOCK_EX);
     study_records *own = records ? NULL : study_records_open(run->directory, false);
     study_tally tally = {.cases = NULL};
     bool good = write_files(run, records ? records : own, keys, &tally, report);

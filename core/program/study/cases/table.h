@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The files of a study that are made of its records. */
+/* Writes the files of a study that are made from its records. */
 #ifndef STUDY_TABLE_H
 #define STUDY_TABLE_H
 
@@ -8,8 +8,9 @@
 /* Writes the description of the study beside its journal; `tally` as in study_run.describe. */
 bool study_describe(const study_run *run, const study_tally *tally, ff_report *report);
 
-/* Writes table.csv and the description with the verdicts; needs the keys of all cases.
-   `records`: what the journals hold; NULL: it is read when no other shard writes the table. */
+/* Writes table.csv, and the description with the verdicts; needs the keys of all cases.
+ * `records`: the contents of the journals; NULL: they are read once no other shard is writing
+ * the table. */
 bool study_table_write(const study_run *run, char (*keys)[STUDY_KEY_SIZE], study_records *records,
                        ff_report *report);
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Builds the cases of a study one after the other. */
 #include "walk.h"
 
 #include "chain.h"
@@ -30,7 +31,7 @@ static void begin_chain(study_walk *walk, size_t chain)
     walk->states = json_object();
 }
 
-/* Makes the open case part of its chain: its key depends on all cases before it. */
+/* Makes the open case part of its chain; its key then depends on all cases before it. */
 static void enter_chain(study_walk *walk)
 {
     study_case *c = &walk->c;

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Walks over the cases of a study: builds each case with its key and initial states, and does not
- * run it. One order serves the search for finished cases, the plan, and the run.
- */
+/* Walks over the cases of a study: builds each case with its key and initial states, without
+ * running it. The search for finished cases, the plan and the run all use this order. */
 #ifndef STUDY_WALK_H
 #define STUDY_WALK_H
 
@@ -13,7 +11,7 @@
 typedef struct study_walk {
     const study_run *run;
     study_records *records;       /* of earlier runs, and of this run if cases form chains */
-    char (*keys)[STUDY_KEY_SIZE]; /* cases with a key here are skipped; NULL: none are */
+    char (*keys)[STUDY_KEY_SIZE]; /* cases that have a key here are skipped; NULL: none are */
     size_t end, step;             /* of the chains */
 
     size_t chain;
@@ -22,11 +20,11 @@ typedef struct study_walk {
     json_t *states;              /* {stage: bytes as text} from which it starts */
     study_case c;
     bool open;
-    study_kept kept, made; /* builds for the keys alone, and builds with model objects */
+    study_kept kept, made; /* runs built for their keys alone, and runs built with model objects */
 } study_walk;
 
-/* Begins a walk over the chains of the run's shard that finds keys alone. The caller may change the
-   members before `position`, and `kept.keys`. */
+/* Begins a walk over the chains of the run's shard that only finds keys. The caller may change
+ * the members before `position`, and `kept.keys`. */
 study_walk study_walk_begin(const study_run *run, study_records *records);
 /* Leaves the open case and opens the next one; NULL after the last. */
 study_case *study_walk_next(study_walk *walk);

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Nodes in YAML's flow style. */
+/* Prints nodes in YAML's flow style. */
 #include "yaml.h"
 
 #include "../../memory/memory.h"
 
 #include <string.h>
 
-/* Whether the text reads as itself without quotes, also within a flow map. */
+/* Whether the text reads as itself without quotes, even in a flow map. */
 static bool is_plain(const char *text)
 {
     size_t length = strlen(text);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Nodes of a file in YAML's flow style. */
+/* Prints nodes of a file in YAML's flow style. */
 #ifndef STUDY_YAML_H
 #define STUDY_YAML_H
 
@@ -7,7 +7,8 @@
 
 #include <stdio.h>
 
-/* Writes the node on one line that reads as the same node; the second writes a key or a text. */
+/* The first writes the node on one line that reads as the same node; the second writes a key or
+ * a text. */
 void study_yaml_print(const ff_node *node, FILE *out);
 void study_yaml_print_text(const char *text, bool quoted, FILE *out);
 /* Returns "path=node", as --set takes it, to be freed. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What drivers share to read their keys and to print. */
+/* Functions with which drivers read their keys and print. */
 #include "context.h"
 
 #include <stdarg.h>

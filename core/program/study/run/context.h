@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * What the kinds share: a study whose later cases depend on what earlier ones
- * gave. A driver reads its keys and submits the cases that are known beforehand; later it runs
- * them, looks at what they gave and submits others. A study that was broken off goes on in the next
- * run, which submits the same cases and finds the finished ones in the journal.
- */
+/* What drivers share, the kinds of study whose later cases depend on the results of earlier
+ * ones. A driver reads its keys and submits the cases that are known beforehand; later it runs
+ * them, looks at their results and submits others. An interrupted study continues in the next
+ * run, which submits the same cases and finds the finished ones in the journal. */
 #ifndef STUDY_CONTEXT_H
 #define STUDY_CONTEXT_H
 
@@ -14,53 +12,54 @@
 
 #include <flankfilm/plugin.h>
 
-/* The type of a key whose value, list or map the driver reads itself. */
+/* The type of a key whose value the driver reads itself, such as a list or a map. */
 enum { STUDY_TREE = 0 };
 
-/* What stands under a key of a driver. */
+/* The value of a driver's key. */
 typedef struct study_key_value {
-    const ff_node *node; /* NULL when the key is missing */
-    ff_value value;      /* in SI, from the node or the preset, when the key has a type */
+    const ff_node *node; /* NULL if the key is missing */
+    ff_value value;      /* in SI, from the node or the preset, if the key has a type */
 } study_key_value;
 
-/* What a case assigns to a path: "film.cells=512", named "512"; both are "" when the file's value
-   stays. */
+/* What a case assigns to a path: "film.cells=512", with the name "512"; both are "" if the
+ * file's value stays. */
 typedef struct study_setting {
     const char *assignment, *name;
 } study_setting;
 
 typedef struct study_output {
-    const double *values; /* NULL when the case lacks the output */
+    const double *values; /* NULL if the case lacks the output */
     size_t rank, count;   /* 0 and 1 for a scalar */
-    const double *at;     /* what it is plotted against, which never falls; NULL means the index */
-    const char *along;    /* name of that series, or "" */
+    const double
+        *at; /* the series against which it is plotted, which never decreases; NULL: the index */
+    const char *along; /* the name of that series, or "" */
 } study_output;
 
 /* A line of quality. */
 typedef struct study_quality {
     const char *name; /* "film.load_balance" */
     double value, limit;
-    int verdict;      /* FF_GOOD ... */
+    int verdict;      /* FF_GOOD, ... */
     const char *text; /* or "" */
 } study_quality;
 
-/* What a case gave. Numbers are in SI, and NaN where they are missing. */
+/* The result of a case. Numbers are in SI, and NaN if they are missing. */
 typedef struct study_outcome {
-    const char *key;       /* under which the journal has it */
+    const char *key;       /* its key in the journal */
     const char *status;    /* "ok", "failed", "invalid", "crashed" ...; "not run" */
     const char *reason;    /* why it is not ok, or "" */
-    study_output *outputs; /* one for each output of the context, then one for each extra */
+    study_output *outputs; /* one for each output of the context, followed by one for each extra */
     study_quality *quality;
     size_t quality_count;
     double work;             /* processor time in s of the stages in which cases differ */
     double shared;           /* wall time in s of the other stages */
-    double processor, saved; /* s of processor time of the whole case, and that its reused stages
-                                took where they were computed */
+    double processor, saved; /* s of processor time: of the whole case, and of its reused stages
+                                when they were computed */
 } study_outcome;
 
 typedef struct study_submitted {
     const char *label;            /* for messages: "cells 512" */
-    ff_place place;               /* where it stands in the file */
+    ff_place place;               /* where the file gives it */
     const study_outcome *outcome; /* NULL until study_outcome_of reads it */
 } study_submitted;
 
@@ -74,95 +73,98 @@ typedef struct study_result_file {
 enum { STUDY_RESULT_FILES = 4, STUDY_MOST_SUBMITTED = 1000000 };
 
 typedef struct study_context {
-    const char *name;    /* the key under `study:` */
-    const ff_node *root; /* of the file, as it stands */
+    const char *name;    /* the driver's key under `study:` */
+    const ff_node *root; /* of the file as it is */
     ff_report *report;   /* of the current call */
     memory_arena arena;  /* memory that lives as long as the study */
 
-    /* The driver sets these before anything has run. */
-    bool measured; /* costs count: cases run one after the other on one core, what differs between
-                      them is computed each time; otherwise outputs are scalars */
-    const char *further;      /* which cases may follow: "then halvings"; "" when none do */
-    const char *const *paths; /* what cases assign: the columns of table.csv */
+    /* The driver sets these before anything runs. */
+    bool measured; /* costs count: cases run one by one on one core, and what differs between them
+                      is computed in each; if false, outputs are scalars */
+    const char *further;      /* which cases may follow: "then halvings"; "" if none */
+    const char *const *paths; /* paths that cases assign: the columns of table.csv */
     size_t path_count;
-    /* its cases come first; NULL when the first cases form a plain list */
+    /* a study whose cases come first; NULL if the first cases form a plain list */
     const study_definition *grid;
-    const ff_node *const *outputs; /* "film.h_min": they replace the file's outputs */
+    const ff_node *const *outputs; /* "film.h_min": these replace the file's outputs */
     size_t output_count;
-    const char *const *extras; /* other results to record, where stages have them */
+    const char *const *extras; /* other results to record, from the stages that have them */
     size_t extra_count;
-    const char *const *names; /* "film.residual": the pipeline must have their stages */
+    const char *const *names; /* "film.residual": the pipeline must have the stages of these */
     size_t name_count;
-    const char *const *knobs; /* parameters that are scaled; NULL when there are none */
+    const char *const *knobs; /* parameters that are scaled; NULL if there are none */
     size_t knob_count;
-    const char *along;         /* as in study_measure */
-    const char *const *stages; /* stages whose work counts although cases do not differ there */
+    const char *along; /* as in study_measure */
+    const char *const
+        *stages; /* stages whose work counts even though cases do not differ in them */
     size_t stage_count;
-    size_t opened;         /* so many of the first cases must be valid before any is run */
-    const char **compared; /* names of the models that it compares the file's with */
-    size_t compared_count, first_compared; /* number of the first one's case */
+    size_t opened;         /* this many of the first cases must be valid before any is run */
+    const char **compared; /* models that the study compares with the file's */
+    size_t compared_count,
+        first_compared; /* `first_compared`: number of the first case with one of them */
 
     study_definition list; /* the submitted cases, along one axis that grows */
-    size_t room;           /* for how many cases the columns of `list` and these have memory: */
+    size_t room;           /* memory of the columns of `list` and of the next members, in cases: */
     size_t *repeats;
     study_submitted *cases;
-    char (*keys)[STUDY_KEY_SIZE]; /* of each case; "" before it has run */
-    study_measure *measure;       /* NULL when nothing is measured */
-    size_t planned;               /* cases that were submitted before the run */
+    char (*keys)[STUDY_KEY_SIZE]; /* of each case; "" until it has run */
+    study_measure *measure;       /* NULL if nothing is measured */
+    size_t planned;               /* number of cases submitted before the run */
     study_definition **expanded;
     size_t expanded_count;
 
-    const study_run *run; /* NULL while nothing may run */
-    study_plan *plan;     /* cases are counted in place of run; NULL: they run */
-    size_t counted;       /* of those, up to which */
+    const study_run *run; /* NULL as long as nothing may run */
+    study_plan *plan;     /* cases are only counted, into this plan; NULL: they run */
+    size_t counted;       /* cases counted so far */
     study_counters *counters;
     study_records *records;
     json_t *facts; /* members for `run --json`, or NULL */
     study_result_file files[STUDY_RESULT_FILES];
     size_t file_count;
-    int verdict; /* FF_BAD when the study has found a silent failure; -1 when its cases decide */
+    int verdict; /* FF_BAD if the study has found a silent failure; -1 if the verdicts of its cases
+                    decide */
 } study_context;
 
 /* context.c */
 void study_context_free(study_context *context);
 char *study_context_format(study_context *context, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
-/* Reports an error at a node of the file, which may be NULL; returns false. */
+/* Reports an error at a node of the file, which may be NULL. Returns false. */
 bool study_context_refuse(study_context *context, const ff_node *where, const char *hint,
                           const char *text);
-/* Returns the cases of a map from paths to ranges, lists or single values, as under `sweep:`; NULL
-   after an error. They live as long as the context. */
+/* Returns the cases of a map from paths to ranges, lists or single values, as under `sweep:`.
+ * NULL after an error. They live as long as the context. */
 const study_definition *study_context_expand(study_context *context, const ff_node *map);
 /* Returns the text of a value; NULL for a list, a map or a missing node. */
 const char *study_word(const ff_node *node);
 bool study_is_map(const ff_node *node);
-/* Prints a line on the terminal. One that is too long is cut (indent 0), continued on lines that
-   are indented by `indent` columns, or left as it is (-1). */
+/* Prints a line on the terminal. If it is too long, it is cut (indent 0), continued on lines
+ * indented by `indent` columns, or left as it is (-1). */
 void study_context_print_line(const study_context *context, int indent, const char *line);
-/* Opens a file of the study, which the caller fills in and closes. */
+/* Opens a file of the study, which the caller writes and closes. */
 FILE *study_context_file(study_context *context, const char *name);
 
-/* submit.c: adds a case and returns its number 0, 1, ... There is a setting for each path of the
-   context, whose texts live as long as it. Cases that differ in `repeat` alone are all run. */
+/* submit.c: adds a case and returns its number 0, 1, ... `settings` has one entry for each path
+ * of the context, whose texts live as long as the context. Cases that differ only in `repeat`
+ * are all run. */
 size_t study_submit(study_context *context, const study_setting *settings, size_t repeat,
                     const char *label, const ff_node *place);
-/* Builds a case; reports its first error where that is asked for, and returns false when there is
-   one. */
+/* Builds a case. Returns false if it has an error; if `reported`, reports the first one. */
 bool study_submitted_opens(const study_context *context, size_t number, bool reported);
-/* Runs the cases with the numbers from `begin` to `end` - 1, or counts them for a plan. False when
-   the study cannot go on. */
+/* Runs the cases with the numbers from `begin` to `end` - 1, or counts them for a plan. False if
+ * the study cannot continue. */
 bool study_run_submitted(study_context *context, size_t begin, size_t end);
-/* Writes the table of the cases that ran, and the description of the study. */
+/* Writes the table of the cases that have run, and the description of the study. */
 bool study_write_submitted(study_context *context);
 
-/* outcome.c: returns what a case gave. */
+/* outcome.c: returns the result of a case. */
 const study_outcome *study_outcome_of(study_context *context, size_t number);
 
-/* scale.c: returns the stage of "stage.name", or NULL. Sets *param to the index of the parameter of
-   that name, or to SIZE_MAX when it is not in use or not a number. */
+/* scale.c: returns the stage of "stage.name", or NULL. Sets *param to the index of the parameter
+ * with that name, or to SIZE_MAX if it is not in use or is not a number. */
 const ff_stage *study_find_number(const ff_pipeline *pipeline, const char *path, size_t *param);
-/* Writes the values of parameters in a case, times factors, as a user would write them; NULL for
-   one whose stage does not run there or that is not a number. */
+/* Writes the values of parameters in a case, multiplied by factors, as a user would write them.
+ * NULL for a parameter that is not a number or whose stage does not run in the case. */
 void study_scale_parameters(study_context *context, size_t number, const char *const *paths,
                             const double *factors, size_t count, const char **scaled);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The pipe to the fork server takes numbers of chains; the pipe from it gives a header, then the
-   answer. */
+/* The pipe to the fork server carries numbers of chains; the pipe from it carries a header and
+ * an answer for each case. */
 #include "workers.h"
 
 #include <errno.h>
@@ -24,7 +24,7 @@ static bool has_input(int fd, int milliseconds)
     return poll(&polled, 1, milliseconds) > 0;
 }
 
-/* Called with the first chain, since the leading process has made the directory by then. */
+/* Opens the pool at the first chain, when the leading process has made the directory. */
 static void open_pool(study_pool *pool, const study_run *run, int from, int to)
 {
     study_pool_open(pool, run, study_records_open(run->directory, true));
@@ -38,7 +38,7 @@ static _Noreturn void serve(const study_run *run, int from, int to)
     size_t task;
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     signal(SIGINT, SIG_IGN);
-    signal(SIGTERM, SIG_IGN); /* the process that leads the run decides when to end */
+    signal(SIGTERM, SIG_IGN); /* the leading process decides when to end */
     signal(SIGUSR1, SIG_IGN);
     for (;;) {
         if (!pool.workers || has_input(from, 0)) {
@@ -82,7 +82,7 @@ bool study_fork_server_start(study_fork_server *server, const study_run *run)
 
 void study_fork_server_start_chain(study_fork_server *server, size_t chain)
 {
-    /* study_fork_server_wait notices when the fork server is gone. */
+    /* If the fork server has ended, study_fork_server_wait will notice. */
     study_write_all(server->to, &chain, sizeof chain);
 }
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Finds the finished cases of a large study, in a process of its own. */
 #include "known.h"
 
 #include "workers.h"
@@ -16,11 +17,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* What a plugin says or leaves changed here stays here. */
+/* Separates this process, so that nothing that a plugin prints or changes in it has an effect
+ * outside. */
 static void set_apart(void)
 {
     int null = open("/dev/null", O_RDWR);
-    setpgid(0, 0); /* what a plugin starts is ended with it */
+    setpgid(0, 0); /* to end processes that a plugin starts together with this one */
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     signal(SIGINT, SIG_IGN);
     signal(SIGTERM, SIG_IGN);

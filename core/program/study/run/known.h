@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Finds the cases of a large study that an earlier run has done, in a process of its own: building
- * a case calls its plugins. A case after one that crashes it is not found, and a worker sees to it.
- */
+/* Finds the cases of a large study that an earlier run has finished. Building a case calls its
+ * plugins, so this is done in a process of its own. If a case crashes it, later cases are not
+ * found here; a worker recognises them. */
 #ifndef STUDY_KNOWN_H
 #define STUDY_KNOWN_H
 
@@ -21,10 +20,10 @@ typedef struct study_search {
     FILE *from;
 } study_search;
 
-/* Goes on with the walk in a process of its own, which closes the two descriptors that are hidden
-   from plugins. False: no process could be started. */
+/* Continues the walk in a process of its own, which closes the two descriptors that plugins must
+ * not reach. False: the process could not be started. */
 bool study_search_start(study_search *search, study_walk *walk, const int hidden[2]);
-/* Returns whether there is one more. */
+/* Reads the next finished case; false after the last one. */
 bool study_search_next(study_search *search, study_known *known);
 void study_search_end(study_search *search);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reads what a case gave from its record in the journal. */
+/* Reads the results of a case from its record in the journal. */
 #include "context.h"
 
 #include "../cases/case.h"
@@ -30,7 +30,7 @@ static const double *read_array(study_context *context, arrays_reader *reader, c
     return values;
 }
 
-/* Reads an array with what it is plotted against, or a scalar. */
+/* Reads a scalar, or an array with the series against which it is plotted. */
 static study_output read_output(study_context *context, arrays_reader *reader, const json_t *record,
                                 const char *name)
 {
@@ -72,7 +72,7 @@ static void read_outputs(study_context *context, const json_t *record, study_out
         close(directory);
 }
 
-/* Reads the lines [value, limit, verdict, text] of all stages. */
+/* Reads the quality lines [value, limit, verdict, text] of all stages. */
 static void read_quality(study_context *context, const json_t *record, study_outcome *outcome)
 {
     json_t *stages = json_object_get(record, "quality"), *lines, *line;
@@ -89,8 +89,8 @@ static void read_quality(study_context *context, const json_t *record, study_out
                         .text = text_of(context, json_array_get(line, 3))};
 }
 
-/* Sums the processor time of the stages in which cases differ, and the wall time of those that they
-   share, even when an earlier case computed these. */
+/* Sums the processor time of the stages in which cases differ, and the wall time of the shared
+ * stages, also if an earlier case has computed these. */
 static void read_costs(const json_t *record, study_outcome *outcome)
 {
     json_t *work = json_object_get(json_object_get(record, "measured"), "work"), *value;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Finds what a run would do, and what earlier runs have saved. */
+/* Finds what a run would do, and how much earlier runs have saved. */
 #include "run.h"
 
 #include "../cases/chain.h"
@@ -11,19 +11,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A case of an earlier run, by its assignments. */
+/* A case of an earlier run, found by its assignments. */
 typedef struct earlier_case {
     uint64_t set;  /* hash of the assignments */
-    uint64_t rank; /* of its record */
+    uint64_t rank; /* rank of its record */
     char key[STUDY_KEY_SIZE];
 } earlier_case;
 
-/* Counts case by case what is done. */
+/* Counts, case by case, what is done. */
 typedef struct survey {
     const study_run *run;
     study_plan *plan;
     study_records *records;
-    earlier_case *earlier; /* sorted; made when a case is found whose key has changed */
+    earlier_case *earlier; /* sorted; made once a case is found whose key has changed */
     size_t earlier_count;
 } survey;
 
@@ -59,7 +59,7 @@ static void index_earlier(survey *s)
     qsort(s->earlier, s->earlier_count, sizeof *s->earlier, by_set);
 }
 
-/* Returns the last record with the assignments of the case, to be released; NULL: none has them. */
+/* Returns the last record with the assignments of the case, to be released; NULL: there is none. */
 static json_t *find_earlier(survey *s, size_t index)
 {
     json_t *set = study_case_set(s->run->study, index);
@@ -88,8 +88,8 @@ static void count_seconds(survey *s, const json_t *record)
     s->plan->timed += seconds != NULL;
 }
 
-/* Counts a case that was done with the same assignments but has another key now; for the first of
-   them, prints what has changed. */
+/* Counts a case that was done with the same assignments but now has another key. For the first
+ * such case, prints what has changed. */
 static void explain_change(survey *s, const study_case *c)
 {
     json_t *record = find_earlier(s, c->index);
@@ -113,7 +113,7 @@ static void explain_change(survey *s, const study_case *c)
 
 static void count_case(survey *s, study_walk *walk)
 {
-    enum { TIMED = 10000 }; /* records that are looked at for how long a case takes */
+    enum { TIMED = 10000 }; /* records that are read to estimate the duration of a case */
     study_plan *plan = s->plan;
     if (study_records_state(s->records, walk->c.key) == STUDY_UNKNOWN)
         study_walk_make(walk);
@@ -143,7 +143,7 @@ void study_preview(const study_run *given, study_plan *plan)
     walk.chain += own.begin;
     walk.end = own.end ? own.end : walk.end;
     size_t chains = walk.chain < walk.end ? (walk.end - walk.chain - 1) / own.shards + 1 : 0;
-    if (study_records_count(s.records) == 0) /* all cases are left: none need be built */
+    if (study_records_count(s.records) == 0) /* all cases are left, so none must be built */
         plan->left += chains * study_chain_length(own.study);
     while (study_records_count(s.records) > 0 && study_walk_next(&walk))
         count_case(&s, &walk);

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * The workers of a process. The answer to a case is a line of text:
- * "<index> <key> <verdict> <rest>" with a verdict of enum study_case_verdict and, as the rest, the
- * line for the journal or an error message.
- */
+/* The workers of a process. The answer to a case is a line of text: "<index> <key> <verdict>
+ * <rest>". The verdict is one of enum study_case_verdict; the rest is the line for the journal
+ * or an error message. */
 #include "workers.h"
 
 #include "../cases/case.h"
@@ -33,7 +31,7 @@ void study_pool_close(study_pool *pool)
         if (worker->pid) {
             close(worker->to);
             worker->to = -1;
-            kill(worker->pid, SIGCONT); /* one that a plugin has stopped would never end */
+            kill(worker->pid, SIGCONT); /* a worker that a plugin has stopped would never end */
             free(study_worker_reap(worker));
         }
         free(worker->line);
@@ -68,7 +66,7 @@ static void send_next_case(study_pool *pool, study_worker *worker)
         worker->index = index;
         return;
     }
-    /* If the worker has just died, reading its answer will show that. */
+    /* If the worker has just died, reading its answer will show it. */
     study_worker_send_case(worker, pool->run, index);
 }
 
@@ -90,7 +88,7 @@ static void set_answer(study_pool *pool, const study_worker *worker, char verdic
         memory_print_text("%zu %.*s %c %s", worker->index, STUDY_KEY_SIZE, key, verdict, rest);
 }
 
-/* Forces to the disk what the logs of all workers have; after an error the answer says it. */
+/* Forces the logs of all workers to the disk. If that fails, the next answer reports it. */
 static bool sync_logs(study_pool *pool)
 {
     double start = study_seconds_now();
@@ -108,7 +106,7 @@ static bool sync_logs(study_pool *pool)
     return true;
 }
 
-/* Sees to it that no answer is given before its arrays are on the disk. */
+/* Ensures that the worker's answer is held until its arrays are on the disk. */
 static void settle_arrays(study_pool *pool, const study_worker *worker)
 {
     if (!study_worker_is_ahead(worker))
@@ -124,8 +122,8 @@ static void settle_arrays(study_pool *pool, const study_worker *worker)
     pool->answer = NULL;
 }
 
-/* s that answers may still be held: so long that syncs take a tenth of the time, but not longer
-   than a moment, nor when there is nothing else to do. */
+/* Returns for how many s answers may still be held: long enough that syncs take at most a tenth
+ * of the time, but at most a moment, and not if there is nothing else to do. */
 static double time_to_hold(const study_pool *pool)
 {
     const double longest = 0.2;
@@ -136,7 +134,7 @@ static double time_to_hold(const study_pool *pool)
     return idle || pool->ending ? 0 : end - study_seconds_now();
 }
 
-/* Gives out the next of the answers that were held; after an error of writing that, for all. */
+/* Hands out the next held answer. After a write error, all held answers carry the error. */
 static bool release_answer(study_pool *pool)
 {
     if (pool->held_count == 0 || (pool->released == 0 && time_to_hold(pool) > 0))
@@ -169,7 +167,7 @@ static int finish_case(study_pool *pool, study_worker *worker, char verdict, con
     return pool->answer ? FF_TASK_ANSWER : FF_TASK_NONE;
 }
 
-/* Keeps the record of a line, since another worker may have to go on with the chain. */
+/* Keeps the record of a line, since another worker may have to continue the chain. */
 static void keep_record(study_pool *pool, const char *key, const char *line)
 {
     if (study_chain_length(pool->run->study) == 1)
@@ -179,7 +177,7 @@ static void keep_record(study_pool *pool, const char *key, const char *line)
     json_decref(record);
 }
 
-/* Records that the worker of a case is gone, or was ended because it took too long. */
+/* Records that the worker of a case has died, or was ended because it took too long. */
 static int record_crash(study_pool *pool, study_worker *worker, const char *status, char *reason,
                         size_t *task)
 {
@@ -188,7 +186,7 @@ static int record_crash(study_pool *pool, study_worker *worker, const char *stat
         free(reason);
         return FF_TASK_NONE;
     }
-    if (!worker->shared->key[0]) /* the worker died while it built the case */
+    if (!worker->shared->key[0]) /* it died while building the case */
         snprintf(worker->shared->key, STUDY_KEY_SIZE, "case-%zu", worker->index + 1);
     memcpy(key, worker->shared->key, sizeof key);
     key[STUDY_KEY_SIZE - 1] = '\0';
@@ -203,7 +201,7 @@ static int record_crash(study_pool *pool, study_worker *worker, const char *stat
     return state;
 }
 
-/* What a plugin writes into the pipe of its worker spoils the answer. */
+/* Refuses an answer that is malformed, since a plugin has written into the pipe of its worker. */
 static int refuse_answer(study_pool *pool, study_worker *worker, size_t *task)
 {
     study_worker_kill(worker);
@@ -250,7 +248,7 @@ static int check_time(study_pool *pool, study_worker *worker, size_t *task)
                         task);
 }
 
-/* `quiet`: no worker has written anything. */
+/* Looks at one worker. `quiet`: no worker has written anything. */
 static int poll_worker(study_pool *pool, size_t i, bool quiet, size_t *task)
 {
     study_worker *worker = &pool->workers[i];

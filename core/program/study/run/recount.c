@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Tells how a run has ended by the rows that the disk holds. */
+/* Determines the result of a run from the rows on the disk. */
 #include "run.h"
 
 #include "../store/journal.h"
 
-/* Counts by the rows of the cases of this run that have a key. */
+/* Counts the rows of the cases of this run that have a key. */
 static void count_rows(const study_run *run, study_records *records, char (*keys)[STUDY_KEY_SIZE],
                        study_counters *found, size_t *answered)
 {
@@ -26,8 +26,8 @@ static void count_rows(const study_run *run, study_records *records, char (*keys
         }
 }
 
-/* A case that is run again and fails keeps the row of its earlier success, if it has one: the
-   failure is counted all the same. */
+/* A case that ran again and failed keeps the row of an earlier success, if there is one. The
+ * failure is counted nevertheless. */
 bool study_recount(const study_run *run, study_records *records, char (*keys)[STUDY_KEY_SIZE],
                    study_counters *counters, ff_report *report)
 {

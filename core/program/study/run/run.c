@@ -24,16 +24,16 @@ typedef struct execution {
     ff_report *report;
     study_counters *counters;
     study_journal journal;
-    bool open;           /* whether the journal is open */
-    study_records *done; /* of earlier runs, and of this one where cases form chains */
+    bool open;           /* true once the journal is open */
+    study_records *done; /* of earlier runs, and of this run if cases form chains */
     char (*keys)[STUDY_KEY_SIZE];
-    size_t room;                   /* of keys, for the rows of standard input */
-    study_pool pool;               /* without an executor: the workers of this process */
-    study_fork_server fork_server; /* with an executor */
-    size_t next;                   /* the next chain to hand out, which is a task of the executor */
-    bool searched;                 /* for cases that an earlier run has done */
-    bool ending;                   /* no more cases are handed out */
-    bool no_memory;                /* so that an executor was told to end */
+    size_t room;                   /* room for keys, for rows from standard input */
+    study_pool pool;               /* if there is no executor: the workers of this process */
+    study_fork_server fork_server; /* if there is an executor */
+    size_t next;    /* the next chain to hand out, which is one task of the executor */
+    bool searched;  /* finished cases have been searched for */
+    bool ending;    /* no more cases are handed out */
+    bool no_memory; /* memory ran out, and the executor was told to end */
     double start, reported;
 } execution;
 
@@ -42,7 +42,7 @@ static size_t end_of_chains(const study_run *run)
     return run->end ? run->end : study_chains(run->study);
 }
 
-/* Before the first case: no kept result of a stage is taken over when all are to run again. */
+/* Removes kept results of stages before the first case if all cases are to run again. */
 static void begin_results(execution *r)
 {
     study_setup_warn_rebuilt(r->run, r->done, r->report);
@@ -52,7 +52,8 @@ static void begin_results(execution *r)
         study_reuse_clear(r->journal.directory);
 }
 
-/* What an executor calls, which is not left without memory: it is told that all is over. */
+/* Runs a function that an executor calls. If memory runs out, the function is left, and the
+ * executor is told to end. */
 static bool protect(execution *r, void (*function)(void *ctx), void *ctx)
 {
     bool done = ff_protected(function, ctx) == FF_OK;
@@ -95,7 +96,7 @@ static int32_t begin_leading(void *ctx)
     return protect(r, open_journal, r) && r->open ? 0 : -1;
 }
 
-/* Takes the next row of standard input, if it has come. */
+/* Takes the next row from standard input, if it has come. */
 static void take_row(execution *r)
 {
     const study_definition *study = r->run->study;
@@ -108,7 +109,7 @@ static void take_row(execution *r)
     r->counters->total = study->count;
 }
 
-/* Whether the case of a chain of one is answered already. */
+/* Whether the only case of a chain is answered already. */
 static bool is_answered(const execution *r, size_t chain)
 {
     return r->searched && r->keys[chain][0];
@@ -128,8 +129,8 @@ static int32_t next_chain(void *ctx, size_t *task)
     return 1;
 }
 
-/* Nothing of a plugin whose file was written over may be touched any more, also not to tell what it
-   is: the process that waits says so. */
+/* Ends the process because a plugin's file was overwritten. The plugin's code must not be
+ * touched any more, even for an error message, so the parent process reports it. */
 static _Noreturn void end_written_over(execution *r, const char *path)
 {
     char sentence[CRASH_SENTENCE];
@@ -151,7 +152,7 @@ static void check_plugins(execution *r)
         end_written_over(r, over->path);
 }
 
-/* A model that a worker alone has met is loaded here, too, and so watched from now on. */
+/* Loads models that only a worker has used so far, so that their files are watched, too. */
 static void watch_models(const execution *r, const json_t *record)
 {
     ff_report *unheard = ff_report_new();
@@ -166,8 +167,8 @@ static void watch_models(const execution *r, const json_t *record)
     ff_report_free(unheard);
 }
 
-/* Counts an answer and adds it to the journal; `text` is what follows the verdict. False when no
-   further cases are to run. */
+/* Counts an answer and adds it to the journal; `text` is what follows the verdict. False if no
+ * further cases are to run. */
 static bool record_answer(execution *r, size_t index, const char *key, char verdict,
                           const char *text)
 {
@@ -179,7 +180,7 @@ static bool record_answer(execution *r, size_t index, const char *key, char verd
                         text);
     if (verdict == STUDY_VERDICT_WRITTEN_OVER)
         end_written_over(r, text);
-    if (!good && !known) /* a good answer was checked where it was made */
+    if (!good && !known) /* a good answer was checked by its worker */
         check_plugins(r);
     if (!known && !study_journal_append(&r->journal, text, strlen(text), r->report))
         return false;
@@ -207,7 +208,7 @@ static bool record_answer(execution *r, size_t index, const char *key, char verd
     return known || good || excused || !r->run->fail_fast;
 }
 
-/* What wait_for_answer and note_answer are about. */
+/* The arguments of wait_for_answer and note_answer. */
 typedef struct answer_call {
     execution *r;
     const char *text;
@@ -258,7 +259,8 @@ static void show_progress(execution *r)
     r->run->progress(r->run->ctx, r->counters);
 }
 
-/* After a second signal: ends with it, and with all workers and what these have started. */
+/* Ends this process after a second signal, with all workers and the processes that they have
+ * started. */
 static _Noreturn void end_at_once(execution *r)
 {
     study_pool_kill(&r->pool);
@@ -279,7 +281,7 @@ static void take_answer(void *ctx)
     if (study_signals_count() > 1)
         end_at_once(r);
     if (call->state == FF_TASK_NONE)
-        check_plugins(r); /* what has become of its code may run for ever */
+        check_plugins(r); /* The code of an overwritten plugin may never return. */
     if (call->state > 0)
         call->text = forked ? r->fork_server.answer : r->pool.answer;
     show_progress(r);
@@ -305,7 +307,7 @@ static bool expects_row(const execution *r)
            !study_rows_ended(study->rows);
 }
 
-/* Waits for a row; false when none will come. */
+/* Waits for a row; false if none will come. */
 static bool await_row(const execution *r)
 {
     if (!expects_row(r))
@@ -314,10 +316,10 @@ static bool await_row(const execution *r)
     return true;
 }
 
-/* Answers what an earlier run has done in one go: a worker would have to be asked for each. */
+/* Answers all finished cases here, without asking a worker for each of them. */
 static void answer_known(execution *r)
 {
-    enum { FEW = 1000 }; /* for which no further process is worth its start */
+    enum { FEW = 1000 }; /* for fewer cases, a further process is not worth its start */
     const study_run *run = r->run;
     study_search search = {.pid = 0};
     study_known known;
@@ -384,7 +386,8 @@ static ff_status call_executor(void *ctx)
                                                   : FF_BUG;
 }
 
-/* An error that was reported while it ran says more than its status. */
+/* Runs the cases by an executor. An error that was reported meanwhile says more than the
+ * executor's status. */
 static bool run_elsewhere(execution *r, ff_tasks *tasks)
 {
     ff_instance *executor = r->run->executor;
@@ -422,8 +425,8 @@ static bool run_cases(execution *r)
     return good;
 }
 
-/* Builds the cases that did not run here to find their keys, by which the journal has the cases of
-   other shards. */
+/* Builds the cases that did not run here to find their keys, under which the journals hold the
+ * cases of other shards. */
 static void find_keys(execution *r)
 {
     study_walk walk = study_walk_begin(r->run, r->done);
@@ -437,7 +440,7 @@ static void find_keys(execution *r)
     study_walk_end(&walk);
 }
 
-/* Ends the run in the leading process when all cases are answered. */
+/* Ends the run in the leading process once all cases are answered. */
 static void finish_run(execution *r)
 {
     const study_run *run = r->run;

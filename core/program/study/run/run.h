@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Runs the cases of a study, and tells what a run would do. */
+/* Runs the cases of a study, and says what a run would do. */
 #ifndef STUDY_RUN_H
 #define STUDY_RUN_H
 
@@ -7,65 +7,63 @@
 
 #include <signal.h>
 
-/* What reusing kept results of stages has saved. */
+/* How much the reuse of stage results has saved. */
 typedef struct study_reuse_counts {
     size_t computed, reused; /* numbers of stages */
-    double spent, saved; /* s that the computed stages took, and that the reused ones took when they
-                            were computed */
+    double spent, saved; /* s that the computed stages took, and s that the reused ones had taken */
 } study_reuse_counts;
 
-/* Sums over all cases in the directory; zero when there is no study in it. */
+/* Sums over all cases in the directory; zeros if it holds no study. */
 study_reuse_counts study_savings(const char *directory);
 
 typedef struct study_counters {
-    bool leads;    /* this process keeps the counters, not another one of the executor */
+    bool leads;    /* this process keeps the counters, and no other process of the executor does */
     size_t total;  /* cases of this shard */
-    size_t before; /* cases of those that an earlier run has done */
-    size_t done;   /* cases done, including those */
-    size_t failed; /* cases of those done that failed */
+    size_t before; /* of those, done by an earlier run */
+    size_t done;   /* all cases done, including those */
+    size_t failed; /* failed ones among the done cases */
     double seconds;
     study_reuse_counts savings; /* of the cases done in this run */
-    study_tally tally;          /* of the cases done; to be freed by study_tally_free */
+    study_tally tally;          /* of the done cases; freed by study_tally_free */
 } study_counters;
 
-/* Adds what the stages of a case have cost and saved; record may be NULL. */
+/* Adds the cost and the savings of a case's stages; record may be NULL. */
 void study_savings_add(study_reuse_counts *savings, const json_t *record);
 
-/* recount.c: counts the cases of this run that have a key by their rows on the disk, in place of
-   what the counters hold. Reports the cases whose rows are lost. */
+/* recount.c: replaces the counters by a count of the rows on the disk, for the cases of this run
+ * that have a key. Reports cases whose rows are lost. */
 bool study_recount(const study_run *run, study_records *records, char (*keys)[STUDY_KEY_SIZE],
                    study_counters *counters, ff_report *report);
 
-/* signals.c: what SIGINT and SIGTERM did before. */
+/* signals.c: how SIGINT and SIGTERM were handled before. */
 typedef struct study_signals {
     struct sigaction interrupt, terminate;
 } study_signals;
 
-/* From here on the first of these signals lets the cases at hand finish, also between the rounds of
-   a driver, which runs several lots of cases; the second ends at once. */
+/* Catches both signals. The first one lets the running cases finish and stops the study, also
+ * between the batches of a driver; the second one ends the process at once. */
 void study_signals_catch(study_signals *before);
 void study_signals_restore(const study_signals *before);
-/* Whether this process ends the workers itself, and tells the user of the first signal. */
+/* Sets whether this process ends the workers itself and tells the user of the first signal. */
 void study_signals_lead(bool leads);
 int study_signals_count(void);  /* since they were caught */
-void study_signals_raise(void); /* does what the last one did by default */
+void study_signals_raise(void); /* does what the last signal does by default */
 
-/* Runs what is not done yet, then writes table.csv. Failed cases are only counted; the report gets
-   what keeps the study from going on. */
+/* Runs the cases that are not done, and writes table.csv. Failed cases are only counted; the
+ * report gets errors that keep the study from continuing. */
 bool study_execute(const study_run *run, study_counters *counters, ff_report *report);
 
 /* What a run would do. */
 typedef struct study_plan {
     size_t done, failed, left;
-    size_t again;       /* cases of those left that an earlier run has done with other inputs */
-    char changed[1000]; /* what differs: lines such as "duty.torque: 250 N m -> 300 N m" */
-    double seconds;     /* s that the cases left will take, estimated from those done; negative when
-                           unknown */
-    double spent;       /* s of so many cases done, which that rests on */
+    size_t again;       /* cases left that an earlier run did with other inputs */
+    char changed[1000]; /* what differs, in lines such as "duty.torque: 250 N m -> 300 N m" */
+    double seconds;     /* estimated s for the cases left; negative if unknown */
+    double spent;       /* s that the done cases took on which the estimate rests */
     size_t timed;
 } study_plan;
 
-/* Adds what a run would do; a plan begins at {.seconds = -1}. */
+/* Adds what a run would do. A plan starts at {.seconds = -1}. */
 void study_preview(const study_run *run, study_plan *plan);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Makes parameters of a case larger or smaller. */
+/* Scales parameters of a case. */
 #include "context.h"
 
 #include "../cases/case.h"

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lets the first SIGINT or SIGTERM end a study after the cases at hand, the second one at once. */
+/* The first SIGINT or SIGTERM lets the running cases finish and ends the study; the second one
+ * ends it at once. */
 #include "../../crash/lead.h"
 #include "run.h"
 
@@ -11,7 +12,7 @@ static void on_interrupt(int number, siginfo_t *info, void *context)
 {
     static const char text[] = "\nfinishing the cases at hand; once more to end at once\n";
     (void)context;
-    if (info->si_pid == getpid() && ff_guard_current().path) { /* a plugin has sent it */
+    if (info->si_pid == getpid() && ff_guard_current().path) { /* sent by a plugin */
         signal(number, SIG_DFL);
         raise(number);
         return;
@@ -21,12 +22,12 @@ static void on_interrupt(int number, siginfo_t *info, void *context)
     last_signal = number;
     interrupts = interrupts + 1;
     if (interrupts > 1) {
-        signal(number, SIG_DFL); /* an executor may not come back to see it */
+        signal(number, SIG_DFL); /* an executor may never return to look at the count */
         if (!leading)
             raise(number);
     }
     if (leading && interrupts == 1 && write(STDERR_FILENO, text, sizeof text - 1) < 0)
-        return; /* stderr is closed; nothing can be done */
+        return; /* stderr is closed */
 }
 
 void study_signals_catch(study_signals *before)

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * A worker process takes numbers of cases and answers with lines of the journal, so that a model
- * that crashes ends this process alone. Three answers are not lines of the journal: "=" for a case
- * that is done already, "!text" when the study cannot go on, and "?path" of a plugin that was
- * written over.
- */
+/* A worker process takes numbers of cases and answers with lines for the journal, so that a
+ * crashing model ends only this process. Three answers are not lines for the journal: "=" for a
+ * case that is done already, "!text" if the study cannot continue, and "?path" for a plugin
+ * whose file was overwritten. */
 #include "workers.h"
 
 #include "../../arrays/log.h"
@@ -32,11 +30,11 @@
 #include <unistd.h>
 
 enum { MOST_STAGES = 1000, LONGEST_ANSWER = 1 << 24 };
-/* Looks that find a worker stopped, before it is ended: a batch system that stops all processes of
-   a job lets them go on one by one. */
+/* How often a worker may be found stopped before it is ended. A batch system that has stopped
+ * all processes of a job lets them continue one by one. */
 enum { MOST_STOPS = 5 };
 
-/* Limits how much memory the process may take beyond what it has already. */
+/* Limits how much further memory the process may take. */
 static void limit_memory(const study_run *run)
 {
     unsigned long pages = 0;
@@ -57,8 +55,8 @@ static void limit_memory(const study_run *run)
         setrlimit(RLIMIT_AS, &limit);
 }
 
-/* Bounds what a plugin that starts processes without end can do: the user may have so many more
-   processes and threads than the machine has now. */
+/* Limits the number of processes and threads of the user, counted from those that the machine
+ * has now, so that a plugin cannot start processes without end. */
 static void limit_processes(void)
 {
     enum { MORE = 4096 };
@@ -97,7 +95,8 @@ bool study_open_pipes(int to[2], int from[2])
     return false;
 }
 
-/* Adds the processor time in s, of the whole case and what its reused stages took once. */
+/* Adds processor times in s: of the whole case, and of its reused stages when they were
+ * computed. */
 static void add_costs(const study_case *c, double spent, json_t *record)
 {
     double saved = 0;
@@ -107,14 +106,14 @@ static void add_costs(const study_case *c, double spent, json_t *record)
     json_object_set_new(record, "processor_saved", json_real(round(saved * 1e6) / 1e6));
 }
 
-/* Where the code of a plugin is no more what it was, the answer is its file. */
+/* Returns the answer for an overwritten plugin: the path of its file. */
 static char *tell_written_over(const study_run *run)
 {
     const ff_loaded *over = ff_engine_written_over(run->engine);
     return over ? memory_print_text("%c%s\n", STUDY_VERDICT_WRITTEN_OVER, over->path) : NULL;
 }
 
-/* Returns the answer to the open case, and sets the record that it hands on, to be released. */
+/* Returns the answer to the open case, and sets the record that is handed on, to be released. */
 static char *answer_case(study_walk *walk, size_t index, study_memory *memory, clock_t start,
                          json_t **record)
 {
@@ -139,7 +138,7 @@ static bool run_case(const study_worker *worker, study_walk *walk, size_t index,
 {
     json_t *record;
     study_walk_to(walk, index);
-    clock_t start = clock(); /* the case is all that this process does */
+    clock_t start = clock(); /* the process does nothing but the case */
     study_walk_next(walk);
     memcpy(worker->shared->key, walk->c.key, sizeof walk->c.key);
     char *line = answer_case(walk, index, memory, start, &record);
@@ -150,8 +149,8 @@ static bool run_case(const study_worker *worker, study_walk *walk, size_t index,
     return sent;
 }
 
-/* What a case frees stays with the process for the next one, instead of going back to the system,
-   which would hand it out again page by page. */
+/* Makes the allocator keep freed memory for the next case, since the system would hand it out
+ * again page by page. */
 static void keep_memory(void)
 {
     enum { TRIM = 1 << 28, TOP_PAD = 1 << 20, MMAP = 1 << 25 };
@@ -195,10 +194,10 @@ static _Noreturn void serve_cases(const study_worker *worker, const study_run *r
     static study_reuse_stats stats[MOST_STAGES];
     size_t index;
     int null = open("/dev/null", O_RDWR);
-    setpgid(0, 0); /* what a plugin starts is ended with the worker */
+    setpgid(0, 0); /* to end processes that a plugin starts together with the worker */
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     signal(SIGINT, SIG_IGN);
-    signal(SIGTERM, SIG_IGN); /* the process that leads the run decides when to end */
+    signal(SIGTERM, SIG_IGN); /* the leading process decides when to end */
     dup2(null, STDIN_FILENO);
     dup2(null, STDOUT_FILENO);
     dup2(worker->captured, STDERR_FILENO);
@@ -210,7 +209,7 @@ static _Noreturn void serve_cases(const study_worker *worker, const study_run *r
     if (run->study->measure)
         study_measure_pin();
     char *path = memory_print_text("%s/stages", run->directory);
-    mkdir(path, 0777); /* it may be there */
+    mkdir(path, 0777); /* it may exist */
     int stages = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     free(path);
     study_memory memory = {
@@ -222,10 +221,10 @@ static _Noreturn void serve_cases(const study_worker *worker, const study_run *r
     };
     study_walk walk = study_walk_begin(run, done);
     walk.kept.keys = false;
-    walk.end = SIZE_MAX; /* rows of standard input may come */
+    walk.end = SIZE_MAX; /* rows may still come from standard input */
     const ff_environment *environment = ff_environment_keep();
     while (take_case(run, from, &index)) {
-        ff_environment_restore(environment); /* destroy may have left it changed */
+        ff_environment_restore(environment); /* a plugin's destroy may have changed it */
         if (ftruncate(worker->captured, 0) != 0 || !run_case(worker, &walk, index, &memory, to))
             break;
     }
@@ -239,8 +238,8 @@ static void close_files(study_worker *worker)
     close(worker->captured);
 }
 
-/* Closes in a worker what belongs to others: without that the other workers would not see the end
-   of their input, and a plugin could write into the journal. */
+/* Closes in a worker the descriptors that belong to others. Otherwise the other workers would
+ * not see the end of their input, and a plugin could write into the journal. */
 static void close_others(const study_worker *worker, const study_pool *pool)
 {
     for (size_t i = 0; i < pool->run->jobs; i++) {
@@ -286,7 +285,7 @@ bool study_worker_start(study_worker *worker, const study_pool *pool)
     worker->busy = false;
     worker->length = 0;
     if (worker->pid > 0) {
-        setpgid(worker->pid, worker->pid); /* it may not have come to it yet */
+        setpgid(worker->pid, worker->pid); /* the worker may not have done it yet */
         return true;
     }
     worker->pid = 0;
@@ -294,7 +293,7 @@ bool study_worker_start(study_worker *worker, const study_pool *pool)
     return false;
 }
 
-/* A number, and the text of the row when the worker may not know it. */
+/* Sends the number of a case, and the text of its row if the worker may not have it. */
 bool study_worker_send_case(study_worker *worker, const study_run *run, size_t index)
 {
     const study_definition *study = run->study;
@@ -325,10 +324,10 @@ int study_worker_read(study_worker *worker)
     return worker->line[worker->length - 1] == '\n';
 }
 
-static const char told[] = "error: "; /* by the worker itself */
+static const char told[] = "error: "; /* written by the worker itself */
 
-/* The first line that says "error: ", without that, or the first of all: libraries may have written
-   before the program did. */
+/* Returns the first line that begins with "error: ", without that prefix, or else the first
+ * line, since libraries may have written before the program did. */
 static char *pick_line(const char *text)
 {
     const char *line = text;
@@ -384,7 +383,8 @@ char *study_worker_reap(study_worker *worker)
     off_t begin = end > (off_t)sizeof tail - 1 ? end - (off_t)sizeof tail + 1 : 0;
     while (waitid(P_PID, (id_t)worker->pid, &info, WEXITED | WNOWAIT) < 0 && errno == EINTR)
         ;
-    kill(-worker->pid, SIGKILL); /* while its number is still its own */
+    /* before it is reaped, while its number cannot be another process's */
+    kill(-worker->pid, SIGKILL);
     while (waitpid(worker->pid, &status, 0) < 0 && errno == EINTR)
         ;
     if (worker->stops >= MOST_STOPS)

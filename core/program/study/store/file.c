@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Writes the files of a study beside its journal: after an error the earlier file is still there.
- */
+/* Writes files of a study beside its journal. If writing fails, the earlier file stays. */
 #include "journal.h"
 
 #include "../../memory/memory.h"
@@ -28,7 +27,7 @@ study_file study_file_begin(const char *directory, const char *name)
 bool study_file_end(study_file *file, const char *hint, ff_report *report)
 {
     FILE *out = file->out;
-    errno = out ? EIO : file->cause; /* an earlier error of writing may be told no more */
+    errno = out ? EIO : file->cause; /* the reason of an earlier write error may be lost */
     bool good = out && fflush(out) == 0 && !ferror(out) && fsync(fileno(out)) == 0;
     int cause = errno;
     if (out && fclose(out) != 0 && good) {
@@ -61,7 +60,8 @@ bool study_write_file(const char *directory, const char *name, const char *text,
 json_t *study_read_json(int directory, const char *name, json_error_t *error)
 {
     struct stat about;
-    int fd = openat(directory, name, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* a pipe would not end */
+    /* so that opening a pipe does not block */
+    int fd = openat(directory, name, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     bool regular = fd >= 0 && fstat(fd, &about) == 0 && S_ISREG(about.st_mode);
     FILE *stream = regular ? fdopen(fd, "r") : NULL;
     json_t *root = stream ? json_loadf(stream, 0, error) : NULL;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writes and restores records by their forms. */
 #include "form.h"
 
 #include "hash.h"
@@ -14,7 +15,7 @@ static bool is_one_of(const char *name, const char *const *names)
     return *names != NULL;
 }
 
-/* Members that stand in each line. */
+/* Members that stand in each line and not in the form. */
 static const char *const beside[] = {"case", "key", "status", "log", "parameters", NULL};
 
 static bool is_beside(const char *name)
@@ -22,7 +23,7 @@ static bool is_beside(const char *name)
     return is_one_of(name, beside);
 }
 
-/* Members whose texts are of one case. */
+/* Members whose texts differ from case to case. */
 static bool has_own_texts(const char *name)
 {
     static const char *const names[] = {"set", "reason", "command", "from", "state", NULL};
@@ -50,7 +51,7 @@ static json_t *empty(json_t *value, bool own_texts)
     return form;
 }
 
-/* Hashes the form of a value, without making it. */
+/* Hashes the form of a value without making it. */
 static uint64_t hash_form(uint64_t hash, json_t *value, bool own_texts)
 {
     const char *name;
@@ -67,8 +68,8 @@ static uint64_t hash_form(uint64_t hash, json_t *value, bool own_texts)
     return study_hash_text(hash, "}");
 }
 
-/* With the fewest digits that give the same number; a point or an exponent tells it from a whole
-   number. */
+/* Writes a number with the fewest digits that read back equal; a point or an exponent
+ * distinguishes it from an integer. */
 static void put_real(double value, FILE *out)
 {
     char text[40];
@@ -92,7 +93,7 @@ static void put_value(const json_t *value, FILE *out)
         json_dumpf(value, out, JSON_COMPACT | JSON_ENCODE_ANY);
 }
 
-/* Writes what the form of a value lacks, with a comma before each but the first. */
+/* Writes the values that the form lacks, with a comma before each but the first. */
 static void put_values(json_t *value, bool own_texts, bool *any, FILE *out)
 {
     const char *name;
@@ -107,10 +108,11 @@ static void put_values(json_t *value, bool own_texts, bool *any, FILE *out)
     *any = true;
 }
 
-/* A block of a journal that is lost must not take with it what all other lines need. */
+/* The form is repeated after this many lines, so that losing one block of a journal does not
+ * make all later lines unreadable. */
 enum { LINES_OF_A_FORM = 256 };
 
-/* Names the form, and says it unless that was done in one of the lines before. */
+/* Writes the name of the form, and the form itself unless one of the last lines has it. */
 static void put_form(json_t *record, json_t *said, FILE *out)
 {
     const char *member;
@@ -159,8 +161,8 @@ void study_form_write(json_t *record, json_t *said, FILE *out)
     }
 }
 
-/* Returns a copy of the form with the next values; *next runs past their number when they are too
-   few. */
+/* Returns a copy of the form filled with the next values. If there are too few, *next ends
+ * beyond their number. */
 static json_t *fill(const json_t *form, const json_t *values, size_t *next)
 {
     const char *name;

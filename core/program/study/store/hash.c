@@ -22,7 +22,7 @@ static uint64_t hash_number(uint64_t hash, uint64_t number)
     return study_hash(hash, &number, sizeof number);
 }
 
-/* The model reports a file that cannot be read. */
+/* Hashes the contents of a file. If it cannot be read, the model reports that. */
 static uint64_t hash_file(uint64_t hash, const char *path)
 {
     unsigned char block[4096];
@@ -76,7 +76,8 @@ static uint64_t hash_feedback(uint64_t hash, const ff_feedback *feedback)
     return study_hash(hash, &feedback->relaxation, sizeof feedback->relaxation);
 }
 
-/* The place, from 1 on, of what feeds the wire in the loop of the stage; 0: it is outside. */
+/* Returns the place, from 1, in the stage's loop of the stage that feeds the wire; 0: that stage
+ * is outside the loop. */
 static size_t place_in_loop(const ff_pipeline *pipeline, const ff_stage *stage, const ff_wire *wire)
 {
     for (size_t i = 0; stage->loop && wire->stage >= 0 && i < stage->loop->count; i++)
@@ -85,7 +86,7 @@ static size_t place_in_loop(const ff_pipeline *pipeline, const ff_stage *stage, 
     return 0;
 }
 
-/* The wires of a stage, by what feeds them. */
+/* Hashes the wires of a stage, by what feeds them. */
 static uint64_t hash_wires(uint64_t hash, const ff_pipeline *pipeline, const ff_stage *stage,
                            const uint64_t *fingerprints)
 {
@@ -98,7 +99,7 @@ static uint64_t hash_wires(uint64_t hash, const ff_pipeline *pipeline, const ff_
     return hash;
 }
 
-/* The stages of a loop are one node: what changes for one changes for all. */
+/* Gives all stages of a loop the same fingerprint, since a change in one affects all. */
 static void mark_loop(const ff_pipeline *pipeline, const ff_loop *loop, uint64_t *fingerprints)
 {
     const size_t *members = &pipeline->order[loop->first];
@@ -136,7 +137,7 @@ uint64_t study_fingerprint(const ff_pipeline *pipeline, uint64_t *fingerprints)
     return whole;
 }
 
-/* The wire of an input row; NULL: the stage has none. */
+/* Returns the wire of an input row; NULL: the stage has none. */
 static const ff_wire *find_wire(const ff_stage *stage, const char *input)
 {
     for (size_t i = 0; i < stage->wire_count; i++)
@@ -146,7 +147,7 @@ static const ff_wire *find_wire(const ff_stage *stage, const char *input)
     return NULL;
 }
 
-/* What the stage is fed; by a stage of its own loop, which of them that is. */
+/* Hashes the arrays that feed the stage; for one from its own loop, which stage gives it. */
 static uint64_t hash_inputs(uint64_t hash, const ff_pipeline *pipeline, const ff_stage *stage,
                             const uint64_t *fingerprints)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The journal has a line of JSON for each finished case, which is written at once and ends with its
-   checksum. */
+/* The journal has one line of JSON for each finished case. A line is written at once and ends
+ * with its checksum. */
 #include "journal.h"
 
 #include "form.h"
@@ -22,7 +22,7 @@
 
 const char study_marker[] = ".flankfilm-study";
 static const char sum_head[] = ",\"sum\":\"";
-enum { SUM_TAIL = sizeof sum_head - 1 + 16 + 3 /* a quote, the brace and the newline */ };
+enum { SUM_TAIL = sizeof sum_head - 1 + 16 + 3 /* a quote, the brace and the line break */ };
 
 double study_seconds_now(void)
 {
@@ -90,8 +90,8 @@ bool study_make_path(const char *path)
     return made;
 }
 
-/* Whether the directory is marked as that of a study; an empty one gets the mark. False with errno
-   0 when it belongs to somebody else. */
+/* Checks that the directory is marked as that of a study; an empty one is marked now. False with
+ * errno 0 if it belongs to something else. */
 static bool mark_directory(const char *path)
 {
     DIR *list = opendir(path);
@@ -133,7 +133,7 @@ static bool drop_torn_tail(study_journal *journal)
 
 enum lock { LOCK_TAKEN, LOCK_BUSY, LOCK_REFUSED /* the file system has no locks */ };
 
-/* Tries for half a second, since a run that was killed may hold the lock for a moment. */
+/* Tries for half a second, since a killed run may still hold the lock for a moment. */
 static enum lock lock_file(int fd, int how)
 {
     const struct timespec nap = {0, 20000000};
@@ -163,7 +163,7 @@ void study_journal_name(size_t shard, size_t shards, char name[STUDY_NAME_SIZE])
         snprintf(name, STUDY_NAME_SIZE, "journal.%zu-of-%zu.jsonl", shard, shards);
 }
 
-/* A link in place of the journal is not followed, and a pipe is not waited for. */
+/* Opens the journal without following a link in its place or waiting for a pipe. */
 static bool open_journal(study_journal *journal, ff_report *report)
 {
     struct stat info;
@@ -217,7 +217,7 @@ bool study_journal_open(study_journal *journal, const char *directory, size_t sh
     return good;
 }
 
-/* Says what somebody else has done to the journal; NULL: it is as it was left. */
+/* Returns what somebody else has done to the journal; NULL: it is unchanged. */
 static const char *find_change(const study_journal *journal)
 {
     struct stat own, named, directory, path;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Judges cases by their records, and counts the verdicts of many. */
 #include "judgement.h"
 
 #include "../../accuracy/lines.h"
@@ -13,7 +14,7 @@ typedef struct doubt {
     char *words;
     int verdict;
     study_list list;
-    double beyond; /* how far it is beyond its limit, as a magnitude of a logarithm */
+    double beyond; /* how far it exceeds its limit, on a logarithmic scale */
 } doubt;
 
 typedef struct doubts {
@@ -36,7 +37,7 @@ const char *study_verdict_name(int verdict)
                                            : ff_verdict_name(verdict);
 }
 
-/* A name of a line in words: "inlet heating" of inlet_heating. */
+/* Writes the name of a quality line in words: inlet_heating gives "inlet heating". */
 static char *words_of(const char *name)
 {
     char *words = memory_copy_text(name, strlen(name));
@@ -52,8 +53,8 @@ static double beyond_limit(double value, double limit)
     return value > 0 && limit > 0 && isfinite(value) ? fabs(log(value / limit)) : HUGE_VAL;
 }
 
-/* Adds a reason, which takes the words. Lines of one name, of several stages, are one: the worst.
- */
+/* Adds a reason and takes ownership of its words. Lines with the same name from several stages
+ * become one, the worst. */
 static void add_reason(doubts *all, doubt made)
 {
     for (size_t i = 0; i < all->count; i++) {
@@ -69,7 +70,7 @@ static void add_reason(doubts *all, doubt made)
     all->lines[all->count++] = made;
 }
 
-/* Adds a line that is not good, or whose doubt is accepted. */
+/* Adds a quality line that is not good, or whose doubt is accepted. */
 static void add_line(doubts *all, const char *name, double value, double limit, int verdict,
                      study_list list)
 {
@@ -82,8 +83,9 @@ bool study_warning_of_range(const char *text)
     return strstr(text + strcspn(text, ":"), " is outside the calibrated range") != NULL;
 }
 
-/* "film.z outside its calibrated range" of "film.z: 3 is outside the calibrated range, ...", else
-   the first clause: what differs between cases is left out, so that they can be counted. */
+/* Shortens a warning so that equal ones of different cases can be counted: "film.z: 3 is outside
+ * the calibrated range, ..." gives "film.z outside its calibrated range"; any other gives its
+ * first clause. */
 static char *words_of_warning(const char *text)
 {
     size_t name = strcspn(text, ":");
@@ -95,13 +97,14 @@ static char *words_of_warning(const char *text)
     return memory_copy_text(text, length);
 }
 
-/* A reason to look, which leaves the verdict as it is; the words are taken over. */
+/* Adds a reason that does not change the verdict, and takes ownership of its words. */
 static void add_words(doubts *all, char *words)
 {
     add_reason(all, (doubt){words, FF_GOOD, STUDY_REASONS, 0});
 }
 
-/* An output that is known from below alone: wherever its value stands, the reasons do. */
+/* Adds an output of which only a lower bound is known, so that the reasons appear wherever its
+ * value does. */
 static void add_least(doubts *all, const char *name)
 {
     add_words(all, memory_print_text("%s known from below alone", name));
@@ -123,7 +126,8 @@ static void put_words(study_words *list, char *words)
     list->words[list->count++] = words;
 }
 
-/* Takes over the lines. `failure` is the first reason of a case that failed, or NULL. */
+/* Makes the judgement, and takes ownership of the lines. `failure` is the first reason of a
+ * failed case, or NULL. */
 static study_judgement judge(doubts *all, bool failed, const char *failure)
 {
     study_judgement judgement = {.verdict = failed ? STUDY_CASE_FAILED : FF_GOOD};
@@ -157,7 +161,8 @@ void study_judge_record(json_t *record)
         json_object_foreach(lines, name, line)
     {
         json_int_t verdict = json_integer_value(json_array_get(line, 2));
-        bool known = verdict >= FF_GOOD && verdict <= FF_BAD; /* to this version */
+        /* this version may not know the verdict */
+        bool known = verdict >= FF_GOOD && verdict <= FF_BAD;
         add_line(&all, name, study_json_number(json_array_get(line, 0)),
                  study_json_number(json_array_get(line, 1)), known ? (int)verdict : FF_BAD,
                  json_string_length(json_array_get(line, 4)) ? STUDY_ACCEPTED
@@ -171,7 +176,7 @@ void study_judge_record(json_t *record)
     json_array_foreach(json_object_get(record, "at_least"), i, name_of)
         add_least(&all, json_is_string(name_of) ? json_string_value(name_of) : "an output");
     bool plain = !status || !strcmp(status, "failed") ||
-                 !strcmp(status, study_refused); /* that alone says nothing of the cause */
+                 !strcmp(status, study_refused); /* "refused" alone says nothing about the cause */
     study_judgement judgement =
         judge(&all, !status || strcmp(status, "ok") != 0, plain ? NULL : status);
     if (status && !strcmp(status, study_refused))
@@ -180,7 +185,7 @@ void study_judge_record(json_t *record)
     study_judgement_free(&judgement);
 }
 
-/* Adds the texts of a list in JSON. */
+/* Adds the texts of a JSON list. */
 static void read_words(study_words *list, const json_t *from)
 {
     const json_t *word;
@@ -364,7 +369,7 @@ static int by_frequency(const void *a, const void *b)
     return strcmp(one->reason, other->reason);
 }
 
-/* Returns the reasons, the most frequent first, to be freed. */
+/* Returns the reasons, the most frequent first; to be freed. */
 static reason_count *sort_reasons(json_t *reasons, size_t *count)
 {
     const char *reason;
@@ -426,7 +431,7 @@ static int by_number(const void *a, const void *b)
     return first < second ? -1 : first > second;
 }
 
-/* Returns the cases in their order; null when they are too many. */
+/* Returns the cases in their order; null if there are too many. */
 static json_t *list_cases(const study_tally *tally)
 {
     size_t count = json_array_size(tally->cases);
@@ -442,7 +447,7 @@ static json_t *list_cases(const study_tally *tally)
     return list;
 }
 
-/* Returns {met, met within its bar, missed}: numbers of cases. */
+/* Returns {met, met within its bar, missed}: the number of cases of each. */
 static json_t *count_limits(const study_tally *tally)
 {
     json_t *counts = json_object();

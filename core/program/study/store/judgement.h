@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * How far a run, or a case of a study, can be trusted, in two verdicts. That of the numbers is the
- * worst of the quality lines that judge them, or that it failed, with the lines that are not good
- * and the warnings as its reasons. That of the range says which models are used outside of it.
- */
+/* How far a run, or a case of a study, can be trusted, in two verdicts. The verdict of the
+ * numbers is the worst one of the quality lines about numbers; its reasons are the lines that
+ * are not good, and the warnings. A failed case has no better verdict. The verdict of the range
+ * says which models are used outside their range. */
 #ifndef STUDY_JUDGEMENT_H
 #define STUDY_JUDGEMENT_H
 
 #include "../../limits/limits.h"
 
-/* FF_GOOD, FF_DOUBTFUL and FF_BAD; a row of a spectrum whose input is beyond the limits of what can
-   be computed; and a case without numbers that no line calls bad. */
+/* The verdicts after FF_GOOD, FF_DOUBTFUL and FF_BAD: a row of a spectrum that cannot be
+ * computed because its input is beyond limits, and a case without numbers although no line is
+ * bad. */
 enum { STUDY_CASE_REFUSED = FF_BAD + 1, STUDY_CASE_FAILED, STUDY_VERDICTS };
 
-/* What is said of it in words, "inlet heating", the worst first: of the numbers, of models outside
-   of their range, and doubts that the file accepts. */
+/* Lists of reasons in words, "inlet heating", the worst first: about the numbers, about models
+ * outside their range, and doubts that the file accepts. */
 typedef enum { STUDY_REASONS, STUDY_RANGE, STUDY_ACCEPTED, STUDY_LISTS } study_list;
 typedef struct study_words {
     char **words;
@@ -24,59 +24,62 @@ typedef struct study_words {
 typedef struct study_judgement {
     int verdict;
     study_words lists[STUDY_LISTS];
-    size_t limits; /* how the case stands to those of the file: 1 + limits_standing; 0: none are
-                      known */
+    size_t
+        limits; /* whether the case meets the limits of the file: 1 + limits_standing; 0: unknown */
 } study_judgement;
 
-double study_json_number(const json_t *value); /* NaN where it is none */
-extern const char study_refused[]; /* "refused": the status of such a row, and its verdict */
+double study_json_number(const json_t *value); /* NaN if it is no number */
+extern const char study_refused[];           /* "refused": status of such a row, and its verdict */
 const char *study_verdict_name(int verdict); /* "good", "doubtful", "bad", "refused", "failed" */
 
-/* Judges the record of a case by its status, lines, warnings and what is known from below alone,
-   and adds the judgement to it. */
+/* Judges the record of a case by its status, quality lines, warnings, and outputs of which only
+ * a lower bound is known. Adds the judgement to the record. */
 void study_judge_record(json_t *record);
-/* Whether a warning says that a parameter is outside of the range that a model was made for. */
+/* Whether a warning says that a parameter is outside the range that a model is made for. */
 bool study_warning_of_range(const char *text);
-/* Whether a line [value, limit, verdict, ..., true] of a record is of the range of a model. */
+/* Whether a quality line [value, limit, verdict, ..., true] of a record is about the range of a
+ * model. */
 bool study_line_of_range(const json_t *line);
-/* Takes what study_judgement_add added, and how the case stands to limits. False when there is no
-   verdict: a case that failed. */
+/* Reads what study_judgement_add has added, and whether limits are met. False if there is no
+ * verdict, as for a failed case. */
 bool study_judgement_read(study_judgement *judgement, const json_t *object);
-/* Names of the requested outputs that are known from below alone: ["film.p_max_highest"]. */
+/* Returns the names of the requested outputs of which only a lower bound is known:
+ * ["film.p_max_highest"]. */
 json_t *study_list_least(const ff_pipeline *pipeline);
-/* Judges what a pipeline has computed; `failed` says that the run ended with an error. */
+/* Judges the results of a pipeline; `failed`: the run ended with an error. */
 study_judgement study_judge_pipeline(const ff_pipeline *pipeline, bool failed);
 void study_judgement_free(study_judgement *judgement);
-/* One of the lists, "a, b", to be freed. */
+/* Returns one of the lists as "a, b", to be freed. */
 char *study_judgement_text(const study_judgement *judgement, study_list list);
-/* Adds "verdict", "reasons" and, unless they are empty, "range" and "accepted" to an object. */
+/* Adds "verdict", "reasons" and, unless empty, "range" and "accepted" to an object. */
 void study_judgement_add(const study_judgement *judgement, json_t *object);
 
-/* The judgements of many cases. */
-enum { STUDY_MOST_JUDGED = 10000 }; /* cases that are listed one by one */
+/* Counts the judgements of many cases. */
+enum { STUDY_MOST_JUDGED = 10000 }; /* at most this many cases are listed one by one */
 typedef struct study_tally {
     size_t counts[STUDY_VERDICTS];
-    size_t limits[LIMITS_STANDINGS]; /* cases that are judged by limits, by the worst of them */
-    json_t *reasons[STUDY_VERDICTS]; /* {reason: number of cases}; NULL while there are none */
-    size_t cases_of[STUDY_LISTS];    /* cases with something in that list */
-    json_t *words_of[STUDY_LISTS];   /* {line: number of cases} but for the reasons; or NULL */
-    json_t *cases; /* [{case, key, verdict, reasons}]; NULL while there are none */
+    size_t limits[LIMITS_STANDINGS]; /* number of cases by how they meet their limits; the worst
+                                        limit counts */
+    json_t *reasons[STUDY_VERDICTS]; /* {reason: number of cases}; NULL if there are none */
+    size_t cases_of[STUDY_LISTS];    /* number of cases with an entry in that list */
+    json_t *words_of[STUDY_LISTS];   /* {entry: number of cases}, for the other lists; or NULL */
+    json_t *cases;                   /* [{case, key, verdict, reasons}]; NULL if there are none */
 } study_tally;
 
-/* Adds a case by its number, from 1 on, and its key. */
+/* Adds a case by its number, from 1, and its key. */
 void study_tally_add(study_tally *tally, size_t number, const char *key,
                      const study_judgement *judgement);
-/* Adds the cases of `part`, which is emptied. */
+/* Adds the cases of `part`, which becomes empty. */
 void study_tally_merge(study_tally *tally, study_tally *part);
 void study_tally_free(study_tally *tally);
-/* Returns "12 good, 4 doubtful (periodicity 4); outside the range of a model 16 (lambda 16);
-   accepted 3 (draft 3); limits: 10 met, 6 missed", to be freed; the most frequent reasons come
-   first. */
+/* Returns the counts as a text, to be freed, with the most frequent reasons first: "12 good, 4
+ * doubtful (periodicity 4); outside the range of a model 16 (lambda 16); accepted 3 (draft 3);
+ * limits: 10 met, 6 missed". */
 char *study_tally_text(const study_tally *tally);
-/* Adds "verdict", the worst one, "counts" {good, doubtful, bad, refused,
-   failed}, "reasons" [{reason, verdict, cases}], the most frequent first, "range" and "accepted"
-   {cases, reasons [{reason, cases}]}, and "judged", a list of the cases in their order; that is
-   null when there are more than STUDY_MOST_JUDGED. */
+/* Adds "verdict", the worst one; "counts" {good, doubtful, bad, refused, failed}; "reasons"
+ * [{reason, verdict, cases}], the most frequent first; "range" and "accepted" {cases, reasons
+ * [{reason, cases}]}; and "judged", the list of cases in their order, or null if there are more
+ * than STUDY_MOST_JUDGED. */
 void study_tally_describe(const study_tally *tally, json_t *object);
 
 #endif

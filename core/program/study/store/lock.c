@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Locks by files, for file systems that have no locks. */
 #include "journal.h"
 
 #include "../../memory/memory.h"
@@ -37,7 +38,7 @@ static void read_lock(const study_journal *journal, const char *name, char text[
         close(fd);
 }
 
-/* Whether the process that a lock names was one of this machine, and has ended. */
+/* Whether the process that a lock names was on this machine and has ended. */
 static bool is_left_behind(const char *text)
 {
     char own[LOCK_TEXT], *end;
@@ -60,7 +61,7 @@ static bool refuse(const study_journal *journal, const char *name, const char *t
     return false;
 }
 
-/* Makes the file; one that a process has left behind is replaced. */
+/* Makes the lock file. One that an ended process has left behind is replaced. */
 static bool make_lock(const study_journal *journal, const char *name, ff_report *report)
 {
     char text[LOCK_TEXT], other[LOCK_TEXT];
@@ -86,7 +87,7 @@ static bool make_lock(const study_journal *journal, const char *name, ff_report 
                             strerror(cause));
 }
 
-/* Whether a lock excludes that of this journal: a run of all cases excludes every other. */
+/* Whether a lock excludes the one of this journal. A run of all cases excludes every other run. */
 static bool excludes(const char *name, const char *own, bool alone)
 {
     size_t length = strlen(name), end = sizeof lock_end - 1;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Indexes the journals of a study, and reads records from them. */
 #include "records.h"
 
 #include "form.h"
@@ -15,19 +16,19 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Where a record is. */
+/* The place of a record. */
 typedef struct entry {
     uint64_t key;
     uint64_t offset;
-    uint32_t form; /* from 1 on; 0: the line has the whole record */
+    uint32_t form; /* counted from 1; 0: the line has the whole record */
     uint16_t file;
     uint8_t state; /* STUDY_UNKNOWN: the slot is empty */
 } entry;
 
 typedef struct journal_file {
-    int fd; /* -1: it is opened for each record */
+    int fd; /* -1: opened for each record */
     char name[STUDY_NAME_SIZE];
-    bool formless; /* a line came before the one that says its form, or that line is lost */
+    bool formless; /* a line came before its form, or the line with the form is lost */
 } journal_file;
 
 typedef struct form {
@@ -36,7 +37,7 @@ typedef struct form {
 } form;
 
 struct study_records {
-    entry *slots; /* a power of two of them, of which half are free */
+    entry *slots; /* a power of two, at least half of them free */
     size_t room, count;
     struct journal_file *files;
     size_t file_count;
@@ -45,13 +46,13 @@ struct study_records {
     size_t form_count;
     json_t *kept; /* {key: record} */
     json_t *described;
-    json_t *logs; /* {log: its length}; NULL: they are not looked at */
+    json_t *logs; /* {log: its length}; NULL: not checked */
 };
 
 enum { MOST_FILES = UINT16_MAX };
 
-/* The number that a key stands for: keys are such numbers, but for those of cases that ended before
-   they had one. */
+/* Returns the number that a key stands for. A case that ended before it had a key has another
+ * kind of key, which is hashed. */
 static uint64_t number_of(const char *key)
 {
     char *end;
@@ -59,7 +60,7 @@ static uint64_t number_of(const char *key)
     return end == key + 16 && !*end ? number : study_hash_text(STUDY_HASH_START, key);
 }
 
-/* The slot of a key, or the free one where it belongs. */
+/* Returns the slot of a key, or the free one for it. */
 static entry *slot_of(const study_records *r, uint64_t key)
 {
     size_t at = (size_t)key & (r->room - 1);
@@ -90,7 +91,7 @@ static void add(study_records *r, const entry *found)
         *slot = *found;
 }
 
-/* The number of the form, from 1 on; 0: it is not known. */
+/* Returns the number of the form, from 1; 0: it is not known. */
 static uint32_t find_form(const study_records *r, const char *name)
 {
     size_t i = r->form_count;
@@ -111,7 +112,7 @@ static uint32_t learn_form(study_records *r, const char *name, json_t *is)
     return (uint32_t)r->form_count;
 }
 
-/* Brings a line, parsed, into the form of a record. Releases it. */
+/* Makes a record of a parsed line, and releases the line. */
 static json_t *restore(study_records *r, json_t *line)
 {
     const char *name = json_string_value(json_object_get(line, "form"));
@@ -128,7 +129,7 @@ json_t *study_records_take(study_records *r, const char *line, size_t length)
     return restore(r, study_line_parse(line, length));
 }
 
-/* Copies the text that follows `head` up to the next quote; returns what is behind it, or NULL. */
+/* Copies the text between `head` and the next quote. Returns what follows it, or NULL. */
 static const char *word_after(const char *at, const char *head, char *word, size_t size)
 {
     size_t skipped = strlen(head);
@@ -161,8 +162,8 @@ static void note_described(study_records *r, const json_t *record)
     }
 }
 
-/* Whether the log that a line names, if it does, is as long as it says. Returns what is behind
-   that; NULL: it is shorter, or the line is spoiled. */
+/* Checks that a log which the line names is at least as long as it says. Returns what follows
+ * the name; NULL: the log is shorter, or the line is damaged. */
 static const char *pass_log(study_records *r, int directory, const char *at)
 {
     static const char head[] = ",\"log\":[\"";
@@ -184,7 +185,7 @@ static const char *pass_log(study_records *r, int directory, const char *at)
     return *end != ']' || (size && json_integer_value(size) < needed) ? NULL : end + 1;
 }
 
-/* Reads the key and the state of a whole line; returns what is behind them, or NULL. */
+/* Reads the key and the state of a complete line. Returns what follows them, or NULL. */
 static const char *read_head(const char *line, uint64_t *key, uint8_t *state)
 {
     char text[64], status[64];
@@ -205,8 +206,7 @@ enum study_state study_line_state(const char *line)
     return state;
 }
 
-/* Reads the head of a whole line, by which its record is found. False where its form is not known
-   yet. */
+/* Adds the place of a complete line to the index. False if its form is not known yet. */
 static bool add_line(study_records *r, int directory, const char *line, size_t length,
                      uint16_t file, uint64_t offset)
 {
@@ -228,8 +228,8 @@ static bool add_line(study_records *r, int directory, const char *line, size_t l
     return known;
 }
 
-/* Where the last of several lines begins that a lost block, with the ends of those before it, has
-   made one; the length where there is none. */
+/* A lost block may join several lines to one. Returns where the last of them begins; the length
+ * if there is none. */
 static size_t find_last(const char *line, size_t length)
 {
     static const char head[] = "{\"case\":";
@@ -240,7 +240,7 @@ static size_t find_last(const char *line, size_t length)
     return at;
 }
 
-/* A link, a pipe or a device in place of a journal has no records. */
+/* Opens a journal; a link, a pipe or a device in its place has no records. */
 static int open_journal(int directory, const char *name)
 {
     struct stat info;
@@ -251,7 +251,7 @@ static int open_journal(int directory, const char *name)
     return -1;
 }
 
-/* Reads the lines of a journal; those of unknown form are left out. */
+/* Reads the lines of a journal, except those of an unknown form. */
 static void read_lines(study_records *r, int directory, uint16_t number)
 {
     journal_file *file = &r->files[number];
@@ -263,7 +263,7 @@ static void read_lines(study_records *r, int directory, uint16_t number)
     uint64_t offset = 0;
     file->formless = false;
     if (stream)
-        rewind(stream); /* its place is that of the descriptor */
+        rewind(stream); /* the stream shares its position with the descriptor */
     for (; stream && (length = getline(&line, &size, stream)) > 0; offset += (uint64_t)length) {
         size_t whole = (size_t)length;
         bool good = study_line_is_whole(line, whole);
@@ -309,7 +309,7 @@ study_records *study_records_open(const char *directory, bool whole)
     while (list && (item = readdir(list)))
         if (is_journal(item->d_name))
             read_journal(r, dirfd(list), item->d_name);
-    for (size_t i = 0; i < r->file_count; i++) /* with the forms that stand further behind */
+    for (size_t i = 0; i < r->file_count; i++) /* once more, with the forms found further on */
         if (r->files[i].formless)
             read_lines(r, dirfd(list), (uint16_t)i);
     if (list)
@@ -356,7 +356,7 @@ enum study_state study_records_state(const study_records *r, const char *key)
     return slot_of(r, number_of(key))->state;
 }
 
-/* Opens the journal of an entry when it was let go; to be closed then. */
+/* Opens the journal of an entry if it was closed, to be closed afterwards. */
 static int reopen(const study_records *r, const entry *e)
 {
     int directory = open(r->directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -366,7 +366,7 @@ static int reopen(const study_records *r, const entry *e)
     return fd;
 }
 
-/* Reads the line at an entry again. */
+/* Reads the line of an entry again. */
 static json_t *read_entry(study_records *r, const entry *e)
 {
     bool held = r->files[e->file].fd >= 0;

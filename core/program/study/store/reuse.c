@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Keeps results of stages on disk. The file of a stage is locked while one process computes what
- * others wait for. A checksum tells a complete file from one that was broken off.
- */
+/* Keeps results of stages on the disk. While a process computes a stage, its file is locked and
+ * others wait for it. A checksum distinguishes a complete file from an interrupted one. */
 #include "reuse.h"
 
 #include "hash.h"
@@ -19,12 +17,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static const double worth_keeping = 2e-3; /* s; keeping a file takes a tenth of that */
+static const double worth_keeping = 2e-3; /* s; writing a file takes a tenth of that */
 enum {
-    FORM = 2, /* of a file: another one is of another version, and counts as damaged */
+    FORM = 2, /* version of the file's form; a file with another one counts as damaged */
     LARGEST = 1 << 26,
     /* bytes of a file */ MOST_IDLE =
-        1 << 26 /* bytes kept in vain, after which a stage is not kept any more */
+        1 << 26 /* bytes kept without being reused, after which the stage is not kept any more */
 };
 
 static void write_text(FILE *out, const char *text)
@@ -35,11 +33,11 @@ static void write_text(FILE *out, const char *text)
         fwrite(text, 1, length, out);
 }
 
-/* What is left of a file that is being read, which may say anything. */
+/* The unread part of a file, whose contents are not trusted. */
 typedef struct kept_bytes {
     const char *at;
     size_t left;
-    bool good; /* it had all that was asked for */
+    bool good; /* nothing was missing so far */
 } kept_bytes;
 
 static const char *take_bytes(kept_bytes *in, size_t size)
@@ -62,7 +60,7 @@ static void read_bytes(kept_bytes *in, void *data, size_t size)
         memset(data, 0, size);
 }
 
-/* Returns NULL for an empty text. */
+/* Reads a text; NULL if it is empty. */
 static char *read_text(kept_bytes *in)
 {
     size_t length;
@@ -71,8 +69,8 @@ static char *read_text(kept_bytes *in)
     return from && length ? memory_copy_text(from, length) : NULL;
 }
 
-/* Stage number `i` of those that are kept together: of the loop, or the stage alone. NULL: there
-   are no more. */
+/* Returns stage `i` of those that are kept together, the stages of a loop or the stage alone;
+ * NULL: there are no more. */
 static ff_stage *together(const ff_pipeline *pipeline, const ff_stage *stage, size_t i)
 {
     if (stage->loop && i < stage->loop->count)
@@ -104,7 +102,7 @@ static void write_results(const ff_stage *stage, FILE *out)
     }
 }
 
-/* Reads the numbers of an output; `fill`: into the stage. */
+/* Reads the numbers of an output; `fill`: stores them in the stage. */
 static void read_output(ff_stage *stage, size_t output, uint32_t rank, bool fill, kept_bytes *in)
 {
     size_t shape[FF_MAX_RANK], count = 1;
@@ -120,8 +118,8 @@ static void read_output(ff_stage *stage, size_t output, uint32_t rank, bool fill
         memcpy(ff_result_fill(stage, output, rank, shape), from, count * sizeof(double));
 }
 
-/* Reads what write_results wrote; `fill`: into the stage. False when a wanted result is missing or
-   the file is none that was written here. */
+/* Reads what write_results has written; `fill`: stores it in the stage. False if a wanted result
+ * is missing, or the file is not one of these. */
 static bool read_results(ff_stage *stage, bool fill, kept_bytes *in)
 {
     bool all = true;
@@ -130,7 +128,8 @@ static bool read_results(ff_stage *stage, bool fill, kept_bytes *in)
     for (size_t i = 0; i < stage->loaded->model->output_count && in->good; i++) {
         int32_t rank;
         read_bytes(in, &rank, sizeof rank);
-        all = all && (rank >= 0 || !stage->results[i].wanted); /* the model may not have given it */
+        /* rank below 0: the model may not have given the output */
+        all = all && (rank >= 0 || !stage->results[i].wanted);
         if (rank >= 0)
             read_output(stage, i, (uint32_t)rank, fill, in);
     }
@@ -169,7 +168,8 @@ static bool read_kept(int fd, const ff_pipeline *pipeline, const ff_stage *stage
     memcpy(&sum, text, sizeof sum);
     whole =
         whole && sum == study_hash(STUDY_HASH_START ^ FORM, text + sizeof sum, size - sizeof sum);
-    for (int fill = 0; fill < 2 && whole; fill++) { /* a stage is filled by a good file alone */
+    /* the first pass only checks the file, so that a stage is never filled from a damaged one */
+    for (int fill = 0; fill < 2 && whole; fill++) {
         kept_bytes in = {text + sizeof sum, size - sizeof sum, true};
         for (size_t i = 0; whole && together(pipeline, stage, i); i++)
             whole = read_results(together(pipeline, stage, i), fill, &in);
@@ -238,7 +238,7 @@ static size_t write_kept(int fd, const ff_pipeline *pipeline, const ff_stage *st
         whole = ftruncate(fd, 0) == 0 && pwrite(fd, text, length, 0) == (ssize_t)length;
     }
     if (!whole && ftruncate(fd, 0) != 0)
-        length = 0; /* the checksum will show that the file is invalid */
+        length = 0; /* the checksum will not match, so the file is invalid */
     free(text);
     return length;
 }
