@@ -56,8 +56,7 @@ Made by `sh docs/performance.sh build`. Instructions are callgrind's and bind; t
 benchmark (`build/tests/bench/bench-ehl CELLS STEPS`, a smooth tooth, Doolittle-Tait and Eyring, with its start). Beside them what its
 counts need at least: additions and multiplications (10 n log2 2n of a convolution of n cells, 52 n of the band with each convolution
 and Newton step, 62 n of a Krylov vector, 254 n of an evaluation of laws and balances), and the factors of the band, 28 numbers a
-cell, which each of its solutions reads once. Vectors of four do four of these in an instruction: the rest is loads, stores, what
-depends on its neighbour in the band, exponentials and logarithms, and bookkeeping.
+cell, which each of its solutions reads once.
 
 | cells | steps | instructions, 1e9 | instructions a cell and step | flops a cell and step | flops an instruction | band read in a step, MB |
 |---|---|---|---|---|---|---|""")
@@ -71,18 +70,11 @@ print("""
 0.426e9 of the film on 256 cells measure its errors on finer ones (`ehl_results_measure`). What the lines of its quality cost
 besides: `docs/lines.sh`, a row of [campaigns.md](campaigns.md).
 
-The same film of 512 cells took 1.212e9 before the loops were vectors, 0.878e9 before a step was accepted on what is predicted
-to be left, and 0.659e9 before the band was solved in blocks of four rows.
-
-What was aimed at, with times turned into instructions at the rate of that machine (15e9 a second):
-
-| film | aim | now |
-|---|---|---|
-| 512 cells, 1000 steps | 0.6e9 | 0.529e9 |
-| `h_min(t)` within 0.1 % everywhere, with its bar: 1024 cells, 2000 steps, [below](#a-tenth-of-a-per-cent) | 2.7e9 (180 ms) | 2.000e9, bar 0.38 % |
-| 512 cells, `thermal: inlet` over `none`, instructions of the film (`valgrind --tool=callgrind flankfilm run configs/li-kahraman-2011.yaml --set mesh.use=stiffness/iso-6336 --set film.cells=512 --set film.thermal=inlet --set "outputs=[film.h_min]"`, `ehl_evaluate`) | 1.05 | 1.047 with 1000 steps, 1.041 with 200 |
-| 512 cells, 1000 steps, `thermal: full`, instructions of the film (`ehl_evaluate`) | 3.4e9 | 3.33e9; motion and report add 0.28e9 ([where it goes](theory.md#temperatures-across-the-film)) |
-| rough, 150 rpm, 512 cells, by output step (`valgrind --tool=callgrind build/tests/bench/bench-ehl 512 1000 150`) | 12e6 | 11.9e6 |
+| film | instructions |
+|---|---|
+| 512 cells, `thermal: inlet` over `none` (`valgrind --tool=callgrind flankfilm run configs/li-kahraman-2011.yaml --set mesh.use=stiffness/iso-6336 --set film.cells=512 --set film.thermal=inlet --set "outputs=[film.h_min]"`, `ehl_evaluate`) | 1.047 times |
+| 512 cells, 1000 steps, `thermal: full` | 3.33e9 |
+| rough, 150 rpm, 512 cells, by output step (`valgrind --tool=callgrind build/tests/bench/bench-ehl 512 1000 150`) | 11.9e6 |
 
 ## The film of a vibrating gear pair
 
@@ -94,10 +86,7 @@ The dynamic tooth of the seed's configuration, whose load vibrates, errors not w
 |---|---|---|---|---|
 | 512 | 1000 | 1.16 | 3.56 | 0.599 |
 
-It was 0.955e9, 1.73 and 4.79 at d11ebff9, where the command took 1.238e9, now 0.679e9. What went: a second Newton step where the
-first had found the end of the film, or where its square was taken to neglect ten times what it does (it is learned from steps that
-do follow); factors of all rows where some had changed; a convolution for the extrapolated deflection. Beside the same equations
-solved to 1e-9 `h_min` is within 7.9e-5 everywhere (9.0e-5 before), `p_max` within 3.1e-5 (3.7e-5).
+Beside the same equations solved to 1e-9 `h_min` is within 7.9e-5 everywhere, `p_max` within 3.1e-5.
 
 ## What the presets leave
 

@@ -20,7 +20,7 @@ $("$program" --version | sed 's/flankfilm //'), $(uname -m). What the verdicts m
 pipeline of your own, stands in the [guide](guide/accuracy.md#where-can-it-be-trusted). A *silent* cell is one
 whose lines of quality all hold while the refined case differs by more than three times the estimate
 that is printed. Halved distances between cells of the grid count, too. A case may take $limit, more than the files say,
-so that none fails for other work on the machine.
+so that none fails for other work on the machine. Figures show the maps; below each stands what decides where.
 
 | map | cells | converged | outside | physical | unchecked | degraded | silent | failed | refused | worst difference over estimate |
 |---|---|---|---|---|---|---|---|---|---|---|
@@ -53,7 +53,9 @@ map() {
             printf ' %s' "$word"
         done
         printf '`\n\n![map](stability/%s.svg)\n\n```text\n' "$name"
-        sed -e '/^boundaries/,$d' -e '/^[0-9]* cases done/d' -e '/^results in/d' -e '/^stages: /d' -e '/^as a page /d' -e '/^removed, /d' -e 's/ *$//' "$results/$name.txt" | cat -s
+        sed -e '/^boundaries/,$d' -e '/^[0-9]* cases done/d' -e '/^results in/d' -e '/^stages: /d' -e '/^as a page /d' -e '/^removed, /d' -e 's/ *$//' \
+            -e '/^across: /d' -e '/ | [.odpF!?x]/d' -e '/^ *[^ ].* \.\.\. /d' -e '/^  [a-z_]*\.[a-z_]*: /d' "$results/$name.txt" | sed '/./!d' |
+            awk '/^      [^ ]+ [(]/ { key = $0; sub(/ at time.*/, "", key); if (seen[key]++) next } { print }'
         printf '```\n'
     } >>"$results/maps.md"
 }

@@ -74,19 +74,6 @@ drop_empty() {
         }'
 }
 
-front() { # STUDY OUTPUT
-    echo
-    echo "Along the front of $2:"
-    echo
-    echo '```text'
-    awk -v output="$2" '
-        $1 == output "," { mine = 1 }
-        mine && /what each step/ { on = 1; next }
-        on && !/^    / { exit }
-        on { sub(/^    /, ""); print }' "$work/$1.txt"
-    echo '```'
-}
-
 # Cost over that of the front for a candidate of the film, by h_min and by friction.
 over_front() { # LABEL
     awk -F, -v label="\"$1\"" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ~ /cost_over_front$/) at[++n] = i }
@@ -130,8 +117,8 @@ machine at the beginning and at the end: $load and $(cut -d' ' -f1 /proc/loadavg
 Cost is the processor time of the stages that the candidates change, the median of the repeats;
 *spread* is from the least to the most. *Error* is the largest relative difference from the reference
 along the mesh cycle, **bold** on the front: nothing cheaper is as good; the front of what crosses
-zero, as friction does at the pitch point, is that of the rms error. How to measure a trade-off of your
-own stands in the [guide](guide/accuracy.md#speed-against-accuracy).
+zero, as friction does at the pitch point, is that of the rms error. What a step along a front costs the run prints;
+how to measure a trade-off of your own stands in the [guide](guide/accuracy.md#speed-against-accuracy).
 
 ## Film: models, cells and steps
 
@@ -148,8 +135,6 @@ TEXT
     echo "  cells 512, steps 1000: $(over_front 'finite-volume; cells 512; steps 1000')."
     echo
     table film
-    front film film.h_min
-    front film film.friction_coefficient
     cat <<TEXT
 
 ## Mesh stiffness
@@ -158,7 +143,6 @@ TEXT
 TEXT
     reference stiffness
     table stiffness
-    front stiffness mesh.stiffness
     cat <<TEXT
 
 ## Motion
@@ -167,7 +151,6 @@ TEXT
 TEXT
     reference dynamics
     table dynamics
-    front dynamics motion.dte
     cat <<TEXT
 
 ## Laws of the oil
@@ -176,7 +159,6 @@ TEXT
 TEXT
     reference laws
     table laws
-    front laws film.friction_coefficient
     cat <<TEXT
 
 ## What the scene requires
@@ -186,8 +168,6 @@ Newtonian oil or one that thins under shear, quick film or full. The cost of the
 TEXT
     reference scene
     table scene
-    front scene film.h_min
-    front scene film.friction_coefficient
     cat <<TEXT
 
 ## Smooth or rough flanks

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Random scenes with `accuracy: 10 %`, 2 % and 0.5 %: do the error bars hold what is refined, and are they as small?
 
-error-bars.py FLANKFILM SOURCE [--seed HEX] [--first N] [--count N] [--longest S] [--cache FOLDER] [--table FILE]
+error-bars.py FLANKFILM SOURCE [--seed HEX] [--first N] [--count N] [--longest S] [--cache FOLDER] [--table FILE.csv]
 
 A scene is drawn by the seed and its number: gear pairs of 17 to 80 teeth, modules of 1 to 8 mm, with
 relief and index errors, pitch line speeds from 0.3 to 40 m/s, Hertz pressures from 0.2 to 2 GPa,
@@ -25,6 +25,7 @@ of their twins, each of which is run once more with its settings of the film to 
 import argparse
 import bisect
 import collections
+import csv
 import json
 import math
 import os
@@ -291,16 +292,19 @@ def solve(runner, scene, cache):
     return answers
 
 
-def print_rows(scene, answers, rows, out):
+HEAD = ['scene', 'what', 'accuracy', 'output', 'bar %', 'error %', 'reference +- %', 'verdict']
+
+
+def write_rows(scene, answers, rows, table):
     for name in [*GOALS, 'reference']:
         if answers[name]['status'] != 'ok':
-            print(f"| {scene['number']} | {scene['kind']} | {name} | {answers[name]['status']}: "
-                  f"{answers[name]['why'][:90]} | | | | |", file=out)
+            table.writerow([scene['number'], scene['kind'], name, '', '', '', '',
+                            f"{answers[name]['status']}: {answers[name]['why'][:90]}"])
     for row in rows:
         held = f"{100 * row['share']:.1f} % of the points" if 'share' in row else 'held' if row['held'] else \
             'TWICE' if row['twice'] else 'missed'
-        print(f"| {row['scene']} | {scene['kind']} | {row['level']} | {row['output']} | {100 * row['claimed']:.3g} | "
-              f"{100 * row['error']:.3g} | {100 * row['known']:.2g} | {held}{', open' if is_open(row) else ''} |", file=out)
+        table.writerow([row['scene'], scene['kind'], row['level'], row['output'], f"{100 * row['claimed']:.3g}",
+                        f"{100 * row['error']:.3g}", f"{100 * row['known']:.2g}", held + (', open' if is_open(row) else '')])
 
 
 def is_open(row):
@@ -455,22 +459,22 @@ def main():
     parser.add_argument('--count', type=int, default=30)
     parser.add_argument('--longest', type=int, default=100, help='s of CPU time, of a run; what takes longer is listed')
     parser.add_argument('--cache')
-    parser.add_argument('--table')
+    parser.add_argument('--table', help='every number, as CSV')
     parser.add_argument('--lattice', action='store_true')
     options = parser.parse_args()
     runner, rows, scenes = Runner(options.program, options.source, options.longest), [], []
-    out = open(options.table, 'w') if options.table else sys.stdout
-    print('| scene | what | accuracy | output | bar % | error % | reference +- % | verdict |\n|' + '---|' * 8, file=out)
+    out, file = sys.stdout, open(options.table or os.devnull, 'w', newline='')
+    table = csv.writer(file, lineterminator='\n')
+    table.writerow(HEAD)
     for number in range(options.first, options.first + options.count):
         scene = dict(draw(options.seed, number), seed=options.seed)
         answers = solve(runner, scene, options.cache)
         mine = judge(scene, answers)
-        print_rows(scene, answers, mine, out)
-        out.flush()
+        write_rows(scene, answers, mine, table)
+        file.flush()
         rows += mine
         scenes.append((scene, answers))
         print(f"scene {number}: {scene['kind']}, {len(mine)} numbers", file=sys.stderr)
-    print(file=out)
     print_sums(rows, out)
     print_whole(rows, out)
     print_refused(scenes, out)
