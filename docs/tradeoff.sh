@@ -58,7 +58,16 @@ table() { # STUDY MEASURE
                 row = row " " mark percent($(measure == "rms" ? i + 1 : i)) mark " |"
             }
             print row
-        }' | drop_empty
+        }' | drop_empty | keep "$1"
+}
+
+# All rows as CSV into validation/; the page keeps those of a front, of a table without fronts all.
+keep() { # STUDY
+    cat >"$work/$1.rows"
+    sed -n 's/\*\*//g; s/^| \(.*\) |$/\1/; s/^\([^|]*\) |/"\1" |/; s/ *| */,/g; 2!p' "$work/$1.rows" >"$here/validation/tradeoff-$1.csv"
+    if grep -q '\*\*' "$work/$1.rows"; then sed -n '1,2p; /\*\*/p' "$work/$1.rows"; else cat "$work/$1.rows"; fi
+    echo
+    echo "[All candidates](validation/tradeoff-$1.csv)"
 }
 
 # Columns without an entry say nothing.
@@ -117,7 +126,7 @@ machine at the beginning and at the end: $load and $(cut -d' ' -f1 /proc/loadavg
 Cost is the processor time of the stages that the candidates change, the median of the repeats;
 *spread* is from the least to the most. *Error* is the largest relative difference from the reference
 along the mesh cycle, **bold** on the front: nothing cheaper is as good; the front of what crosses
-zero, as friction does at the pitch point, is that of the rms error. What a step along a front costs the run prints;
+zero, as friction does at the pitch point, is that of the rms error. Candidates on no front stand in the files of all candidates. What a step along a front costs the run prints;
 how to measure a trade-off of your own stands in the [guide](guide/accuracy.md#speed-against-accuracy).
 
 ## Film: models, cells and steps
