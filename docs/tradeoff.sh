@@ -61,11 +61,12 @@ table() { # STUDY MEASURE
         }' | drop_empty | keep "$1"
 }
 
-# All rows as CSV into validation/; the page keeps those of a front, of a table without fronts all.
+# All rows as CSV into validation/; the page keeps those of a front, of a table without fronts all, and not the spread.
 keep() { # STUDY
     cat >"$work/$1.rows"
     sed -n 's/\*\*//g; s/^| \(.*\) |$/\1/; s/^\([^|]*\) |/"\1" |/; s/ *| */,/g; 2!p' "$work/$1.rows" >"$here/validation/tradeoff-$1.csv"
-    if grep -q '\*\*' "$work/$1.rows"; then sed -n '1,2p; /\*\*/p' "$work/$1.rows"; else cat "$work/$1.rows"; fi
+    if grep -q '\*\*' "$work/$1.rows"; then sed -n '1,2p; /\*\*/p' "$work/$1.rows"; else cat "$work/$1.rows"; fi |
+        sed 's/^\(|[^|]*|[^|]*\)|[^|]*|/\1|/'
     echo
     echo "[All candidates](validation/tradeoff-$1.csv)"
 }
@@ -123,10 +124,11 @@ sh "$here/draw.sh" "$program" "$work/film/tradeoff.figure.json" "$here/tradeoff.
 Written by \`docs/tradeoff.sh\` on $(field date). Processor: $(field processor), one of $(nproc) cores; load of the
 machine at the beginning and at the end: $load and $(cut -d' ' -f1 /proc/loadavg).
 
-Cost is the processor time of the stages that the candidates change, the median of the repeats;
-*spread* is from the least to the most. *Error* is the largest relative difference from the reference
+Cost is the processor time of the stages that the candidates change, the median of the repeats.
+*Error* is the largest relative difference from the reference
 along the mesh cycle, **bold** on the front: nothing cheaper is as good; the front of what crosses
-zero, as friction does at the pitch point, is that of the rms error. Candidates on no front stand in the files of all candidates. What a step along a front costs the run prints;
+zero, as friction does at the pitch point, is that of the rms error. The files of all
+candidates have the spread of the cost, too, from the least to the most. What a step along a front costs the run prints;
 how to measure a trade-off of your own stands in the [guide](guide/accuracy.md#speed-against-accuracy).
 
 ## Film: models, cells and steps
