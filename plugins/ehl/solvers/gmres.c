@@ -322,6 +322,8 @@ static ff_status gmres(ehl_solver *s, const ehl_film *film, int loaded, double m
     memset(w->basis[0] + rows, 0, (nodes - rows) * sizeof *w->basis[0]);
     w->basis[0][0] = *dh00 * weight;
     double first = sqrt(dot(w->basis[0], w->basis[0], rows)), norm = first;
+    if (!isfinite(first))
+        return FF_NOCONV;
     double reduction = accuracy
                            ? share_left(accuracy, first, rows, weight)
                            : forcing_term(s, ehl_greatest_size(rows, w->basis[0]) / p_max, careful);

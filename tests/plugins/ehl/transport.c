@@ -170,6 +170,35 @@ static void test_twin(const ehl_laws *laws)
     destroy(&s);
 }
 
+/* Fills in the errors of the gap after some steps, by both causes. */
+static void errors_of(const ehl_laws *laws, double accuracy, double *of)
+{
+    static scene s;
+    make(&s, laws);
+    s.transport.accuracy = accuracy;
+    ff_status status = ehl_march_start(&s.march);
+    for (int k = 1; k <= STEPS && status == FF_OK; k++)
+        status = ehl_march_to(&s.march, time_of[1] * k / STEPS);
+    check_true("a history", status == FF_OK && s.transport.known);
+    memcpy(of, s.transport.of[EHL_BY_CELLS].h, NODES * sizeof *of);
+    memcpy(of + NODES, s.transport.of[EHL_BY_STEPS].h, NODES * sizeof *of);
+    destroy(&s);
+}
+
+/* What the linear solutions leave does not show in the errors. */
+static void test_accuracy(const ehl_laws *laws)
+{
+    static double usual[EHL_CAUSES * NODES], exact[EHL_CAUSES * NODES];
+    double off = 0, most = 0;
+    errors_of(laws, 1e-2, usual);
+    errors_of(laws, 1e-8, exact);
+    for (size_t i = 0; i < EHL_CAUSES * NODES; i++) {
+        off = fmax(off, fabs(usual[i] - exact[i]));
+        most = fmax(most, fabs(exact[i]));
+    }
+    check_below("linear solutions to 1e-2 against 1e-8: errors of the gap", off / most, 0.05);
+}
+
 /* A steady film on a given domain: M, L, or the contact of line_open. */
 static void open_steady(line *c, double M, double L, size_t cells)
 {
@@ -276,6 +305,7 @@ int main(void)
                      .density = stage_service(rho, FF_DENSITY_ID),
                      .rheology = stage_service(flow, FF_RHEOLOGY_3_ID)};
     test_twin(&laws);
+    test_accuracy(&laws);
     stage_close(oil);
     stage_close(rho);
     stage_close(flow);
