@@ -122,8 +122,9 @@ static void truncate_cells(ehl_transport *t, const ehl_reynolds *r, const ehl_st
     memset(t->tau, 0, n * sizeof *t->tau);
     for (size_t k = 0; k < REACH; k++) {
         size_t stride = k + 1, faces = r->last + 1 > stride ? r->last + 1 - stride : 0;
-        memset(t->flow, 0, n * sizeof *t->flow);
         pressure_flow(faces, stride, r->dx, r->f, ehl_fluid(r, film), t->flow);
+        for (size_t i = faces; i < end; i++) /* no pressure reaches so far */
+            t->flow[i] = 0;
         add_gain(REACH, end, stride, share[k], t->flow, t->tau);
     }
     leave_out_edges(REACH, end, film->full, t->tau);
@@ -212,18 +213,35 @@ static void guess(const ehl_march *m, const ehl_transport *t, ehl_film_error *e)
     go_on(1, ahead, &e->now.h00, &e->before.h00);
 }
 
+FF_SIMD
+static void add_h00(size_t n, const double *restrict v, double h00, double *restrict h)
+{
+    for (size_t i = 0; i < n; i++)
+        h[i] = v[i] + h00;
+}
+
+/* mass = rho h + h drho/dp p, of errors h and p. */
+FF_SIMD
+static void fill_mass(size_t n, const double *restrict rho, const double *restrict rho_p,
+                      const double *restrict gap, const double *restrict h,
+                      const double *restrict p, double *restrict mass)
+{
+    for (size_t i = 0; i < n; i++)
+        mass[i] = rho[i] * h[i] + rho_p[i] * gap[i] * p[i];
+}
+
 /* Fills in the errors of the gap and of the mass, which is the unknown of a cavitated node. */
 static void spread(const ehl_march *m, const ehl_transport *t, ehl_film_error *e)
 {
     const ehl_reynolds *r = m->solver->reynolds;
     const ehl_film *film = &m->trial.film;
+    const ehl_liquid *q = &r->liquid;
     double *mass = e->mass[0];
-    for (size_t i = 0; i < t->nodes; i++)
-        e->h[i] = e->now.v[i] + e->now.h00;
-    for (size_t i = 0; i <= r->last; i++) {
-        double fluid = e->now.p[i] - (r->statistical.law ? r->p_a_h[i] * e->h[i] : 0);
-        mass[i] = r->liquid.rho[i] * e->h[i] + r->liquid.rho_p[i] * r->h[i] * fluid;
-    }
+    add_h00(t->nodes, e->now.v, e->now.h00, e->h);
+    fill_mass(r->last + 1, q->rho, q->rho_p, r->h, e->h, e->now.p, mass);
+    for (size_t i = 0; r->touching && i <= r->last;
+         i++) /* the asperities' part of p is not oil's */
+        mass[i] -= q->rho_p[i] * r->h[i] * r->p_a_h[i] * e->h[i];
     for (size_t i = r->last + 1; i < t->nodes; i++)
         mass[i] = r->mass[i] / r->h[i] * e->h[i];
     for (size_t i = 1; r->conserving && i + 1 < t->nodes; i++)
