@@ -51,6 +51,17 @@ ff_status dynamics_fluctuation_read(const ff_host *host, const ff_array *in, dou
     return FF_OK;
 }
 
+ff_status dynamics_refuse_fluctuation(const ff_host *host, const dynamics_inputs *inputs,
+                                      const char *what)
+{
+    return inputs->fluctuation.count == 0
+               ? FF_OK
+               : ff_failf(host, FF_UNSUPPORTED, name_of(DYNAMICS_IN_FLUCTUATION_ORDER),
+                          "torque or speed fluctuate, and %s follows a mesh cycle that repeats "
+                          "itself: take dynamics/shooting or dynamics/time-integration",
+                          what);
+}
+
 double dynamics_fluctuation_size(const dynamics_fluctuation *f)
 {
     double size = 0;

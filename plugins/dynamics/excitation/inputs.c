@@ -413,17 +413,6 @@ int dynamics_floats(const dynamics_inputs *inputs, const dynamics_excitation *ex
            highest < excitation->half_gap * excitation->length;
 }
 
-ff_status dynamics_refuse_fluctuation(const ff_host *host, const dynamics_inputs *inputs,
-                                      const char *what)
-{
-    return inputs->fluctuation.count == 0
-               ? FF_OK
-               : ff_failf(host, FF_UNSUPPORTED, name_of(DYNAMICS_IN_FLUCTUATION_ORDER),
-                          "torque or speed fluctuate, and %s follows a mesh cycle that repeats "
-                          "itself: take dynamics/shooting or dynamics/time-integration",
-                          what);
-}
-
 void dynamics_floating_line(const ff_host *host)
 {
     static const char text[] =
