@@ -110,6 +110,10 @@ static void test_table(void)
     check_true("a pressure that does not fall",
                stage_ready(s) == FF_INVALID && strstr(stage_why(s), "must fall"));
     stage_close(s);
+    s = open_table("distance [1]; pressure [MPa]\n0; 1000\n");
+    check_true("one row",
+               stage_ready(s) == FF_INVALID && strstr(stage_why(s), "two distances or more"));
+    stage_close(s);
     static const char *const level[] = {
         "distance [1]; pressure [MPa]\n0; 1000\n1; 990\n2; 1\n",
         "distance [1]; pressure [MPa]\n0; 1000\n1; 10\n2; 9.9\n",
