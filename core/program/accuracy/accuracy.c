@@ -18,7 +18,7 @@ bool accuracy_run(accuracy_record *record, ff_run *run, ff_engine *engine, const
     if (accuracy_has_goals(run)) {
         good = accuracy_control(record, run, engine, watch, report);
     } else {
-        accuracy_want_beside(pipeline);
+        accuracy_want_beside(pipeline, true);
         good = run_start(run, watch) && accuracy_measure(record, run, engine, watch, NULL);
     }
     if (good)

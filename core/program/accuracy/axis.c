@@ -157,7 +157,7 @@ void accuracy_want_points(const ff_pipeline *pipeline)
     }
 }
 
-void accuracy_want_beside(const ff_pipeline *pipeline)
+void accuracy_want_beside(const ff_pipeline *pipeline, bool estimates)
 {
     for (size_t s = 0; s < pipeline->count; s++) {
         const ff_stage *stage = &pipeline->stages[s];
@@ -166,7 +166,8 @@ void accuracy_want_beside(const ff_pipeline *pipeline)
             for (size_t k = 0; stage->results[i].requested && k < count; k++)
                 if (stage->results[i].row->dims &&
                     (accuracy_may_be_axis(stage->results[k].row, stage->results[i].row) ||
-                     accuracy_may_estimate(stage->results[k].row, stage->results[i].row)))
+                     (estimates &&
+                      accuracy_may_estimate(stage->results[k].row, stage->results[i].row))))
                     stage->results[k].wanted = true;
     }
 }

@@ -37,8 +37,8 @@ const double *accuracy_numbers_like(const ff_pipeline *pipeline, const ff_stage 
    in, if a series is asked for. Before it runs. */
 void accuracy_want_points(const ff_pipeline *pipeline);
 
-/* Marks, before the run, two kinds of outputs to be computed as well: the axes of series, and the
-   errors that stages estimate for their outputs. */
-void accuracy_want_beside(const ff_pipeline *pipeline);
+/* Marks, before the run, two kinds of outputs to be computed as well: the axes of series, and, of
+   an answer, the errors that stages estimate for their outputs. */
+void accuracy_want_beside(const ff_pipeline *pipeline, bool estimates);
 
 #endif

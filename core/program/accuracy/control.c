@@ -1,14 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Counts and tolerances are refined separately: each attempt refines, by one level, the one that
- * contributes more to the error. Earlier, coarser attempts serve as twins, so that all attempts
- * together cost about twice the last one. An output whose error grows, or falls too slowly to meet
- * its goal, no longer demands refinement.
+ * The first attempt has the presets. What it misses predicts the settings of one repeat, by the
+ * order that its twins show. There is no third: where the repeat misses a goal, or none promises
+ * it, the answer says so. Earlier attempts and twins serve as twins.
  */
 #include "control.h"
 
 #include "choice.h"
-#include "doubts.h"
 #include "estimate.h"
 #include "goals.h"
 #include "models.h"
@@ -25,15 +23,19 @@
 /* Share of a goal allowed to the reference model's own error while cheaper models are compared with
    it: they may use half of the goal (choice.c), and this error is added to what they change. */
 static const double reference_error = 0.25;
-/* One attempt, plus one for each level by which counts and tolerances can be refined. */
-enum { MOST_ATTEMPTS = 11 };
+/* Share of a goal that the repeat aims at: orders are observed, not known, and the part of settings
+   that the file fixes stays. */
+static const double aim = 0.7, aim_beside_fixed = 0.5;
+/* Two levels show no order, and their bar has the safety of order 1/2. A third level may lower it
+   to an eighth (estimate.c). */
+static const double less_by_third_level = 8;
+/* The presets, finer settings where these fail, and the repeat. */
+enum { MOST_ATTEMPTS = 3 };
 
 typedef struct attempt {
     accuracy_twin run;
-    accuracy_record record; /* empty if the attempt was not measured */
-    accuracy_levels at;
-    bool doubtful; /* coarser than the presets, and either in doubt or without room for twins: it
-                      cannot be the answer */
+    accuracy_record record; /* empty if the attempt failed */
+    double at;              /* levels coarser than the presets */
 } attempt;
 
 typedef struct control {
@@ -47,6 +49,7 @@ typedef struct control {
     attempt kept[MOST_ATTEMPTS]; /* attempts with the current models */
     size_t kept_count;
     attempt *best; /* the last good attempt, else the last one; NULL before the first */
+    bool repeated; /* with the current models */
     size_t attempts, twins;
     double seconds; /* CPU time of all runs, s */
     const char *failure;
@@ -72,17 +75,26 @@ static const char **list_sets(control *c, size_t *count)
     return sets;
 }
 
-static bool is_coarser_than_presets(accuracy_levels at)
+/* The share of a goal that an error must meet: less while models are to be chosen, since the answer
+   is their reference. */
+static double goal_share(const control *c)
 {
-    return at.counts > 0 || at.tolerances > 0;
+    return !c->choice && leaves_models_open(c->asked) ? reference_error : 1;
+}
+
+static double goal_of(const control *c, const accuracy_error *e)
+{
+    return e->goal * goal_share(c);
 }
 
 /* Measures an attempt's errors; earlier attempts and their twins are reused. */
 static void measure(control *c, attempt *a)
 {
     const accuracy_twin *runs[MOST_ATTEMPTS * (1 + ACCURACY_OWN)];
-    accuracy_known known = {
-        .runs = runs, .said = a->run.report, .place = accuracy_place(c->scene.file)};
+    accuracy_known known = {.runs = runs,
+                            .said = a->run.report,
+                            .place = accuracy_place(c->scene.file),
+                            .share = goal_share(c)};
     for (size_t i = 0; i < c->kept_count; i++) {
         runs[known.count++] = &c->kept[i].run;
         for (size_t k = 0; k < c->kept[i].record.own_count; k++)
@@ -108,12 +120,8 @@ static void try_settings(control *c, attempt *next)
     accuracy_twin_run(&next->run, &c->scene, sets, count, &place, changed);
     accuracy_open_leave_idle(&c->open, next->run.report, place);
     next->at = c->open.at;
-    next->doubtful = next->run.good && is_coarser_than_presets(c->open.at) &&
-                     (!accuracy_open_has_twins(&c->open) ||
-                      accuracy_has_doubts(next->run.pipeline, c->scene.donor));
-    if (next->run.good && !next->doubtful)
+    if (next->run.good)
         measure(c, next);
-    next->doubtful |= c->open.at.counts > 0 && next->record.contradicted;
     c->attempts++;
     c->seconds += next->run.work;
     free(changed);
@@ -127,82 +135,47 @@ static void attempt_free(attempt *a)
     accuracy_twin_free(&a->run);
 }
 
-/* The goal of an error, tightened while models are to be chosen, since the answer is their
-   reference. */
-static double goal_of(const control *c, const accuracy_error *e)
-{
-    bool choosing = !c->choice && leaves_models_open(c->asked);
-    return e->goal * (choosing ? reference_error : 1);
-}
-
 static bool is_missed(const control *c, const accuracy_error *e)
 {
     return !isnan(e->goal) && !(e->relative <= goal_of(c, e));
 }
 
-/* Order at which the counts' part of an error falls, from the twins; 0 if it grows. An error that
-   comes from settings fixed by the file falls in the twins but not in the attempts, so the last two
-   attempts limit the order. */
-static double order_of(const control *c, size_t error)
+/* Order at which an error falls; 0 if it grows. */
+static double order_of(const accuracy_error *e)
 {
-    const accuracy_error *e = &c->best->record.errors[error];
-    const attempt *before = c->best > c->kept ? c->best - 1 : NULL;
-    double order = isnan(e->order) ? 1 : e->order;
-    if (*c->open.given && before && before->at.counts <= 0 && before->record.count > error)
-        order = fmin(order, log2(before->record.errors[error].relative / e->relative));
-    return fmax(order, 0);
+    return isnan(e->order) ? 1 : fmin(fmax(e->order, 0), 2);
 }
 
-/* True if the finest settings can meet the goal. Two levels show no order: the estimate then
-   assumes second order at best, and a third level may lower the error to an eighth (estimate.c). */
-static bool is_in_reach(const control *c, size_t error)
+/* Levels by which an error above its goal should meet it. False if not even the finest level
+   promises it, or the stage estimates it itself and the file fixes all that could lower it. Of an
+   estimate no order is seen: it is taken to be the first. */
+static bool predict(const control *c, const accuracy_error *e, double *finer)
 {
-    const accuracy_error *e = &c->best->record.errors[error];
-    double counts = e->relative - e->by_tolerances, left = c->open.at.counts - accuracy_finest;
-    if (c->best->record.two_levels && isnan(e->order))
-        return left > 0 && counts <= goal_of(c, e) * exp2(3 + 2 * left);
-    return counts * exp2(-left * order_of(c, error)) +
-               e->by_tolerances *
-                   pow(accuracy_tolerance_factor, accuracy_finest - c->open.at.tolerances) <=
-           goal_of(c, e);
+    const ff_stage *stage = &c->asked->stages[e->stage - c->best->run.pipeline->stages];
+    const bool two = c->best->record.two_levels && !e->by_stage;
+    const double goal = goal_of(c, e) * (*c->open.given ? aim_beside_fixed : aim);
+    const double order = e->by_stage ? 1 : two ? 2 : order_of(e);
+    const double error = e->relative / (two ? less_by_third_level : 1);
+    if (e->by_stage && !accuracy_open_has(&c->open, stage))
+        return false;
+    *finer = fmax(1, ceil(log2(error / goal) / order));
+    *finer = fmin(*finer, c->open.at - accuracy_finest);
+    return error * exp2(-order * *finer) <= goal_of(c, e);
 }
 
-/* Levels of the next attempt for an error above its goal: the larger part is refined by a level.
-   Tolerances wait until the counts suffice, which not every output reaches. A part already at its
-   finest leaves the refinement to the other. */
-static accuracy_levels finer_for(const control *c, const accuracy_error *e)
-{
-    const double counts = e->relative - e->by_tolerances;
-    accuracy_levels next = c->open.at;
-    const bool by_tolerances = counts <= goal_of(c, e) && counts < e->by_tolerances;
-    if ((by_tolerances && c->open.at.tolerances > accuracy_finest) ||
-        c->open.at.counts <= accuracy_finest)
-        next.tolerances -= 1;
-    else
-        next.counts -= 1;
-    return next;
-}
-
-/* Sets the settings of the next attempt; false if the present one is the answer. If no output has a
-   measured error, as when all turn out to be fields, the answer is that of the presets. */
+/* Sets the level of the next attempt; false if the present one is the answer. */
 static bool go_on(control *c)
 {
     const accuracy_record *record = &c->best->record;
-    const double finer = fmax(c->open.at.counts, c->open.at.tolerances) - 1;
-    accuracy_levels next = c->open.at;
-    if (!c->best->run.good && finer >= -1) /* if the presets fail, a finer attempt may succeed */
-        next = (accuracy_levels){fmin(next.counts, finer), fmin(next.tolerances, finer)};
-    if (c->best->run.good && (c->best->doubtful || record->count == 0)) {
-        next.counts -= c->open.at.counts > 0 ? 1 : 0;
-        next.tolerances -= c->open.at.counts > 0 ? 0 : fmax(c->open.at.tolerances, 0);
-    }
-    for (size_t i = 0; i < record->count; i++)
-        if (is_missed(c, &record->errors[i]) && (c->open.at.counts > 0 || is_in_reach(c, i))) {
-            accuracy_levels wanted = finer_for(c, &record->errors[i]);
-            next.counts = fmin(next.counts, wanted.counts);
-            next.tolerances = fmin(next.tolerances, wanted.tolerances);
-        }
-    return accuracy_open_move(&c->open, next);
+    double by = 0, wanted;
+    if (!c->best->run.good) /* finer settings may succeed */
+        return c->kept_count == 1 && accuracy_open_move(&c->open, c->open.at - 1);
+    for (size_t i = 0; !c->repeated && i < record->count; i++)
+        if (is_missed(c, &record->errors[i]) && predict(c, &record->errors[i], &wanted))
+            by = fmax(by, wanted);
+    bool moved = by > 0 && accuracy_open_move(&c->open, c->open.at - by);
+    c->repeated = c->repeated || moved;
+    return moved;
 }
 
 static void take(control *c, const attempt *next)
@@ -217,19 +190,7 @@ static void drop_attempts(control *c)
         attempt_free(&c->kept[i]);
     c->kept_count = 0;
     c->best = NULL;
-}
-
-/* The smallest goal. */
-static double least_goal(const control *c)
-{
-    double least = INFINITY;
-    for (size_t i = 0; i < c->asked->count; i++) {
-        const ff_stage *stage = &c->asked->stages[i];
-        for (size_t k = 0; stage->results && k < stage->loaded->model->output_count; k++)
-            if (stage->results[k].requested)
-                least = fmin(least, accuracy_goal(c->scene.file, stage, &stage->results[k]));
-    }
-    return least;
+    c->repeated = false;
 }
 
 /* Starts again with the accepted models. */
@@ -244,15 +205,6 @@ static void begin_with(control *c, const accuracy_choice *choice)
     c->scene.start = c->asked;
     drop_attempts(c);
     accuracy_open_list(&c->open, c->asked);
-    accuracy_open_begin(&c->open, least_goal(c));
-}
-
-/* Measures a doubtful attempt if nothing better exists; false if the observer stopped it. */
-static bool measure_doubtful(control *c)
-{
-    if (c->best->doubtful && c->best->record.count == 0 && !c->best->run.stopped)
-        measure(c, c->best);
-    return !c->best->run.stopped;
 }
 
 /* Chooses models where the file leaves them open. Returns true if there is more to do. */
@@ -260,8 +212,6 @@ static bool choose_models(control *c)
 {
     size_t count;
     accuracy_open_move(&c->open, c->best->at); /* not the levels of a failed attempt */
-    if (!measure_doubtful(c))
-        return false;
     const char **sets = list_sets(c, &count);
     c->choice = memory_alloc(sizeof *c->choice);
     c->best->record.choice = c->choice;
@@ -296,7 +246,7 @@ static bool try_next(control *c)
 static size_t count_kept(const control *c, const attempt *a)
 {
     size_t kept = 0;
-    for (size_t i = 0; a->run.good && !a->doubtful && i < a->record.count; i++)
+    for (size_t i = 0; a->run.good && i < a->record.count; i++)
         kept += !isnan(a->record.errors[i].goal) && !is_missed(c, &a->record.errors[i]);
     return kept;
 }
@@ -319,14 +269,13 @@ static void choose_best(control *c)
 /* Makes attempts until one is the answer; false if the observer stopped one. */
 static bool search(control *c)
 {
-    accuracy_open_begin(&c->open, least_goal(c));
     for (bool again = true; again;) {
         again = try_next(c) && go_on(c) && c->kept_count < MOST_ATTEMPTS;
         if (!again && c->best->run.good && !c->best->run.stopped && !c->choice &&
             leaves_models_open(c->asked))
             again = choose_models(c) && c->kept_count < MOST_ATTEMPTS;
     }
-    if (!measure_doubtful(c))
+    if (c->best->run.stopped)
         return false;
     choose_best(c);
     return true;

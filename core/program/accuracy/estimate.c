@@ -10,7 +10,6 @@
 #include "estimate.h"
 
 #include "../memory/memory.h"
-#include "settings.h"
 
 #include <assert.h>
 #include <math.h>
@@ -141,21 +140,16 @@ static bool goes_down(const accuracy_ladder *l)
     return (l->half && l->quarter) || !l->twice;
 }
 
-static const double *middle(const accuracy_ladder *l)
-{
-    return l->middle ? l->middle : l->half;
-}
-
 static convergence convergence_of(const accuracy_ladder *l, const bool *typical)
 {
     const double *a = goes_down(l) ? l->answer : l->twice, *b = goes_down(l) ? l->half : l->answer,
-                 *c = goes_down(l) ? l->quarter : l->half, *d = goes_down(l) ? middle(l) : b;
+                 *c = goes_down(l) ? l->quarter : l->half;
     if (!a || !b || !c)
         return (convergence){NAN, NAN, INFINITY};
     /* Only a single number can overshoot. */
-    double sign = l->count == 1 && (c[0] - d[0]) * (b[0] - a[0]) < 0 ? -1 : 1;
-    return (convergence){growth_of(between(l, b, a, typical), typical_between(l, c, d), sign),
-                         growth_of(between(l, b, a, NULL), between(l, c, d, NULL), sign), INFINITY};
+    double sign = l->count == 1 && (c[0] - b[0]) * (b[0] - a[0]) < 0 ? -1 : 1;
+    return (convergence){growth_of(between(l, b, a, typical), typical_between(l, c, b), sign),
+                         growth_of(between(l, b, a, NULL), between(l, c, b, NULL), sign), INFINITY};
 }
 
 /* Difference of the coarser levels at number i: of all settings at once, or the sum over the
@@ -166,7 +160,7 @@ static double coarse_difference(const accuracy_ladder *l, size_t i)
     double sum = 0;
     for (size_t k = 0; l->quarter && k < l->refined_count; k++)
         sum += l->refined[k] ? apart(l, l->refined[k], l->quarter, i) : 0;
-    return l->half && l->quarter ? fmax(apart(l, l->quarter, middle(l), i), sum) : sum;
+    return l->half && l->quarter ? fmax(apart(l, l->quarter, l->half, i), sum) : sum;
 }
 
 static double coarse_limit(const accuracy_ladder *l)
@@ -179,30 +173,18 @@ static double coarse_limit(const accuracy_ladder *l)
     return limit;
 }
 
-/* Error from the tolerances at number i. */
-static double tolerance_error(const accuracy_ladder *l, size_t i)
-{
-    const double growth = accuracy_tolerance_factor;
-    if (!l->tight || !l->loose)
-        return 0;
-    return safety * (l->is_finer ? growth : 1) / (growth - 1) * apart(l, l->tight, l->loose, i);
-}
-
-/* Marks the numbers where the sum of two errors is typical: the difference of two levels of the
-   counts, taken as it is since its order is not known yet, and the error from the tolerances.
-   Marking each alone would leave out two times 5 % of a series. */
+/* Marks the numbers where the difference of two levels is typical. */
 static void mark_answer(const accuracy_ladder *l, bool *typical)
 {
     double *sizes = memory_alloc(l->count * sizeof *sizes);
     for (size_t i = 0; i < l->count; i++)
-        sizes[i] =
-            apart(l, goes_down(l) ? l->half : l->twice, l->answer, i) + tolerance_error(l, i);
+        sizes[i] = apart(l, goes_down(l) ? l->half : l->twice, l->answer, i);
     mark_typical(l, sizes, typical);
     free(sizes);
 }
 
-/* Error from the counts alone at number i, relative. */
-static double count_error(const accuracy_ladder *l, size_t i, bool typical, const convergence *c)
+/* Error at number i, relative. */
+static double error_at(const accuracy_ladder *l, size_t i, bool typical, const convergence *c)
 {
     double observed = typical ? c->typical : c->all, growth = growth_to_use(l, observed);
     double coarse = fmax(growth, fmin(fabs(observed), most_coarse_growth)); /* fmax and fmin drop
@@ -227,10 +209,10 @@ static void find_shares(const accuracy_ladder *l, double *shares)
         shares[k] /= all;
 }
 
-/* Raises each relative error to the largest one nearby, from typical points to typical points only.
-   Returns the typical error. */
-static double raise_to_largest(const accuracy_ladder *l, const double *all, const bool *typical,
-                               double *largest)
+/* Raises each relative error to the largest one nearby, from typical points to typical points
+   only. */
+static void raise_to_largest(const accuracy_ladder *l, const double *all, const bool *typical,
+                             double *largest)
 {
     const size_t near = l->count > 1 ? 1 + (size_t)(reach / 2 * (double)l->count) : 0;
     for (size_t i = 0; i < l->count; i++) {
@@ -239,25 +221,19 @@ static double raise_to_largest(const accuracy_ladder *l, const double *all, cons
             if (!typical[i] || typical[k])
                 largest[i] = fmax(largest[i], all[k]);
     }
-    return accuracy_typical(largest, l->at, l->count);
 }
 
-double accuracy_estimate(const accuracy_ladder *l, double *error, double *shares,
-                         double *by_tolerances)
+double accuracy_estimate(const accuracy_ladder *l, double *error, double *shares)
 {
     assert(l->answer && (l->half || l->twice));
     assert(l->refined_count == 0 || l->refined);
-    assert(!l->loose == !l->tight);
     double *all = memory_alloc(l->count * sizeof *all);
     bool *typical = memory_alloc(l->count * sizeof *typical);
     mark_answer(l, typical);
     convergence c = convergence_of(l, typical);
     c.coarse_limit = coarse_limit(l);
     for (size_t i = 0; i < l->count; i++)
-        all[i] = tolerance_error(l, i);
-    *by_tolerances = raise_to_largest(l, all, typical, error);
-    for (size_t i = 0; i < l->count; i++)
-        all[i] += count_error(l, i, typical[i], &c);
+        all[i] = error_at(l, i, typical[i], &c);
     raise_to_largest(l, all, typical, error);
     for (size_t i = 0; i < l->count; i++)
         error[i] *= l->scale ? l->scale[i] : 1;

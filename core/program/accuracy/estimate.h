@@ -9,10 +9,7 @@
 /* Answers to one question at the points of one of them. In `half` all settings are one level
    coarser than in the answer, in `quarter` two; in each of `refined` one setting is back at the
    level of `half`; in `twice` all are one level finer. One level halves a count and quadruples a
-   tolerance. All but the answer may be NULL; `twice` is ignored if both coarser ones exist. If
-   `loose` is given, these levels concern the counts alone, and `middle` is `half` with the
-   tolerances of `quarter`, which may be coarser than those of the answer. `tight` has the answer's
-   tolerances; those of `loose` are one level coarser, or one level finer if `is_finer`. */
+   tolerance. All but the answer may be NULL; `twice` is ignored if both coarser ones exist. */
 typedef struct accuracy_ladder {
     size_t count;
     const double *at;    /* the axis, which never falls; NULL if it is the index */
@@ -20,19 +17,15 @@ typedef struct accuracy_ladder {
     const double *answer, *half, *quarter, *twice;
     const double *const *refined;
     size_t refined_count;
-    const double *middle, *tight, *loose;
-    bool is_finer;
 } accuracy_ladder;
 
 /*
- * Writes error[count], the estimated error of each number of the answer, *by_tolerances, the
- * typical relative part that comes from the tolerances, and shares[refined_count], the part of the
- * rest that each setting causes: their sum is 1, or they are all 0 if it is not known. Returns the
- * observed order, log2 of the growth of the differences; NaN if nothing differs or there are only
- * two levels. `half` or `twice` must be given.
+ * Writes error[count], the estimated error of each number of the answer, and shares[refined_count],
+ * the part that each setting causes: their sum is 1, or they are all 0 if it is not known. Returns
+ * the observed order, log2 of the growth of the differences; NaN if nothing differs or there are
+ * only two levels. `half` or `twice` must be given.
  */
-double accuracy_estimate(const accuracy_ladder *ladder, double *error, double *shares,
-                         double *by_tolerances);
+double accuracy_estimate(const accuracy_ladder *ladder, double *error, double *shares);
 
 /* Typical value: the level that 95 % of the axis' length stays below; for few values or one, the
    largest. `at` is the rising axis; NULL if it is the index. */

@@ -104,6 +104,7 @@ static int by_error(const void *a, const void *b)
 static void add_parts(const accuracy_twins *t, const double *shares, accuracy_error *e)
 {
     size_t most = t->count + (t->record->choice ? t->record->choice->change_count : 0);
+    e->part_count = 0;
     e->parts = take(t, most, sizeof *e->parts);
     for (size_t i = 0; i < t->count; i++)
         if (shares[i] > 0)
@@ -149,45 +150,12 @@ static accuracy_ladder ladder_of(const accuracy_twins *t, const accuracy_error *
                              .answer = e->result->data,
                              .half = numbers_of_twin(t, e, t->half),
                              .quarter = numbers_of_twin(t, e, t->quarter),
-                             .twice = numbers_of_twin(t, e, t->twice),
-                             .middle = numbers_of_twin(t, e, t->middle),
-                             .tight = numbers_of_twin(t, e, t->tight),
-                             .loose = numbers_of_twin(t, e, t->loose),
-                             .is_finer = t->is_finer};
-}
-
-/* Typical relative size of the stage's estimate in a twin; NaN if it has none. */
-static double estimate_in(const accuracy_twins *t, const double *at, const ff_result *estimate,
-                          const accuracy_error *e, const accuracy_twin *twin)
-{
-    const accuracy_series answer = {e->result->rank, e->result->count, at, e->result->data,
-                                    e->zero};
-    const double *numbers = twin ? accuracy_numbers_like(t->answer, e->stage, estimate,
-                                                         twin->pipeline, &t->record->arena)
-                                 : NULL;
-    double largest;
-    return numbers ? accuracy_relative(numbers, &answer, &largest) : NAN;
-}
-
-/* Attributes the stage's estimate to the tolerances if refining them by a level at least halves it,
-   and refining the counts reduces it less. Otherwise it falls with the counts, as it did. */
-static void attribute(const accuracy_twins *t, const double *at, const ff_result *estimate,
-                      accuracy_error *e)
-{
-    double counts = estimate_in(t, at, estimate, e, t->half) / e->relative,
-           tight = estimate_in(t, at, estimate, e, t->tight),
-           loose = estimate_in(t, at, estimate, e, t->loose),
-           tolerances = t->is_finer ? tight / loose : loose / tight;
-    e->by_stage = true;
-    if (tolerances >= 2 && tolerances > counts) /* false if one is NaN */
-        e->by_tolerances = e->relative;
-    else if (counts > 0)
-        e->order = log2(counts);
+                             .twice = numbers_of_twin(t, e, t->twice)};
 }
 
 /* Raises the bar of each number to the stage's estimate: a stage may know a source of error that
    the twins do not see. */
-static void hold_to_estimate(const accuracy_twins *t, const double *at, accuracy_error *e)
+static void hold_to_estimate(const double *at, accuracy_error *e)
 {
     const ff_result *estimate = accuracy_estimate_of(e->stage, e->result);
     const double measured = e->relative;
@@ -196,8 +164,7 @@ static void hold_to_estimate(const accuracy_twins *t, const double *at, accuracy
     for (size_t i = 0; i < estimate->count; i++) /* fmax drops NaN */
         e->bar[i] = fmax(e->bar[i], fabs(estimate->data[i]));
     find_relative(at, e);
-    if (e->relative > measured)
-        attribute(t, at, estimate, e);
+    e->by_stage = e->relative > measured;
 }
 
 static void measure_output(const accuracy_twins *t, accuracy_error *e)
@@ -212,26 +179,24 @@ static void measure_output(const accuracy_twins *t, accuracy_error *e)
     if (!levels.half && !levels.twice)
         return;
     e->bar = take(t, levels.count, sizeof *e->bar);
-    e->order = accuracy_estimate(&levels, e->bar, shares, &e->by_tolerances);
+    e->order = accuracy_estimate(&levels, e->bar, shares);
     for (size_t i = 0; i < levels.count; i++) /* fmax drops NaN */
         e->bar[i] = fmax(e->bar[i], least_error * e->goal * levels.scale[i]);
     find_relative(levels.at, e);
     add_parts(t, shares, e);
-    hold_to_estimate(t, levels.at, e);
+    hold_to_estimate(levels.at, e);
     add_changes(t, e);
 }
 
-/* Widens the bar of a number to the bar of the series from which it is picked. The part from the
-   tolerances is that of the series; the settings keep their shares. */
-static void widen(accuracy_error *number, const accuracy_error *series, double bar)
+/* Widens the bar of a number to the bar of the series from which it is picked; the settings keep
+   their shares. */
+static void widen(accuracy_error *number, double bar)
 {
     if (!(bar > number->bar[0] && isfinite(bar)) || number->result->data[0] == 0)
         return;
     double factor = bar / number->bar[0];
     number->bar[0] = bar;
     find_relative(NULL, number);
-    if (series->relative > 0)
-        number->by_tolerances = number->relative * series->by_tolerances / series->relative;
     for (size_t i = 0; isfinite(factor) && i < number->part_count; i++)
         number->parts[i].error *= factor;
 }
@@ -262,22 +227,8 @@ static void hold_to_series(const accuracy_twins *t, accuracy_error *number)
         const accuracy_error *e = &t->record->errors[i];
         if (e->stage == number->stage && e->result->rank == 1 && e->bar &&
             !strcmp(e->result->row->unit, number->result->row->unit))
-            widen(number, e, bar_at_extreme(number->result, e));
+            widen(number, bar_at_extreme(number->result, e));
     }
-}
-
-/* True if the stage's estimate is more than twice the measured error, so that the truth may lie
-   outside two bars. Estimates below a quarter of the goal do not matter. */
-static bool is_contradicted(const accuracy_error *e)
-{
-    const double twice_as_large = 2, matters = 0.25;
-    for (size_t k = 0; !isnan(e->goal) && k < e->stage->quality_count; k++) {
-        const ff_quality *line = &e->stage->quality[k];
-        if (accuracy_estimated(e->stage, line->name) == e->result &&
-            line->value > fmax(twice_as_large * e->relative, matters * e->goal))
-            return true;
-    }
-    return false;
 }
 
 static void conclude(const accuracy_twins *t)
@@ -287,8 +238,14 @@ static void conclude(const accuracy_twins *t)
         measure_output(t, &record->errors[i]);
     for (size_t i = 0; i < record->count; i++)
         hold_to_series(t, &record->errors[i]);
+}
+
+static bool misses(const accuracy_record *record, double share)
+{
+    bool missed = false;
     for (size_t i = 0; i < record->count; i++)
-        record->contradicted = record->contradicted || is_contradicted(&record->errors[i]);
+        missed = missed || record->errors[i].relative > share * record->errors[i].goal;
+    return missed;
 }
 
 bool accuracy_measure(accuracy_record *record, const ff_run *run, ff_engine *engine,
@@ -301,9 +258,11 @@ bool accuracy_measure(accuracy_record *record, const ff_run *run, ff_engine *eng
         .known = known,
         .scene = {.file = run, .engine = engine, .start = pipeline, .watch = watch}};
     list_outputs(&t);
-    accuracy_twins_find(&t);
-    if (!t.stopped)
+    for (bool missed = true; missed && accuracy_twins_find(&t) && !t.stopped;) {
         conclude(&t);
+        missed = known && misses(record, known->share);
+    }
+    record->two_levels = t.half && !t.quarter;
     accuracy_twins_free(&t);
     return !t.stopped;
 }

@@ -25,10 +25,11 @@ typedef struct accuracy_known {
     size_t count;
     const ff_report *said;
     ff_place place;
+    double share; /* of a goal that an error must meet: else a second twin tells it better */
 } accuracy_known;
 
 /* Most twins of one answer. */
-enum { ACCURACY_OWN = 5 };
+enum { ACCURACY_OWN = 3 };
 
 /* The numerical error of an output. */
 typedef struct accuracy_error {
@@ -40,7 +41,6 @@ typedef struct accuracy_error {
     double relative;      /* relative to the number; for a series at 95 of 100 points; NaN if it
                              is not known */
     double largest;       /* largest along a series, relative to the number there */
-    double by_tolerances; /* part of `relative`; 0 if it was not separated from the counts */
     double order;         /* observed order; NaN if none was seen */
     bool by_stage;        /* the stage's own estimate, which is larger than what the twins show */
     accuracy_part *parts; /* largest first; empty if no twin separates them */
@@ -61,8 +61,6 @@ typedef struct accuracy_record {
     size_t count;
     size_t twins;        /* number of twins run */
     bool two_levels;     /* the errors come from a single coarser twin */
-    bool contradicted;   /* a stage estimates an error more than twice as large: if all twins
-                            sample too coarsely, none of them shows it */
     double seconds;      /* CPU time of their stages, s */
     const char *failure; /* why a twin failed; NULL if none did */
     size_t attempts;     /* number of answers measured, the last one included; 0 if there are no
@@ -85,9 +83,8 @@ typedef struct accuracy_record {
 
 /*
  * Measures the errors of the scalars and series that the file asks for, from a completed run of it.
- * Earlier runs serve as twins if their settings fit; errors are then split into counts and
- * tolerances but not by setting, which would need more twins than all the rest. Returns false if
- * the observer stopped it.
+ * Earlier runs serve as twins if their settings fit; errors are then not split by setting, which
+ * would need more twins than all the rest. Returns false if the observer stopped it.
  */
 bool accuracy_measure(accuracy_record *record, const ff_run *run, ff_engine *engine,
                       const ff_observer *watch, const accuracy_known *known);

@@ -7,8 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Levels by which the first attempt is coarser than the presets. */
-static const double coarsest = 2;
 /* A stage is cheap if its model states at most this share of the most expensive one's cost, or
    states none and is not asked for itself. */
 static const double little = 0.1;
@@ -65,6 +63,7 @@ void accuracy_open_list(accuracy_open *open, const ff_pipeline *asked)
                     .stage = stage, .setting = settings[k], .cheap = costs_little(stage, most)};
         }
     }
+    accuracy_open_move(open, 0);
 }
 
 const char *accuracy_open_set(accuracy_open *open, size_t knob)
@@ -82,79 +81,34 @@ static void move(accuracy_open *open, size_t knob, double level)
         k->level = fabs(k->level) < 1 ? 0 : k->level - copysign(1, k->level);
 }
 
-/* Twins are coarser: by a level in the tolerances, and by up to two in the counts. */
-bool accuracy_open_has_twins(accuracy_open *open)
-{
-    for (size_t i = 0; i < open->count; i++) {
-        const accuracy_knob *k = &open->knobs[i];
-        double coarser = k->setting.tolerance ? 1 : 2;
-        if (!k->idle &&
-            !accuracy_setting_at(k->stage, k->setting.param, k->level + coarser, &open->arena))
-            return false;
-    }
-    return true;
-}
-
-/* The level reached: limits may forbid coarser settings, and without an open setting none can
-   become finer. */
-static double reached(const accuracy_open *open, bool tolerance, double level)
-{
-    double most = accuracy_finest;
-    for (size_t i = 0; i < open->count; i++)
-        if (open->knobs[i].setting.tolerance == tolerance && !open->knobs[i].idle)
-            most = fmax(most, open->knobs[i].level + (open->knobs[i].cheap ? ahead : 0));
-    return level > 0 ? most : fmax(level, accuracy_finest);
-}
-
-static void note_levels(accuracy_open *open, accuracy_levels to)
-{
-    open->at =
-        (accuracy_levels){reached(open, false, to.counts), reached(open, true, to.tolerances)};
-}
-
 void accuracy_open_leave_idle(accuracy_open *open, const ff_report *said, ff_place place)
 {
     for (size_t i = 0; i < open->count; i++) {
         accuracy_knob *k = &open->knobs[i];
         k->idle = k->idle || accuracy_is_idle(said, place, k->stage->name, k->setting.name);
     }
-    note_levels(open, open->at);
 }
 
-bool accuracy_open_move(accuracy_open *open, accuracy_levels to)
+bool accuracy_open_move(accuracy_open *open, double to)
 {
     bool moved = false;
     for (size_t i = 0; i < open->count; i++) {
         accuracy_knob *k = &open->knobs[i];
-        double before = k->level, level = k->setting.tolerance ? to.tolerances : to.counts;
+        double before = k->level;
         if (!k->idle)
-            move(open, i, level - (k->cheap ? ahead : 0));
+            move(open, i, to - (k->cheap ? ahead : 0));
         moved = moved || k->level != before;
     }
-    note_levels(open, to);
+    open->at = fmax(to, accuracy_finest);
     return moved;
 }
 
-/* First level of the tolerances. A tolerance without a unit is an error itself, so the first level
-   is the one nearest to the goal: with larger steps an extreme between two of them would be missing
-   from the answer and from every twin. */
-static double first_tolerance(const accuracy_open *open, double asked)
+bool accuracy_open_has(const accuracy_open *open, const ff_stage *stage)
 {
-    double level = coarsest;
-    for (size_t i = 0; i < open->count; i++) {
-        const accuracy_knob *k = &open->knobs[i];
-        const ff_bound *bound = &k->stage->params[k->setting.param];
-        bool bare = !strcmp(bound->row->unit, "1") || !strcmp(bound->row->unit, "%");
-        if (k->setting.tolerance && bare)
-            level =
-                fmin(level, round(log(asked / bound->value.real) / log(accuracy_tolerance_factor)));
-    }
-    return fmax(level, 0);
-}
-
-void accuracy_open_begin(accuracy_open *open, double asked)
-{
-    accuracy_open_move(open, (accuracy_levels){coarsest, first_tolerance(open, asked)});
+    bool has = false;
+    for (size_t i = 0; i < open->count; i++)
+        has = has || (open->knobs[i].stage == stage && !open->knobs[i].idle);
+    return has;
 }
 
 void accuracy_open_free(accuracy_open *open)

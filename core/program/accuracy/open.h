@@ -17,34 +17,28 @@ typedef struct accuracy_knob {
     double level; /* levels coarser than the preset */
 } accuracy_knob;
 
-/* Levels by which settings are coarser than the presets. */
-typedef struct accuracy_levels {
-    double counts, tolerances;
-} accuracy_levels;
-
 /* Starts zeroed. */
 typedef struct accuracy_open {
     accuracy_knob *knobs;
     size_t count;
     const char *given; /* "film.cells, film.steps": settings fixed by the file; "" if there are
                           none */
-    accuracy_levels at;
+    double at;         /* levels coarser than the presets */
     memory_arena arena;
 } accuracy_open;
 
-/* Lists the open settings of the stages that are needed, at their presets. */
+/* Lists the open settings of the stages that are needed, at their presets; those of cheap stages a
+   level finer. */
 void accuracy_open_list(accuracy_open *open, const ff_pipeline *asked);
 /* Freezes the settings that changed nothing in a run which set them at the place. */
 void accuracy_open_leave_idle(accuracy_open *open, const ff_report *said, ff_place place);
-/* Sets the levels of the first attempt; `asked` is the smallest goal, relative. */
-void accuracy_open_begin(accuracy_open *open, double asked);
-/* Sets the levels, or the nearest ones within the settings' limits. Returns true if a setting
+/* Sets the level, of each setting the nearest one within its limits. Returns true if a setting
    changes. */
-bool accuracy_open_move(accuracy_open *open, accuracy_levels to);
+bool accuracy_open_move(accuracy_open *open, double to);
 /* The assignment of a setting, such as "film.cells=362". */
 const char *accuracy_open_set(accuracy_open *open, size_t knob);
-/* True if the settings' limits leave room for twins. */
-bool accuracy_open_has_twins(accuracy_open *open);
+/* True if a setting of the stage is open. */
+bool accuracy_open_has(const accuracy_open *open, const ff_stage *stage);
 void accuracy_open_free(accuracy_open *open);
 
 #endif

@@ -137,7 +137,7 @@ void accuracy_twin_run(accuracy_twin *twin, const accuracy_scene *scene, const c
     twin->report = ff_run_report(twin->run);
     if (twin->pipeline && !run_has_errors(twin->run)) {
         spread(twin->pipeline, affected); /* a replaced model may have other wires */
-        accuracy_want_beside(twin->pipeline);
+        accuracy_want_beside(twin->pipeline, !scene->outputs);
         accuracy_hand_states(like, twin->pipeline);
         if (!scene->outputs)
             want_the_same(like, twin->pipeline);

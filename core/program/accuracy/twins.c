@@ -3,9 +3,8 @@
  * Twins of one answer, a ladder of levels. All settings of all stages are one level coarser in the
  * first twin and two levels coarser in the second. Then, unless earlier runs are known, each
  * setting in turn is one level finer than in the second, which shows its part of the error. These
- * are cheap: all else is coarse, and stages upstream are known. When attempts are made, the levels
- * concern the counts, and further twins show the effect of the tolerances. If a coarser twin fails
- * because the answer itself is coarse, a finer one takes its place.
+ * are cheap: all else is coarse, and stages upstream are known. If a coarser twin fails because the
+ * answer itself is coarse, a finer one takes its place.
  */
 #include "twins.h"
 
@@ -42,23 +41,18 @@ static void note_failure(accuracy_twins *t, const char *why)
 }
 
 /* Levels by which a twin's settings are coarser. */
-typedef struct coarser {
-    int counts, tolerances;
-} coarser;
-
-static const coarser half = {1, 1}, quarter = {2, 2}, twice = {-1, -1};
+static const int half = 1, quarter = 2, twice = -1;
 
 /* NULL if the setting's limits forbid it. */
-static const char *assignment_at(const accuracy_twins *t, const accuracy_knob *k, coarser at)
+static const char *assignment_at(const accuracy_twins *t, const accuracy_knob *k, int coarser)
 {
-    int levels = k->setting.tolerance ? at.tolerances : at.counts;
-    return accuracy_setting_at(&t->answer->stages[k->stage], k->setting.param, levels,
+    return accuracy_setting_at(&t->answer->stages[k->stage], k->setting.param, coarser,
                                &t->record->arena);
 }
 
 /* Fills the assignments of a twin and marks the stages that they change. False if a setting's
    limits forbid one. */
-static bool list_sets(accuracy_twins *t, coarser at, size_t finer, const char **sets, bool *changed)
+static bool list_sets(accuracy_twins *t, int at, size_t finer, const char **sets, bool *changed)
 {
     for (size_t i = 0; i < t->count; i++) {
         const accuracy_knob *k = &t->knobs[i];
@@ -68,7 +62,7 @@ static bool list_sets(accuracy_twins *t, coarser at, size_t finer, const char **
             continue;
         char *why = memory_print_text("%s.%s has no %s value within its limits",
                                       t->answer->stages[k->stage].name, k->setting.name,
-                                      at.counts < 0 ? "finer" : "coarser");
+                                      at < 0 ? "finer" : "coarser");
         note_failure(t, why);
         free(why);
         return false;
@@ -77,7 +71,7 @@ static bool list_sets(accuracy_twins *t, coarser at, size_t finer, const char **
 }
 
 /* Runs a twin. The setting `finer` is at the level of `half`; SIZE_MAX: none is. */
-static void run_twin(accuracy_twins *t, coarser at, size_t finer, accuracy_twin *twin)
+static void run_twin(accuracy_twins *t, int at, size_t finer, accuracy_twin *twin)
 {
     const char **sets = memory_alloc((t->count + 1) * sizeof *sets);
     bool *changed = memory_alloc((t->answer->count + 1) * sizeof *changed);
@@ -95,7 +89,7 @@ static void run_twin(accuracy_twins *t, coarser at, size_t finer, accuracy_twin 
 }
 
 /* True if an answer has the settings of the twin. */
-static bool is_twin(const accuracy_twins *t, coarser at, const ff_pipeline *answer)
+static bool is_twin(const accuracy_twins *t, int at, const ff_pipeline *answer)
 {
     bool same = answer->count == t->answer->count;
     for (size_t i = 0; same && i < answer->count; i++)
@@ -111,7 +105,7 @@ static bool is_twin(const accuracy_twins *t, coarser at, const ff_pipeline *answ
 }
 
 /* A twin from earlier runs, good or not; NULL if there is none. */
-static const accuracy_twin *known_twin(const accuracy_twins *t, coarser at)
+static const accuracy_twin *known_twin(const accuracy_twins *t, int at)
 {
     for (size_t i = 0; i < t->record->own_count; i++)
         if (t->record->own[i]->pipeline && is_twin(t, at, t->record->own[i]->pipeline))
@@ -123,7 +117,7 @@ static const accuracy_twin *known_twin(const accuracy_twins *t, coarser at)
 }
 
 /* Finds or runs a twin; NULL if there can be none. */
-static const accuracy_twin *find_twin(accuracy_twins *t, coarser at)
+static const accuracy_twin *find_twin(accuracy_twins *t, int at)
 {
     const accuracy_twin *known = known_twin(t, at);
     if (known)
@@ -135,98 +129,31 @@ static const accuracy_twin *find_twin(accuracy_twins *t, coarser at)
     return own->good ? own : NULL;
 }
 
-static void run_ladder(accuracy_twins *t)
+/* Runs the second twin, and those that tell the settings apart. */
+static void run_quarter(accuracy_twins *t)
 {
-    t->half = find_twin(t, half);
     t->quarter = t->half ? find_twin(t, quarter) : NULL;
-    t->twice = t->quarter ? NULL : find_twin(t, twice);
-    for (size_t i = 0; t->count > 1 && t->quarter && i < t->count && !t->stopped; i++)
+    for (size_t i = 0; !t->known && t->count > 1 && t->quarter && i < t->count && !t->stopped; i++)
         run_twin(t, quarter, i, &t->refined[i]);
 }
 
-static bool have_tolerances(const accuracy_twins *t)
+bool accuracy_twins_find(accuracy_twins *t)
 {
-    bool any = false;
-    for (size_t i = 0; i < t->count; i++)
-        any = any || t->knobs[i].setting.tolerance;
-    return any;
-}
-
-/* True if a series has fewer points in the loose twin than in the tight one, but hardly. Between
-   them even an error of second order does not double, and an extreme missed by both sets of steps
-   shows in neither. Equal counts mean that the points are no steps. */
-static bool hardly_differ(const accuracy_twins *t)
-{
-    const double hardly = sqrt(1 / 2.0);
-    for (size_t i = 0; i < t->record->count; i++) {
-        const accuracy_error *e = &t->record->errors[i];
-        const size_t stage = (size_t)(e->stage - t->answer->stages),
-                     output = (size_t)(e->result - e->stage->results);
-        double tight = (double)t->tight->pipeline->stages[stage].results[output].count,
-               loose = (double)t->loose->pipeline->stages[stage].results[output].count;
-        if (loose < tight && loose > hardly * tight)
-            return true;
+    if (t->half || t->twice) { /* a second call */
+        if (t->quarter || t->twice || !t->half)
+            return false;
+        run_quarter(t);
+        return t->quarter != NULL;
     }
-    return false;
-}
-
-/* Finds two earlier twins with the same counts for `tight` and `loose`; false if there are none and
-   the two must be run. */
-static bool know_tolerances(accuracy_twins *t, int counts)
-{
-    t->tight = known_twin(t, (coarser){counts, 0});
-    t->loose = known_twin(t, (coarser){counts, 1});
-    return t->tight && t->tight->good && t->loose && t->loose->good;
-}
-
-/* Finds two twins with equal counts and different tolerances: earlier ones, or the cheapest; a
-   finer one if the coarser fails or hardly differs. */
-static void find_loose(accuracy_twins *t)
-{
-    int counts = know_tolerances(t, 1) ? 1 : 2;
-    if (counts == 2 && !know_tolerances(t, 2)) {
-        t->tight = t->quarter ? find_twin(t, (coarser){2, 0}) : NULL;
-        counts = t->tight ? 2 : 1;
-        t->tight = t->tight ? t->tight : t->half;
-        t->loose = find_twin(t, (coarser){counts, 1});
-    }
-    if (t->loose && !hardly_differ(t))
-        return;
-    const accuracy_twin *finer = find_twin(t, (coarser){counts, -1});
-    t->is_finer = finer != NULL;
-    t->loose = finer ? finer : t->loose;
-}
-
-/* Ladder of an attempt, in which counts and tolerances are refined separately. Two levels suffice
-   if the coarser twin fails, since the next attempt is finer. */
-static void run_attempt_ladder(accuracy_twins *t)
-{
-    t->half = find_twin(t, (coarser){1, 0});
-    for (int k = 0; t->half && k <= 2 && !(t->middle && t->quarter); k++) {
-        t->middle = known_twin(t, (coarser){1, k});
-        t->quarter = known_twin(t, (coarser){2, k});
-    }
-    if (t->half && !(t->middle && t->quarter)) {
-        t->middle = t->half;
-        t->quarter = find_twin(t, (coarser){2, 0});
-    }
-    if (t->quarter && !(t->quarter->good && t->middle->good))
-        t->quarter = NULL;
-    if (t->half && have_tolerances(t))
-        find_loose(t);
-    t->twice = t->half ? NULL : find_twin(t, twice);
-    t->record->two_levels = t->half && !t->quarter;
-}
-
-void accuracy_twins_find(accuracy_twins *t)
-{
     list_knobs(t);
     if (t->record->count == 0)
-        return;
-    if (t->known)
-        run_attempt_ladder(t);
-    else
-        run_ladder(t);
+        return false;
+    t->half = find_twin(t, half);
+    if (t->half && !t->known)
+        run_quarter(t);
+    if (!t->half || (!t->known && !t->quarter))
+        t->twice = find_twin(t, twice);
+    return t->half || t->twice;
 }
 
 void accuracy_twins_free(accuracy_twins *t)

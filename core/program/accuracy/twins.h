@@ -22,16 +22,14 @@ typedef struct accuracy_twins {
                                     depends */
     size_t count;
     const accuracy_twin *half, *quarter, *twice; /* NULL if it cannot be had */
-    const accuracy_twin *middle, *tight, *loose; /* as in estimate.h; NULL if tolerances are not
-                                                    separated */
-    bool is_finer;
     accuracy_twin *refined; /* one for each knob; not good if errors are not split by it */
     bool stopped;
 } accuracy_twins;
 
-/* Finds or runs the twins. The first four members are given; the outputs to be measured are in the
-   record. */
-void accuracy_twins_find(accuracy_twins *twins);
+/* Finds or runs twins. The first four members are given; the outputs to be measured are in the
+   record. Where attempts are made, the first call finds one twin and the second call another. False
+   if there are no more. */
+bool accuracy_twins_find(accuracy_twins *twins);
 void accuracy_twins_free(accuracy_twins *twins);
 
 #endif

@@ -308,6 +308,8 @@ static void print_search(const accuracy_record *errors, size_t missed)
 {
     if (missed > 0 && *errors->given)
         terminal_print_wrapped(errors->given, printf("  the file's own settings stay: "), 4);
+    else if (missed > 0 && errors->attempts > 1)
+        puts("  the repeat, with what its order promised to suffice, did not reach the rest");
     else if (missed > 0)
         puts("  no finer settings that may be tried promise what is not reached");
     char *text = NULL;

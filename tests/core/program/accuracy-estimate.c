@@ -12,8 +12,8 @@ static const double safety = 1.25; /* Roache's, as the estimate has it */
 /* Returns the order; no settings are told apart. */
 static double estimate(const accuracy_ladder *l, double *error)
 {
-    double none, tolerances;
-    return accuracy_estimate(l, error, &none, &tolerances);
+    double none;
+    return accuracy_estimate(l, error, &none);
 }
 
 /* The exact answer is 1; its error at a level is c 2^(order level). */
@@ -105,7 +105,7 @@ static void test_oscillation(void)
 /* Errors of two settings that cancel in the answers are both counted, and told apart. */
 static void test_cancelling_settings(void)
 {
-    double c = 1e-3, answer = 1, half = 1, quarter = 1, error, tolerances;
+    double c = 1e-3, answer = 1, half = 1, quarter = 1, error;
     double one = 1 - 12 * c, other = 1 + 12 * c, shares[2]; /* of 16 c - 4 c, from level 2 to 1 */
     const double *refined[] = {&one, &other};
     accuracy_ladder l = {.count = 1,
@@ -114,7 +114,7 @@ static void test_cancelling_settings(void)
                          .quarter = &quarter,
                          .refined = refined,
                          .refined_count = 2};
-    accuracy_estimate(&l, &error, shares, &tolerances);
+    accuracy_estimate(&l, &error, shares);
     check_true("neither is lost", error >= c);
     check_near("halves", shares[0], 0.5, 1e-9);
     check_near("halves", shares[1], 0.5, 1e-9);
@@ -213,7 +213,7 @@ static void test_typical(void)
 /* What no setting changes has no error. */
 static void test_no_difference(void)
 {
-    double answer = 1, error, share = 1, tolerances;
+    double answer = 1, error, share = 1;
     const double *refined[] = {&answer};
     accuracy_ladder l = {.count = 1,
                          .answer = &answer,
@@ -221,97 +221,12 @@ static void test_no_difference(void)
                          .quarter = &answer,
                          .refined = refined,
                          .refined_count = 1};
-    check_true("no order", isnan(accuracy_estimate(&l, &error, &share, &tolerances)));
+    check_true("no order", isnan(accuracy_estimate(&l, &error, &share)));
     check_true("no error", error == 0 && share == 0);
-}
-
-/* Errors of the counts and of the tolerances, of second order both: each is found as it is, also
-   where the coarser levels have other tolerances, and where the twin's tolerances are finer. */
-static void test_tolerances(void)
-{
-    const double c = 1e-3, t = 4e-4; /* of the answer */
-    for (int finer = 0; finer < 2; finer++) {
-        double answer = 1 + c + t, half = 1 + 4 * c + t, middle = 1 + 4 * c + 16 * t,
-               quarter = 1 + 16 * c + 16 * t, error, none, tolerances,
-               loose = 1 + 4 * c + (finer ? t / 4 : 4 * t);
-        accuracy_ladder l = {.count = 1,
-                             .answer = &answer,
-                             .half = &half,
-                             .quarter = &quarter,
-                             .middle = &middle,
-                             .is_finer = finer};
-        check_near("order", accuracy_estimate(&l, &error, &none, &tolerances), 2, 1e-9);
-        check_near("counts", error, safety * c, 1e-9);
-        check_near("not told", tolerances, 0, 1e-12);
-        l.tight = &half;
-        l.loose = &loose;
-        check_near("order", accuracy_estimate(&l, &error, &none, &tolerances), 2, 1e-9);
-        check_near("tolerances", tolerances, safety * t, 1e-9);
-        check_near("both", error, safety * (c + t), 1e-9);
-    }
-}
-
-/* Where the tolerances alone move a number, as behind a jump, it has all of that. */
-static void test_tolerances_at_a_jump(void)
-{
-    double answer[POINTS], loose[POINTS], error[POINTS], none, typical;
-    for (int i = 0; i < POINTS; i++)
-        answer[i] = loose[i] = 1;
-    loose[100] = 1.3;
-    accuracy_ladder l = {
-        .count = POINTS, .answer = answer, .half = answer, .tight = answer, .loose = loose};
-    accuracy_estimate(&l, error, &none, &typical);
-    check_near("typical", typical, 0, 1e-12);
-    check_near("there", error[100], safety * 0.1, 1e-9);
-    check_near("beside", error[101], 0, 1e-12);
-}
-
-/* What tolerances move passes through 0 where two films cross: beside that they err as much. */
-static void test_tolerances_where_they_cross(void)
-{
-    double answer[POINTS], loose[POINTS], error[POINTS], none, typical;
-    for (int i = 0; i < POINTS; i++) {
-        answer[i] = 1;
-        loose[i] = 1 + 0.3 * (i != 100);
-    }
-    accuracy_ladder l = {
-        .count = POINTS, .answer = answer, .half = answer, .tight = answer, .loose = loose};
-    accuracy_estimate(&l, error, &none, &typical);
-    check_near("typical", typical, safety * 0.1, 1e-9);
-    check_near("where they cross", error[100], safety * 0.1, 1e-9);
-}
-
-/* Counts move the end of a series most, and one point of it for good; tolerances move the beginning
-   for good. What is neither is known along 95 % of it. */
-static void test_counts_and_tolerances_elsewhere(void)
-{
-    const double c = 1e-3, t = 4e-4;
-    double answer[POINTS], half[POINTS], quarter[POINTS], loose[POINTS], error[POINTS], none,
-        typical;
-    for (int i = 0; i < POINTS; i++) {
-        double more = 1 + 0.2 * i / (POINTS - 1), jump = i == POINTS - 1;
-        answer[i] = 1 + c * more;
-        half[i] = 1 + 4 * c * more + jump;
-        quarter[i] = 1 + 16 * c * more + 2 * jump;
-        loose[i] = 1 + 4 * c * more + jump + 3 * t + (i < 4);
-    }
-    accuracy_ladder l = {.count = POINTS,
-                         .answer = answer,
-                         .half = half,
-                         .quarter = quarter,
-                         .tight = half,
-                         .loose = loose};
-    check_near("order", accuracy_estimate(&l, error, &none, &typical), 2, 0.01);
-    check_below("along 95 %", accuracy_typical(error, NULL, POINTS), 1.01 * safety * (1.2 * c + t));
-    check_true("at both ends", error[1] > 0.1 && error[POINTS - 1] > 1);
 }
 
 int main(void)
 {
-    test_counts_and_tolerances_elsewhere();
-    test_tolerances_where_they_cross();
-    test_tolerances_at_a_jump();
-    test_tolerances();
     test_orders();
     test_high_orders();
     test_two_levels();

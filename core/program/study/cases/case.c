@@ -143,7 +143,7 @@ void study_case_open(study_case *c, const study_run *run, size_t index, study_ke
     if (study_case_is_good(c)) {
         study_measure_want(study, c->pipeline);
         if (accuracy_is_asked(c->run))
-            accuracy_want_beside(c->pipeline);
+            accuracy_want_beside(c->pipeline, true);
         c->fingerprints = memory_alloc(c->pipeline->count * sizeof *c->fingerprints);
         fingerprint = study_fingerprint(c->pipeline, c->fingerprints);
     }
