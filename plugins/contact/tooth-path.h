@@ -42,7 +42,7 @@ typedef struct contact_tooth_path {
     const ff_array *oil;        /* two inputs */
 } contact_tooth_path;
 
-/* Reads and checks; to be closed in any case. */
+/* Reads and checks the inputs. The caller closes the path, also after an error. */
 ff_status contact_tooth_path_read(const ff_host *host, const ff_array *in,
                                   contact_engagement_choice wanted, contact_tooth_path *p);
 void contact_tooth_path_close(contact_tooth_path *p);

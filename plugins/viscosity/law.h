@@ -64,7 +64,7 @@ ff_status viscosity_eval(const viscosity_law *law, viscosity_curve *curve, size_
                          const double *p, const double *T, double *ln_eta, double *dln_dp,
                          double *dln_dT);
 
-/* The liquid at ambient pressure, for the points of one eval. */
+/* ln(eta0), at ambient pressure, for the points of one eval. */
 typedef struct viscosity_ambient {
     double ln_eta0, slope; /* slope over T; 0 if T differs between points */
     int varies;            /* T differs between points: viscosity_oil_end adds ln_eta0 */

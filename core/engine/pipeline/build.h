@@ -87,7 +87,7 @@ bool fe_expected(fe_build *b, const ff_node *node, const char *where, const char
 
 /* Returns a copy without what a terminal would act on, cut at 511 bytes; to be freed. */
 char *fe_copy_clean(const char *text);
-void fe_hand_on(const ff_message *m, ff_report *report); /* the same to another report */
+void fe_hand_on(const ff_message *m, ff_report *report); /* adds the message to another report */
 
 /* setting.c: returns the node at "a.b" in maps within maps; NULL: there is none. */
 const ff_node *fe_find_node(const ff_node *map, const char *path);
@@ -98,12 +98,13 @@ const ff_node *fe_model_set(const ff_stage *stage, const char *model);
    stands for the model under `with`. */
 typedef struct fe_setting {
     const ff_node *node; /* NULL: nothing */
-    uint64_t priority; /* of the later layer, or in one layer the stage's own key, is the higher */
+    uint64_t priority; /* higher for a later layer; within one layer, higher for the stage's own key
+                          than under `with` */
     bool displaced;    /* its preset gives way to another parameter of its group */
     const ff_wire *wire; /* connected, and replaces the parameter; NULL: none */
 } fe_setting;
 
-uint32_t fe_latest_rank(const ff_node *node); /* the latest layer that says something in the node */
+uint32_t fe_latest_rank(const ff_node *node); /* of the latest layer that sets anything in it */
 /* An empty value takes away what an earlier layer says. */
 bool fe_is_taken_away(const ff_node *node);
 fe_setting fe_find_setting(const ff_stage *stage, const char *model, const char *path);
@@ -141,7 +142,8 @@ void fe_check_folder(const ff_pipeline *pipeline, const ff_stage *stage, const c
                      ff_report *report);
 /* Reports 'the plugin x.so <what>' at the stage's model. Returns false. */
 bool fe_plugin_fault(const ff_stage *stage, ff_report *report, const char *what);
-/* The same if a model that serves the stage may be at fault. */
+/* Reports '<plugins> <what>', where the plugins are the stage's own and those of its services.
+ * Returns false. */
 bool fe_shared_fault(const ff_stage *stage, ff_report *report, const char *what);
 
 /* A line that a stage of a loop has logged. It is handed on after the last round. */

@@ -12,7 +12,7 @@ typedef struct dynamics_coupled_orbit {
     double frequency;
     int period;                   /* mesh cycles */
     double state[DYNAMICS_TAKEN]; /* at phase 0 */
-    double distance;              /* distance of the state before the last correction */
+    double distance;              /* largest change of a coordinate in the last correction */
     double largest;               /* largest modulus of the multipliers; 0: no motion was found */
     int touches;   /* 1: the driving flanks never part and the back flanks never meet */
     size_t cycles; /* cycles integrated so far; never reset */

@@ -4,12 +4,13 @@
 #include <math.h>
 #include <string.h>
 
-/* A curve is smooth where a polynomial meets its nodes to `meets`, over the mean stiffness or the
-   unit of length, and lies within `between` of the lines that join them. */
+/* A curve counts as smooth if a polynomial passes its nodes within `meets` and the middles of the
+ * lines between them within `between`. Both are relative to the mean stiffness or to the unit of
+ * length. */
 static const double meets = 1e-7, between = 1e-4;
 
-/* The fewest lines to a piece: three for each number that is fitted, so that a polynomial which
-   meets their nodes is the curve that was sampled there and no accident. */
+/* The fewest lines of a piece: three for each fitted coefficient, so that a polynomial does not
+ * meet the nodes of a rough curve by accident. */
 enum { FREE = DYNAMICS_DEGREE - 1, LEAST_LINES = 3 * FREE };
 
 /* A fit of one series to the nodes first to last: the line through both ends and a correction,
@@ -174,7 +175,7 @@ size_t dynamics_smooth_piece(const dynamics_excitation *excitation, const dynami
     size_t most = last - first, good = 0, bad = most + 1;
     double distance[2], best[2] = {0};
     dynamics_piece trial;
-    /* doubles the number of lines while they are smooth, then halves the range that is left */
+    /* doubles the number of lines as long as the piece is smooth, then bisects */
     for (size_t lines = LEAST_LINES; lines <= most && bad - good > 1;) {
         if (fit_piece(excitation, x, spring, first, first + lines, &trial, distance)) {
             good = lines;
@@ -189,7 +190,7 @@ size_t dynamics_smooth_piece(const dynamics_excitation *excitation, const dynami
     }
     if (!good)
         return 0;
-    /* the rest is left enough lines for a piece of its own */
+    /* shortens the piece so that the rest has enough lines for a piece of its own */
     if (good < most && most - good < LEAST_LINES && most >= 2 * LEAST_LINES) {
         size_t lines = most - LEAST_LINES;
         if (fit_piece(excitation, x, spring, first, first + lines, &trial, distance)) {

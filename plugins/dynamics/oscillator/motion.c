@@ -298,8 +298,8 @@ static dynamics_motion_view view_of(const dynamics_motion *motion)
                                   .self = motion};
 }
 
-/* Where oil lies between the flanks neither follows from s: the film bends the teeth, so that the
-   flanks are further apart than s says. */
+/* Interpolates force and gap between two samples. With oil between the flanks they do not follow
+ * from s: the film bends the teeth, so that the flanks are further apart than s says. */
 static void read_films(const dynamics_sample *a, const dynamics_sample *z, double phase,
                        double *force, double *gap)
 {
@@ -308,8 +308,8 @@ static void read_films(const dynamics_sample *a, const dynamics_sample *z, doubl
     *gap = fmax(a->film + x * (z->film - a->film), 0);
 }
 
-/* The force and the gap at any phase of the record, from s by Hermite's cubic between samples. At a
-   jump of the excitation `left` asks for the values before it. */
+/* Computes the force and the gap at any phase of the record, from s by Hermite's cubic between
+ * samples. At a jump of the excitation `left` asks for the values before the jump. */
 static void force_and_gap_at(const void *self, double phase, int left, double *force, double *gap)
 {
     const dynamics_motion *motion = self;
@@ -432,9 +432,9 @@ ff_status dynamics_motion_put(const dynamics_motion *motion, const dynamics_inpu
     return status;
 }
 
-/* What torques and the prescribed changes of stiffness and transmission error put in, against what
-   films, damper and vibration take. The films' own account of what squeezing takes stands here in
-   place of that of the motion. */
+/* Reports the balance of powers: torques and the prescribed changes of stiffness and transmission
+   error put power in; films, damper and vibration take it. `films` is the loss of the films by
+   their own model. It includes squeezing, so that the motion's squeeze loss is not added. */
 static void check_powers(const double power[DYNAMICS_POWER_OUTPUT_COUNT], double films, int knows,
                          const ff_host *host)
 {

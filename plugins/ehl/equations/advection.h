@@ -19,9 +19,9 @@ size_t ehl_upstream_node(const ehl_march *m, const ehl_state *s, size_t i);
 /* Gives the masses of the last two films, moved with the oil to the present instant. */
 void ehl_advect_mass(ehl_march *m, const double **one, const double **two);
 
-/* Rough flanks: returns the largest way of the oil in a step, in cells. It is one cell, or several
- * if the cells are finer than the shortest waves need; where asperities carry load it is half the
- * inlet of an asperity. */
+/* Rough flanks: returns the largest distance that the oil may move in a step, in cells. It is one
+ * cell, or several if the cells are finer than the shortest waves need; if asperities carry load it
+ * is half the inlet of an asperity. */
 double ehl_largest_advection(const ehl_march *m);
 
 #endif

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Flanks whose asperities are known by their statistics: between mean planes at a distance h they
- * carry p_a(h) (flankfilm.asperity/1), and the oil the rest of the pressure,
+ * Flanks whose asperities are known by their statistics. The asperities carry the mean pressure
+ * p_a(h), where h is the distance of the mean planes (flankfilm.asperity/1); the oil carries the
+ * rest of the pressure p:
  *
  *   p = p_f + p_a(h),
  *
  * with p in the balance of load and in the deflection, and p_f in the equation of Reynolds and in
- * the laws of the oil. The unknown is p. Where the metal of the summits yields they carry no more
- * than their hardness H: p_a H/(p_a + H) in place of p_a.
+ * the laws of the oil. The unknown is p. If the summits yield, their pressure is limited by the
+ * hardness H: p_a H/(p_a + H) replaces p_a.
  */
 #ifndef EHL_STATISTICAL_H
 #define EHL_STATISTICAL_H
@@ -16,8 +17,8 @@
 
 typedef struct ehl_statistical {
     const ff_asperity *law; /* NULL: no such flanks */
-    double scale;           /* on its p_a: E' of the contact over its own */
-    double share;           /* of p_a that counts, 1 but for a continuation */
+    double scale;           /* factor on p_a: E' of the contact over E' of the law */
+    double share;           /* of p_a that is applied; below 1 only during a continuation */
     double hardness;        /* Pa; 0: elastic */
 } ehl_statistical;
 

@@ -39,12 +39,16 @@ typedef struct errors {
 /*
  * Error of a film by the cells, relative, with n of them over the build-up length l:
  *   [base + light + (1 - g) (by_L L + by_square L^2 + wide L (l/a)^2)]/n^2 + (1 - g) spike L^2/n
- * or [base + light + (1 - g) by_L L]/n with the first-order wedge. g goes from 0 to 1 as the film
- * becomes that of a rigid cylinder: its wedge is as large as its pressure flow everywhere, for
- * which it pays `light`, but not with volumes around their nodes, where both errors cancel; and its
- * oil stays thin. Under larger loads the spike of a thick oil is a corner of the film, which costs
- * an order, and it stands in the middle where l is as long as a. The factors cover M 0.1 to 200 and
- * L 0 to 15 on 128 to 2048 cells with n > 3. Errors above EHL_KNOWN_ERROR are not known.
+ * or [base + light + (1 - g) by_L L]/n with the first-order wedge.
+ * - g goes from 0 to 1 as the film becomes that of a rigid cylinder.
+ * - light: in such a film the wedge is as large as the pressure flow everywhere. With volumes
+ * around the nodes the errors of both cancel, and the term is 0.
+ * - Terms in L: the oil of a rigid cylinder stays thin, so that they vanish with 1 - g.
+ * - spike: under larger loads the spike of a thick oil is a corner of the film; its error is of
+ *   first order.
+ * - wide: if l is as long as a, the spike stands in the middle of the contact.
+ * The factors cover M 0.1 to 200 and L 0 to 15 on 128 to 2048 cells with n > 3. Errors above
+ * EHL_KNOWN_ERROR are not known.
  */
 typedef struct in_space {
     double base, by_L, by_square, wide, spike, first_base, first_by_L;
@@ -90,7 +94,8 @@ static double outlet_load(const ehl_march *m, double length)
     return sum * g->dx / m->step.load;
 }
 
-/* Share of it that is missing though the domain begins with the pressure of a longer one. */
+/* Returns the share of the starvation that remains although the domain begins with the pressure
+ * that a longer domain has there. */
 static double unfed(const ehl_march *m, double h_central)
 {
     const ehl_state *now = &m->state[0], *before = &m->state[1];
@@ -125,8 +130,7 @@ static void record_resolution(ehl_results *r, const ehl_march *m, double h_centr
     r->worst_starvation = fmax(r->worst_starvation, r->starvation);
 }
 
-/* The oil at the pressure at which the outlet begins: the Hertzian one a build-up length inside x =
-   a. */
+/* The oil where the outlet begins, at the Hertzian pressure a build-up length inside x = a. */
 typedef struct outlet_oil {
     double pressure;
     double fluidity;    /* eta0/eta */
@@ -149,7 +153,7 @@ static outlet_oil oil_at_outlet(const ehl_reynolds *eq, const contact *c, double
  * Upstream of it the oil is compressed as much as the flanks deflect over c l; without that the
  * spike of a thick oil would have no limit. The factors are fitted to steady solutions on 128 to
  * 131072 cells, M 2 to 200, L 2 to 15, of Roelands' and Barus' laws with and without compression;
- * volumes from node to node cut as much on 0.3 of the cells.
+ * volumes from node to node cut off as much with cells 1/0.3 times as large.
  */
 static double spike_share_cut_off(const ehl_reynolds *eq, const outlet_oil *oil, double x)
 {
@@ -159,8 +163,9 @@ static double spike_share_cut_off(const ehl_reynolds *eq, const outlet_oil *oil,
     return x / (x + w) / (1 + oil->compression / 0.07 + 4 * pow(v, 0.6));
 }
 
-/* Whether p falls within two nodes of a maximum by that share of it. Where a tip is cut off it
-   does; the crest of a film that is squeezed, which may wander to the outlet, does not. */
+/* Whether p falls by more than `share` within two nodes of the maximum at node i. A tip that the
+ * cells cut off is that steep; the crest of a squeezed film, which may wander to the outlet, is
+ * not. */
 static int is_steep(const double *p, size_t i, size_t last, double share)
 {
     double lowest = fmin(p[i - 1], p[i + 1]);
@@ -175,9 +180,10 @@ static size_t outlet_from(const ehl_reynolds *eq, const contact *c)
     return (size_t)fmax(1, ceil(ehl_carrying_stretch(eq, c->a, c->buildup).end));
 }
 
-/* Highest pressure of the outlet's spike: of a maximum not further in than 1.6 build-up lengths of
-   which the cells may cut off the share `cut`. Where that length exceeds 0.6 a the maximum is the
-   spike itself, even upstream of x = 0. 0: there is none. */
+/* Returns the highest pressure of the outlet's spike; 0: there is none. The spike is a maximum at
+ * most 1.6 build-up lengths inside x = a, so steep that the cells may cut off the share `cut` of
+ * it. If the build-up length exceeds 0.6 a the maximum is the spike itself, even upstream of x = 0.
+ */
 static double highest_spike(const ehl_reynolds *eq, const double *p, const contact *c, double cut)
 {
     double highest = 0;
@@ -188,8 +194,9 @@ static double highest_spike(const ehl_reynolds *eq, const double *p, const conta
     return highest;
 }
 
-/* Estimates the error of a pressure without a spike where it differs from Hertz's; it grows with
-   the square of ln(eta/eta0) at the outlet. */
+/* Estimates the relative error of a pressure without a spike. Only the part that is not Hertzian
+ * has an error, about l/a of the pressure; it grows with the square of ln(eta/eta0) at the outlet.
+ */
 static double smooth_pressure_error(const ehl_reynolds *eq, const contact *c, double fluidity)
 {
     double x = eq->dx / c->buildup, part = fmin(1, c->buildup / c->a);
@@ -199,13 +206,12 @@ static double smooth_pressure_error(const ehl_reynolds *eq, const contact *c, do
     return error * part * part;
 }
 
-/*
- * Error of p_max by the cells: by how much the spike may exceed it. Without a maximum there the
- * spike has not come out of the 0.9 of the outlet's pressure that the coarsest cells show of it.
- */
+/* Error of p_max by the cells: how much the spike may exceed p_max. If the outlet has no maximum,
+ * the hidden spike is taken as 0.9 of the outlet's pressure, as much as the coarsest cells show of
+ * it. */
 static ehl_spike spike_at(const ehl_reynolds *eq, const contact *c, const ehl_crest *of)
 {
-    const double caution = 1.2; /* a tip between two nodes */
+    const double caution = 1.2; /* the tip may lie between two nodes */
     outlet_oil oil = oil_at_outlet(eq, c, of->h_central, of->p_max);
     double cut = spike_share_cut_off(eq, &oil, eq->dx / c->buildup);
     double seen = highest_spike(eq, of->p, c, cut);
@@ -229,10 +235,8 @@ ehl_space_errors ehl_space_bounds(const ehl_reynolds *eq, const ehl_instant *at,
     return bounds_at(eq, &c, of, spike);
 }
 
-/*
- * Returns the speed at which the pressure of the outlet moves, which leaves least of its change in
- * time: p_t + v p_x = 0 by least squares.
- */
+/* Returns the speed v of the pressure in the outlet, from p_t + v p_x = 0 by least squares. In a
+ * frame of that speed the pressure there changes least in time. */
 static double speed_of_outlet(const ehl_march *m, const contact *c)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -246,9 +250,9 @@ static double speed_of_outlet(const ehl_march *m, const contact *c)
     return square > 0 ? -sum / square : 0;
 }
 
-/* The change of the mass in a frame that moves by `frame`; the slope of the mass is that of the
-   wedge of volumes around full nodes, so that the frame alone changes no such film on the same
-   cells. */
+/* Computes the rate of change of the mass in a frame that moves by `frame`. The slope of the mass
+ * is that of the wedge of volumes around full nodes, so that the choice of the frame makes no
+ * difference to such a film on the same cells. */
 FF_SIMD
 static void change_in_frame(size_t n, const double *restrict mass, const double *restrict past,
                             double rate, double frame, double dx, int wedge,
@@ -280,8 +284,9 @@ void ehl_space_keep(const ehl_march *m, ehl_instant_film *f)
         memset(f->change, 0, eq->nodes * sizeof *f->change);
 }
 
-/* Returns the share by which the film changes, under the pressure of the contact, while the oil
-   passes half of it; from 1 on the film is squeezed more than it is carried along. */
+/* Returns the largest relative change of the film, under at least half of the largest pressure,
+ * while the oil moves by the half width a. From 1 on the film is squeezed more than it is carried
+ * along. */
 static double change_of_film(const ehl_march *m, const contact *c, const ehl_crest *of)
 {
     const double *mass = m->state[0].mass, *before = m->state[1].mass;
@@ -292,21 +297,18 @@ static double change_of_film(const ehl_march *m, const contact *c, const ehl_cre
     return way > 0 ? most * c->a / way : INFINITY;
 }
 
-/* What p_max may be beyond its highest node. */
+/* How much the pressure may exceed p_max. */
 typedef struct narrow_peak {
-    double tip; /* Pa, beyond it */
-    int climbs; /* 1: it climbs with each halving of the cells, and has no bound */
+    double tip; /* Pa, above p_max */
+    int climbs; /* 1: the peak climbs with each halving of the cells, and has no bound */
 } narrow_peak;
 
-/*
- * Returns by how much the highest pressure may exceed p_max where the film is far from a steady
- * one, of which the bounds are: by half of what p falls by within two nodes of a maximum above half
- * of it, about what it falls by within a cell, times two. Where the film is squeezed, changing by
- * more than three times itself, a maximum in front of the outlet that falls by more than 4 % of it
- * is not resolved: under a sudden load on Barus' oil it climbs with each halving of the cells, and
- * may be as high as it likes. A spike of the outlet has an end, which is known where it was looked
- * at.
- */
+/* Returns how much the pressure may exceed p_max if the film is far from a steady one, for which
+ * alone the other bounds hold. A maximum above p_max/2 may be higher by half of its fall within two
+ * nodes, which is about twice its fall within one cell. If the film is squeezed, so that it changes
+ * by more than three times itself, a maximum upstream of the outlet that falls by more than 4 % is
+ * not resolved: under a sudden load on Barus' oil it climbs with each halving of the cells, and has
+ * no known limit. A spike of the outlet has a limit (spike_share_cut_off). */
 static narrow_peak narrow_peak_of(const ehl_march *m, const contact *c, const ehl_crest *of)
 {
     const double steady = 0.3, squeezed = 3, broad = 0.04, *p = of->p;
@@ -338,7 +340,8 @@ double ehl_peak_bound(const ehl_march *m)
     return narrow.climbs ? (double)INFINITY : fmax(bound, narrow.tip);
 }
 
-/* carried: what the cells have made of h_min and h_central on the film's way, relative. */
+/* carried: relative errors that the cells have made of h_min and h_central while the film moved
+ * along with the oil. */
 static void record_bounds(ehl_results *r, const ehl_march *m, double h_central, double p_max,
                           const double *carried, const contact *c)
 {
@@ -358,9 +361,9 @@ static void record_bounds(ehl_results *r, const ehl_march *m, double h_central, 
     }
 }
 
-/* Puts the errors by the cells in place of what bounds them. The film of a rigid cylinder feels its
-   end pass from node to node, which a linear equation does not: there the bound stays if it is
-   more. */
+/* Replaces the bounds of the errors by the cells with the computed errors. The film of a rigid
+ * cylinder feels its end move from node to node, which the linear equation of the errors does not
+ * show: there the bound stays if it is larger. */
 static void put_transported(ehl_results *r, const ehl_transported *e, const contact *c)
 {
     const double film[] = {r->row[EHL_H_MIN], r->row[EHL_H_CENTRAL]};

@@ -11,7 +11,8 @@ typedef struct columns {
     double by[3][N + 1];
 } columns;
 
-/* Gives the source g = (a + b y)^2 exp(theta) of node i and its derivatives by theta, a and b. */
+/* The source g = (a + b y)^2 exp(theta) at node i, which is its own derivative over theta, and its
+ * derivatives over a and b. */
 typedef struct source {
     double g, by_a, by_b;
 } source;
@@ -48,7 +49,8 @@ static void sweep(const ehl_channel *c, columns *d)
             d->by[k][i] -= upper[i] * d->by[k][i + 1];
 }
 
-/* Computes the two integrals and their derivatives along the columns, a and b included. */
+/* The integrals flow and speed, and their derivatives along each column; those over a and b include
+ * the direct dependence on a and b. */
 typedef struct integrals {
     double flow, flow_by[3], speed, speed_by[3];
 } integrals;
@@ -75,7 +77,7 @@ static integrals integrate(const ehl_channel *c, const columns *d)
 double ehl_channel_solve(ehl_channel *c, double F, double S)
 {
     enum { LIMIT = 40 };
-    const double within = 1e-8; /* of the last change; rounding leaves 1e-9 at F = 1e-6 */
+    const double within = 1e-8; /* of the last Newton step; rounding leaves 1e-9 at F = 1e-6 */
     const double flow = sqrt(F), speed = sqrt(S);
     if (!(c->b > 0)) {
         c->b = 12 * flow;

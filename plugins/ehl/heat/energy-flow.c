@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Arrays of nodes x across, and of nodes. */
+/* Number of arrays with a value for each node and place across, and with one for each node. */
 enum { FIELDS = 19, OWN = 9 };
 
 /* Numbers in e->memory. */
@@ -67,10 +67,11 @@ static void note(ehl_energy *e, ff_status status)
 }
 
 /*
- * Sets the curvature of n values to that on the way from a call, which gave `from` and slopes that
- * lead to `line`, to the next one, which gave `given`. A way below `least` tells little, and
- * the first call has none. Within 1/most the parabola adds half of what the slopes do, at most,
- * whatever way it was.
+ * Sets the curvature of n values, over their own first-order change, from two calls of the laws:
+ * the last one gave `from` and slopes, which lead to `line` at the place where this one gives
+ * `given`. The curvature stays as it was if the first-order change is below `least`, which tells
+ * little, as at the first call. Its size is limited to `most`: up to a change of 1/most the
+ * parabola adds at most half of what the slopes do.
  */
 FF_SIMD
 static void bend_by(size_t n, const double *restrict from, const double *restrict line,
@@ -84,7 +85,7 @@ static void bend_by(size_t n, const double *restrict from, const double *restric
     }
 }
 
-/* Follows n values by their slopes from where they were given. */
+/* Extrapolates n values by their slopes over p and T from where the laws gave them. */
 FF_SIMD
 static void follow(size_t n, const double *restrict p, const double *restrict T,
                    const double *restrict from_p, const double *restrict from_T,
@@ -95,7 +96,7 @@ static void follow(size_t n, const double *restrict p, const double *restrict T,
         value[j] = given[j] + (by_p[j] * (p[j] - from_p[j]) + by_T[j] * (T[j] - from_T[j]));
 }
 
-/* The same on a parabola. */
+/* Does the same along a parabola whose curvature is `bend`. */
 FF_SIMD
 static void follow_bent(size_t n, const double *restrict p, const double *restrict T,
                         const double *restrict from_p, const double *restrict from_T,
@@ -109,7 +110,8 @@ static void follow_bent(size_t n, const double *restrict p, const double *restri
     }
 }
 
-/* Calls the laws at the nodes `from` to `end`, for which ln(eta) is followed by its slopes. */
+/* Calls the laws at the nodes `from` to `end`, where e->ln_eta holds the values extrapolated from
+ * the call before. */
 static void call_laws_at(ehl_energy *e, size_t from, size_t end, const double *T)
 {
     const ff_viscosity *v = e->laws.viscosity;
@@ -134,8 +136,8 @@ FF_SIMD_INLINE void spread_to(size_t nodes, size_t n, const double *restrict val
             to[i * n + k] = values[i];
 }
 
-/* Marks the nodes at which ln(eta) has changed by more than the reach, by its slopes alone: a
-   parabola may come back. */
+/* Marks the nodes at which ln(eta), extrapolated by its slopes, has changed by more than the reach.
+ * A parabola would not do, since it may come back. */
 FF_SIMD_INLINE void mark_beyond(size_t nodes, size_t n, const double *restrict now,
                                 const double *restrict called, double reach,
                                 unsigned char *restrict mark)
@@ -148,7 +150,8 @@ FF_SIMD_INLINE void mark_beyond(size_t nodes, size_t n, const double *restrict n
     }
 }
 
-/* Both with the preset number of nodes known when it is compiled. */
+/* spread and find_beyond pass the preset number of nodes across as a constant, which the compiler
+ * can use. */
 FF_SIMD
 static void spread(size_t nodes, size_t across, const double *values, double *to)
 {
@@ -168,15 +171,16 @@ static void find_beyond(ehl_energy *e, size_t nodes)
         mark_beyond(nodes, n, e->ln_eta, e->called_ln_eta, e->reach, e->there);
 }
 
-/* Whether the laws are to be called at node i: ln(eta) has changed by more than the reach, or they
-   have not been. */
+/* Whether the laws must be called at node i: the film is steady, or ln(eta) has changed by more
+ * than the reach, or they have not been called there yet. */
 static int is_due(const ehl_energy *e, const ehl_energy_film *film, size_t i)
 {
     return !(film->rate > 0) || e->there[i] || !(e->called_T[i * e->across.count] > 0);
 }
 
-/* Viscosity and density at all places: by their slopes where these reach, which for ln(eta) change
-   as they did on the way to the last call. */
+/* Sets viscosity and density at all places. Where ln(eta) has changed by less than the reach since
+ * the last call of the laws they are extrapolated from that call: the density linearly, ln(eta)
+ * along a parabola. */
 static void call_laws(ehl_energy *e, const ehl_energy_film *film, const double *T)
 {
     size_t across = e->across.count, all = film->count * across;
@@ -267,8 +271,9 @@ static void guess_stress(ehl_energy *e, const ehl_energy_film *film)
     e->guessed = 1;
 }
 
-/* Takes the stress at node i towards that which shears the film by the speeds of the flanks; 1: it
-   was that. */
+/* Corrects the stress at node i by a step towards the one that shears the film at the speeds of the
+ * flanks. Returns 1 if the stress is within `enough` of that already, or if no stress shears the
+ * film. */
 FF_SIMD_INLINE int take_stress(ehl_energy *e, const ehl_energy_film *film, double enough, size_t i,
                                size_t n)
 {
@@ -285,8 +290,8 @@ FF_SIMD_INLINE int take_stress(ehl_energy *e, const ehl_energy_film *film, doubl
     return 0;
 }
 
-/* Changes the stress at node i by what the slopes of the last flow make of the change of ln(eta),
-   gap and speeds since, if that is less than half of it. */
+/* Predicts the stress at node i from the changes of ln(eta), gap and speeds since the last flow, by
+ * the slopes of that flow. A prediction that changes the stress by more than half is dropped. */
 FF_SIMD_INLINE void expect_stress(ehl_energy *e, const ehl_energy_film *film, size_t i, size_t n)
 {
     const double *now = e->ln_eta + i * n, *before = e->before + i * n,
@@ -323,11 +328,12 @@ static void expect_stress_at(ehl_energy *e, const ehl_energy_film *film, size_t 
         expect_stress(e, film, i, e->across.count);
 }
 
-/* Takes the stress of all columns there; those that are there are not computed again. */
+/* Finds the stress of all columns. Columns that have converged are not computed again. */
 static void find_stress(ehl_energy *e, const ehl_energy_film *film, const double *T)
 {
     enum { MOST = 30 };
-    /* what is left is taken off by the slope: half its square, a hundredth of that of the reach */
+    /* flow_across removes the rest by the slope, which leaves half its square: a hundredth of what
+     * the reach leaves */
     const double enough = film->rate > 0 ? e->reach / 10 : 1e-3;
     size_t left = film->count;
     memset(e->there, 0, left);
@@ -386,8 +392,8 @@ static double correction(const ehl_energy_film *film, double flow, double mobili
     return mobility > 0 ? trust * (flow - film->through[i]) / mobility : 0;
 }
 
-/* Velocities, flows of mass and what Reynolds' equation takes of them, at node i, with n nodes
-   across. */
+/* Computes velocities, mass flows and the coefficients that Reynolds' equation takes from them at
+ * node i, with n nodes across. */
 FF_SIMD_INLINE void flow_across(ehl_energy *e, const ehl_energy_film *film, size_t i, size_t n)
 {
     const ehl_across *a = &e->across;
@@ -437,7 +443,7 @@ FF_SIMD_INLINE void flow_across(ehl_energy *e, const ehl_energy_film *film, size
     e->reverse[i] = reverse != 0;
 }
 
-/* The preset number of nodes is known when it is compiled. */
+/* Passes the preset number of nodes across as a constant, which the compiler can use. */
 FF_SIMD
 static void flow_at(ehl_energy *e, const ehl_energy_film *film, size_t i)
 {

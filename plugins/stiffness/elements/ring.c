@@ -212,7 +212,7 @@ static void add_held(stiffness_ring *r, const stiffness_condensed *c)
 {
     double worst = 0, largest = 0;
     for (size_t a = 0; a < ROLLS; a++) {
-        r->own[a] += c->held[(ROLLS + a) * LOADS + a]; /* axis below the force on the flank */
+        r->own[a] += c->held[(ROLLS + a) * LOADS + a]; /* at the axis, by the force on the flank */
         for (size_t b = 0; b < ROLLS; b++)
             r->other[0][a][b] += c->held[b * LOADS + a];
     }

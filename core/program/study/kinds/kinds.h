@@ -12,23 +12,23 @@ void study_free(study_definition *study); /* frees its driver, too; accepts NULL
 
 /* Checks that the pipeline has what the driver of the study names. */
 void study_check(const study_definition *study, const ff_pipeline *pipeline, ff_report *report);
-/* Returns the name of the i-th model that a study compares the file's with, and its case; NULL
-   after the last one. */
+/* Returns the name of the i-th model that a study compares with the model of the file, and the
+ * number of its case; NULL after the last one. */
 const char *study_compared(const study_definition *study, size_t i, size_t *index);
 const char *study_kind_name(const study_definition *study); /* "" when it has no driver */
 const char *study_cases(const study_definition *study);     /* what its cases are called: "cases" */
 const char *
 study_further(const study_definition *study); /* which cases may follow; "" when none do */
 
-/* Builds the cases of a driver that must be right before any is run. */
+/* Builds those cases of a driver that must be free of errors before any case runs. */
 bool study_open_cases(const study_run *run, ff_report *report);
-/* Runs a study with a driver, in this process and its workers: the cases that it submits; then it
-   writes the table of those that ran and the files of the driver. */
+/* Runs a study with a driver: the cases that the driver submits, in this process and its workers.
+ * Then writes the table of the cases that ran, and the driver's files. */
 bool study_drive(const study_run *run, study_counters *counters, ff_report *report);
-/* What a run would do; of a study with a driver also the cases that it would submit by what it
-   knows already. */
+/* Tells what a run would do. For a study with a driver these are also the cases that the driver
+ * would submit by the results that it has already. */
 void study_plan_run(const study_run *run, study_plan *plan);
-/* What came of a study with a driver: members for `run --json`, or NULL. */
+/* Returns the answer of a study with a driver: members for `run --json`, or NULL. */
 json_t *study_facts(const study_definition *study);
 /* Its verdict, FF_GOOD or FF_BAD; -1 when its cases decide. */
 int study_verdict(const study_definition *study);

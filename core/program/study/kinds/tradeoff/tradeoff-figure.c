@@ -58,7 +58,8 @@ static size_t rank_in_front(const json_t *output, size_t candidate)
     return 0;
 }
 
-/* An error below what the reference is known to is shown as that. */
+/* Adds the point of a candidate. An error below the uncertainty of the reference is drawn at that
+ * uncertainty. */
 static void add_candidate(groups *g, const json_t *candidate, const json_t *error,
                           const json_t *output, size_t rank)
 {

@@ -40,8 +40,7 @@ typedef struct uncertainty_patch {
     const char *name;
     const ff_node *place;     /* NULL for the file as it stands */
     const char **assignments; /* for each path of the study; NULL if the file's value stays */
-    double cost;              /* cost of a case over one of the file's; NaN: the pilot measures
-                                 it */
+    double cost; /* of a case, over one of the file's model; NaN: the pilot measures it */
 } uncertainty_patch;
 
 /* "film.h_min_lowest < 0.1 um" */
@@ -69,8 +68,9 @@ typedef struct study_uncertainty {
     size_t level_count, model_count;
     size_t first_patch; /* the paths before it are those of the inputs */
 
-    /* Numbers of the first cases: nominal, with its error bar, by each model; pilot sample i on
-       level k; the further samples of the plan. */
+    /* Numbers of cases. One each: nominal; nominal with its error bar (measured). The first of
+     * several: nominal with another model; pilot samples on the levels; further samples of the
+     * plan. */
     size_t nominal, measured, first_model, first_pilot, first_main;
     estimate_plan plan;
     estimate_input shapes[VARIATE_MOST];
@@ -100,11 +100,11 @@ json_t *study_uncertainty_result(const study_uncertainty *u);
 /* uncertainty-words.c: lists the words of an input; 0 if it has more than this number. */
 enum { UNCERTAINTY_MOST_WORDS = 8 };
 size_t study_uncertainty_words(const variate *v, const char *words[UNCERTAINTY_MOST_WORDS]);
-/* Fills how each input follows from its number. */
+/* Sets u->shapes: how each input follows from its standard normal number. */
 void study_uncertainty_shapes(study_uncertainty *u);
-/* Sets *own to the samples in which the input is that word; of level 0 alone if the counts of the
-   levels leave too few. Returns the number of samples of the file's model, or 0 if they are too few
-   for a mean with its spread. */
+/* Sets *own to the samples in which the input has that word. If too few of them are left at some
+ * level, *own has level 0 alone. Returns the number of these samples that ran the file's model, or
+ * 0 if they are too few for a mean with its spread. */
 size_t study_uncertainty_of_word(const study_uncertainty *u, const estimate_samples *all,
                                  size_t input, const char *word, estimate_samples *own);
 
