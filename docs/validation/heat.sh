@@ -34,14 +34,14 @@ def ratio(hot, cold):
 
 print("""# Films with heat
 
-Made by `sh docs/validation/heat.sh build`. The temperature of the teeth is the largest unknown of every number here: it
-stands as two values where a loss is computed; elsewhere as that of the oil, the least it can be, and, as the bar of this
-input, 10 K above, with which the oil that enters is warmer, too. Films of gears have 256 cells and 400 steps here.
+Made by `sh docs/validation/heat.sh build`. The temperature of the teeth is the largest unknown of every number here. Losses are
+computed at two values of it. Films are computed at the temperature of the oil, the least it can be, and, as the error bar of
+this input, with teeth and entering oil 10 K warmer. Films of gears have 256 cells and 400 steps here.
 
 ## The film by each step of the ladder
 
 `configs/li-kahraman-2011.yaml`, `h_min_lowest` over that of `thermal: none`. A step `mean`, a parabola across the film, is
-left out on purpose: it would be a second way to what `full` does, and spare little of it.
+left out on purpose: it would repeat what `full` does, and save little time.
 
 | point | none | inlet | full | full, teeth 10 K warmer | Gupta's formula |
 |---|---|---|---|---|---|""", flush=True)
@@ -55,8 +55,8 @@ for name, sets in points.items():
     print("| %s | 1 | %s | %.4f |" % (name, " | ".join(ratio(h, least[0]) for h in least[1:]), 1 - share), flush=True)
 
 print("""
-Gupta's is the least of the line `inlet_heating`, of any instant. With as little heat as here it takes off five to six times as
-much as `full` does: it goes with Q^0.64, the heat with Q. `inlet` leaves out that the flanks warm up.
+Gupta's value is the least of the quality line `inlet_heating` over all instants. With as little heat as here it reduces the film
+five to six times as much as `full` does: its reduction goes with Q^0.64, the heat itself with Q. `inlet` leaves out that the flanks warm up.
 
 ## Formulas of the inlet against the full solution
 
@@ -92,7 +92,7 @@ for slip in (0, 0.2, 1, 1.9):
             slip, speed, L, ratio(central(hot, "hot"), h), ratio(central(warm, "hot"), h), ratio(central(heated, "heated"), h),
             1 - cold["cold/inlet_heating"], 1 / (1 + 0.241 * (1 + 14.8 * Z ** 0.83) * L ** 0.64)), flush=True)
 print("""
-`-`: no film was found, which the run says. At 20 m/s the cells leave an error of 13 to 27 % of `full` (its line
+`-`: no film was found, and the run says so. At 20 m/s the cells leave an error of 13 to 27 % of `full` (its line
 `h_central_space_error`): formulas are judged up to 10 m/s.
 
 Where a formula holds, by this table: in pure rolling both are within 3 % of the film, and `inlet` within 8 %. With sliding
@@ -103,7 +103,7 @@ the inlet does. `inlet` is within 3 % up to 2 m/s and a slide-roll ratio of 1, a
 
 ## Traction over slip
 
-The same contact at 2 m/s: friction coefficient. The cold oil shears ever harder; with heat the curve turns.
+The same contact at 2 m/s: friction coefficient. Without heat the friction rises with slip throughout; with heat it falls again.
 
 | slide-roll ratio | none | inlet | full | full, teeth 10 K warmer | hottest oil over its own, K |
 |---|---|---|---|---|---|""", flush=True)
@@ -120,8 +120,8 @@ print("""
 
 `configs/validation/mesh-loss-heat.yaml`: Petry-Johnson, Kahraman, Anderson & Chase 2007/2008, 413 N m; data, laws, the
 oil over temperature and the rule for the bulk temperature were written down before the first run. All four laws at both
-temperatures are shown, none is selected. Oil at 110 degC; the measured interval rests on its being one mesh, two of a
-back-to-back rig would be half of it for each.
+temperatures are shown, none is selected. Oil at 110 degC; the measured interval assumes the loss of one mesh; if it is that of
+both meshes of a back-to-back rig, each has half of it.
 
 | laws | rpm | teeth, degC | loss, kW | teeth, degC | loss, kW | measured, kW | |
 |---|---|---|---|---|---|---|---|""", flush=True)

@@ -213,7 +213,7 @@ function figure3(  k0, n, low, i, h, fmass, a, b, least) {
         F("whose mean is %.1f %% higher. f_n is given, so that the mass takes that up; with the slope the rms of s at I, II and III is %.3f, %.3f and %.2f um for %.3f, %.3f and %.2f with the chord, and the upper motion starts at %.0f Hz for %.0f.", \
           100 * (s["kslope.stiffness_mean"] / k0 - 1), 1e6 * s["Islope.dte_rms"], 1e6 * s["IIslope.dte_rms"], 1e6 * s["IIIslope.dte_rms"], 1e6 * s["Im.dte_rms"], 1e6 * s["IIm.dte_rms"], 1e6 * s["IIIm.dte_rms"], begins, h["begins"]))
     say("The linear amplitudes are as large as the harmonics of k and cannot be confirmed before the paper's are known; " \
-        "the upper branch hardly knows k. Beyond the figure there are resonances at f_n/4 and below, as harmonics 5 to 7 " \
+        "the upper branch hardly depends on k. Beyond the figure there are resonances at f_n/4 and below, as harmonics 5 to 7 " \
         "of a k(t) with jumps make them, and from about 2100 to 2200 Hz the lower motion is unstable. All branches: [dynamics](dynamics.md); k by other models: [stiffness](stiffness.md).")
     say("Which k(t) would give the figure? At f_n/n the linear motion swings by k_n/(2 zeta k) of the static deflection, so that contact is lost from k_n = 2 zeta k up: " \
         F("%.3f 1e8 N/m. With the first three harmonics of this k alone, in parts of their size, the second motion spans, with its rms at the lower end:", 2 * 0.01 * k0 / 1e8))

@@ -215,7 +215,7 @@ Written by
 sh docs/validation/rattle.sh build
 ```
 
-One way: `squeeze: series` of `dynamics/shooting` without a film wired back ([theory](../theory.md#oil-between-landing-flanks)).
+All this is one way: `squeeze: series` of `dynamics/shooting` without a film wired back ([theory](../theory.md#oil-between-landing-flanks)).
 
 ## Where the branch of parted flanks ends
 
@@ -240,13 +240,13 @@ TEXT
     sensitivity
     cat <<'TEXT'
 
-5.006 mPa s, 250 N m, where without oil it is 1935.9 Hz. A film at hand-over eight times as thick takes a fifth off what the oil does. Of
-what it does, a half is done in gaps below 3 um, and four fifths below 10 um: where the supply fills less, there is less of it.
+5.006 mPa s, 250 N m, where without oil it is 1935.9 Hz. A film at hand-over eight times as thick reduces the effect of the oil by a fifth.
+Half of the effect arises in gaps below 3 um, four fifths below 10 um: if the supply fills smaller gaps only, the effect is smaller.
 
 ## Light load
 
 `configs/rattle.yaml`: the pair idles, with tip relief of 10 um, whose transmission error of 5 um drives it. "Touches": the share of the time in which a film is as thin
-as `handover_film`, 0.2 um. Numbers of motions that are never twice alike are of 64 mesh cycles, and hang on round-off.
+as `handover_film`, 0.2 um. Numbers of motions that never repeat are taken over 64 mesh cycles, and depend on round-off.
 
 ```sh
 flankfilm run configs/rattle.yaml
@@ -258,7 +258,7 @@ TEXT
 
 - By squeeze alone oil bears a load for good only where flanks hop, and each hop draws oil in anew: over a mesh cycle the load's momentum F T_m
   must stay below what an approach takes until hand-over (4.9), 2 A h_c^-1/2, which is 0.76 N m here for one pair and one hop. Flanks that do not hop are squeezed
-  together in the end. Such a motion by small steps of another model is the same to 5e-5 (`meson test branch-ends`).
+  together in the end. Small steps of another model give such a motion to 5e-5 (`meson test branch-ends`).
 - The wedge of the rolling flanks bears loads without hops. At 1250 Hz it holds a film of 0.2 um under 4.9 eta0 u R b/h_c, some 120 N, or
   9 N m; the transmission error uses that up:
 
@@ -266,8 +266,8 @@ TEXT
     errors
     cat <<'TEXT'
 
-The largest torque, of 0.5, 1, 2, 4, 6, 8 and 12 N m, up to which all are borne for good ("none": not even the first). Where one motion rattles
-and another is borne, that counts to which the search of the branch `lower` came, which round-off may decide, as at 20 um and 1 N m.
+The largest torque, of 0.5, 1, 2, 4, 6, 8 and 12 N m, up to which all are borne for good ("none": not even the first). If one motion rattles
+and another is borne, the one that the search of the branch `lower` found counts; round-off may decide which, as at 20 um and 1 N m.
 Flanks are rigid and the oil isoviscous: Hertz and piezoviscosity, which both make the film thicker, matter from some 50 MPa on.
 
 ## Points I, II and III
