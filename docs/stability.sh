@@ -55,7 +55,7 @@ map() {
         printf '`\n\n![map](stability/%s.svg)\n\n```text\n' "$name"
         sed -e '/^boundaries/,$d' -e '/^[0-9]* cases done/d' -e '/^results in/d' -e '/^stages: /d' -e '/^as a page /d' -e '/^removed, /d' -e 's/ *$//' \
             -e '/^across: /d' -e '/ | [.odpF!?x]/d' -e '/^ *[^ ].* \.\.\. /d' -e '/^  [a-z_]*\.[a-z_]*: /d' \
-            -e "s/^\\(  [.odpF'] [0-9][^:]*\\): .*/\\1/" -e '/^  no silent failure/d' -e '/^  \. /d' "$results/$name.txt" | sed '/./!d' |
+            -e "s/^\\(  [.odpF'] [0-9][^:]*\\): .*/\\1/" -e '/^  no silent failure/d' -e '/^  \. /d' -e '/): at time /d' "$results/$name.txt" | sed '/./!d' |
             awk '/^      [^ ]+ [(]/ { key = $0; sub(/ at time.*/, "", key); if (seen[key]++) next } { print }'
         printf '```\n'
     } >>"$results/maps.md"
