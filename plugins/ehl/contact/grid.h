@@ -16,12 +16,12 @@ typedef struct ehl_grid {
     int fed;              /* 1: the oil before the inlet has the pressure of a longer inlet */
 } ehl_grid;
 
-/* Hertz line contact: a = sqrt(8 w R/(pi E')), p_H = E' a/(4 R) (Johnson 1985, ch. 4). */
+/* Give the half-width and the pressure of a Hertz line contact: a = sqrt(8 w R/(pi E')), p_H = E'
+ * a/(4 R) (Johnson 1985, ch. 4). */
 double ehl_hertz_half_width(double load, double radius, double modulus);
 double ehl_hertz_pressure(double load, double radius, double modulus);
 
-/* Give the half-width and the pressure of a Hertz line contact: a = sqrt(8 w R/(pi E')), p_H = E'
- * a/(4 R) (Johnson 1985, ch. 4). */
+/* Returns the central film of an isothermal smooth line contact in all regimes (Moes 2000). */
 double ehl_moes_film(const ehl_instant *at, double modulus, const ehl_oil *oil);
 
 /* Returns the same for a row of a history, which may have stored it. */

@@ -11,13 +11,15 @@ int ehl_is_parted(const ehl_history *h)
     return !(h->load_max > 0);
 }
 
-/* What an output is of flanks that are apart by `gap` at a row; NaN: it has no value. */
+/* Returns the value of an output at a row of flanks that are apart; NaN: it has no value. Outputs
+ * without a rule of their own are pressures, losses, errors and counts, which are 0. */
 static double value_of(const char *name, const ehl_history *h, size_t row, double roughness,
                        double temperature)
 {
     static const char *const films[] = {"h_min",        "h_central", "separation",
                                         "h_min_lowest", "film",      "h_min_lowest_mean"};
-    static const char *const unknown[] = {"alpha_star", "film_fraction"};
+    static const char *const unknown[] = {"alpha_star", "film_fraction", "roughness",
+                                          "rq_left_out"};
     const double gap = h->gap[row];
     for (size_t i = 0; i < sizeof films / sizeof films[0]; i++)
         if (!strcmp(name, films[i]))
@@ -38,7 +40,7 @@ static double value_of(const char *name, const ehl_history *h, size_t row, doubl
     return 0;
 }
 
-/* The first row at which the flanks are nearest to each other. */
+/* Returns the first row at which the flanks are nearest to each other. */
 static size_t nearest_row(const ehl_history *h)
 {
     size_t nearest = 0;
@@ -47,7 +49,8 @@ static size_t nearest_row(const ehl_history *h)
     return nearest;
 }
 
-/* A contact without load has no width: its fields have one place, x = 0. */
+/* Asks for the array of an output. A contact without load has no width, so that a field has one
+ * place, x = 0. */
 static double *claim(const ff_host *host, uint32_t row, const char *dims, const ehl_history *h,
                      size_t *rows)
 {
