@@ -89,7 +89,7 @@ pipeline:
           profile_shift: [0.35, -0.1], centre_distance: 181.1 mm, tip_relief: 25 um, roughness_rq: [0.4 um, 0.6 um]}}
   oil: {{use: lubricant/grade, grade: ISO VG 320, base: mineral}}
   viscosity: {{use: viscosity/{law}}}
-  density: {{use: density/dowson-higginson, a: 0.6 1/GPa, b: 1.7 1/GPa}}
+  density: {{use: density/dowson-higginson, a: 0.6 1/GPa, b: 1.7 1/GPa, K0_decay: 0.0063 1/K, at: 80 degC}}
   flow: {{use: rheology/ree-eyring, tau0: auto}}
   duty: {{use: operating/steady, torque: 1100 N m, speed: 1450 rpm, oil_temperature: 70 degC}}
   mesh: {{use: stiffness/iso-6336}}
