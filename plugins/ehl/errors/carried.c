@@ -24,11 +24,10 @@ typedef struct stencil {
     double of[7];
 } stencil;
 
-/*
- * What the difference that carries the film from node to node makes of it over a cell's way: the
- * slope, by differences of sixth order, less that difference. Of control volumes, whose change in
- * time is that of both nodes, its leading error: dx^2/12 h_xxx, or dx/2 h_xx.
- */
+/* Returns the error that the upwind difference adds to the film while the oil moves by a cell: the
+ * slope by differences of sixth order less the slope by that difference. For volumes from node to
+ * node, whose change in time is that of both nodes, it is the leading error: dx^2/12 h_xxx, or dx/2
+ * h_xx. */
 static stencil local_error(const ehl_reynolds *eq)
 {
     if (eq->asymmetric && eq->conserving)
@@ -54,8 +53,9 @@ static void add_local(size_t n, const double *restrict mass, double cells, const
     }
 }
 
-/* Adds what the oil meets on its way of so many cells to each node, the last of which make `local`
-   of it there; oil from in front of the stretch meets what is in it. `local` becomes its sums. */
+/* Adds to each node the errors that its oil has met over the last `cells` cells, of which node j
+ * adds local[j]. Oil from upstream of the stretch has met only errors inside it. Replaces `local`
+ * by its running sums. */
 static void add_way(size_t n, double *restrict local, double cells, double *restrict error)
 {
     const size_t whole = (size_t)fmin(cells, (double)n);
@@ -71,7 +71,7 @@ static void add_way(size_t n, double *restrict local, double cells, double *rest
     }
 }
 
-/* Adds what the cells make of the film while the oil moves by so many of them. */
+/* Adds the errors that the cells make while the oil moves by so many of them. */
 static void add_moved(ehl_carried *c, const double *mass, double cells, const stencil *s)
 {
     const size_t n = c->end - c->first;
@@ -96,8 +96,8 @@ static void place(ehl_carried *c, const ehl_stretch *s, size_t nodes)
         memset(c->error + before, 0, (c->first - before) * sizeof *c->error);
 }
 
-/* Dips of few cells are filled. The errors move with the oil by whole cells, so that they do not
-   spread. */
+/* The errors fill dips of few cells. They move with the oil by whole cells, so that they do not
+ * spread. */
 void ehl_carried_add(ehl_carried *c, const ehl_march *m, const ehl_stretch *s)
 {
     const ehl_reynolds *eq = m->solver->reynolds;

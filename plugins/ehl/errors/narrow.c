@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* The most cells, how many times those of the march before, and marches. */
+/* Most cells, their ratio from march to march, and most marches. */
 enum { MOST_CELLS = 16384, FINER = 4, LEVELS = 2 };
 
 typedef double (*films)[EHL_PASSED];
@@ -38,9 +38,9 @@ static double moved_by(const ehl_results *r, const ehl_passage *p, films film, s
     return fabs(film[row - p->first][EHL_PEAK] - film_of(r, row)[EHL_P_MAX]);
 }
 
-/* Returns how far a march moves the peaks that its cells do not resolve, over how far the march
-   before did; infinite without one. All rows count alike, since nodes pass the tip of a peak at any
-   distance. */
+/* Returns how far a march moves the peaks that its cells do not resolve, relative to the march
+ * before; infinite without one. All rows count alike, since nodes pass the tip of a peak at any
+ * distance. */
 static double settling(const ehl_results *r, const ehl_passage *p, films film, const double *before)
 {
     double sum = 0, sum_before = 0;
@@ -52,12 +52,11 @@ static double settling(const ehl_results *r, const ehl_passage *p, films film, c
     return sum_before > 0 ? sum / sum_before : (double)INFINITY;
 }
 
-/*
- * Takes over the films on more cells; `moved` has how far the march before has moved the peaks.
- * Where the cells resolve a peak their bound is left of its error, or what they moved it by. Else,
- * where peaks settle, what marches to come move it by: as many times less as this one than the one
- * before, a geometric series. Of one that climbs on only the highest that was found is known.
- */
+/* Takes over the films on more cells; `moved` is how far the march before has moved the peaks. If
+ * the cells resolve a peak, its error is the larger one of its bound and of what they moved it by.
+ * Otherwise, if peaks settle, its error is the sum of the moves to come, a geometric series with
+ * the ratio of this move to the one before. If a peak keeps climbing, only the highest value found
+ * is known. */
 static void take_over(ehl_results *r, const ehl_passage *p, films film, double *moved)
 {
     const double slowest = 2. / 3, ratio = settling(r, p, film, moved);

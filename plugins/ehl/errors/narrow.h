@@ -5,8 +5,8 @@
 
 #include "passage.h"
 
-/* Marches to such peaks again on 4 and 16 times the cells, and puts what these find in place of
-   p_max: with an error where they resolve it, else as what p_max is at least. */
+/* Marches to narrow peaks again on 4 and 16 times the cells, and replaces p_max by the result: with
+ * an error if these cells resolve the peak, else as a lower bound of p_max. */
 ff_status ehl_narrow_peaks(ehl_results *r, const ehl_march *m, ehl_passage *p);
 
 #endif

@@ -12,7 +12,7 @@
 /* Films of the rows that are looked at. */
 typedef double (*films)[EHL_PASSED];
 
-/* Steps join those of the run to this share of a cell. */
+/* Steps of the run are joined until the oil moves by this share of a cell. */
 static const double joined = 0.2;
 
 static double value(const ehl_results *r, size_t row, uint32_t output)
@@ -36,7 +36,7 @@ static ehl_history engagement_of(const ehl_results *r, const ehl_passage *p, siz
     return one;
 }
 
-/* Returns how far the oil moves from a row to another, m; below 0 to an earlier one. */
+/* Returns how far the oil moves from a row to another one, m; below 0 if that is an earlier one. */
 static double way_between(const ehl_results *r, const ehl_history *h, size_t row, size_t other)
 {
     double from = value(r, row, EHL_TIME), to = value(r, other, EHL_TIME);
@@ -56,7 +56,8 @@ static double length_of_passage(const ehl_results *r, const ehl_march *m, const 
     return 2 * fmax(a, sqrt(2 * radius * film)) + lengths * ehl_inlet_buildup(a, radius, film);
 }
 
-/* Returns the row of the engagement that is a way of `length` from this one, or its end. */
+/* Returns the row of the engagement that is at a distance `length` of the oil from this one, or the
+ * end of the engagement. */
 static size_t row_away(const ehl_results *r, const ehl_history *h, size_t row, double length,
                        int forwards)
 {
@@ -98,9 +99,9 @@ void ehl_passage_about(ehl_passage *p, const ehl_results *r, const ehl_march *m,
     p->begin = row_away(r, &h, p->first, length, 0);
 }
 
-/* Returns the row that a step from this one leads to, on which the oil moves by `way` at least.
-   Where it hardly moves the flanks squeeze it instead: steps are no longer there than at a tenth of
-   the largest speed. */
+/* Returns the row that the next step leads to, over which the oil moves by at least `way`. Where
+ * the oil hardly moves, the flanks squeeze it: steps there are no longer than at a tenth of the
+ * largest speed. */
 static size_t next_row(const ehl_results *r, const ehl_passage *p, const ehl_history *h, double way,
                        size_t row)
 {
@@ -113,7 +114,7 @@ static size_t next_row(const ehl_results *r, const ehl_passage *p, const ehl_his
     return next;
 }
 
-/* Whether a step of that way at least joins steps of the run. */
+/* Whether a step of that length joins steps of the run. */
 static int joins(const ehl_results *r, const ehl_passage *p, double way)
 {
     const ehl_history h = engagement_of(r, p, p->first);
@@ -182,14 +183,14 @@ static ff_status pass_on(const ehl_results *r, const ehl_march *run, const ehl_p
     return status;
 }
 
-/* Returns those on 2^level times the cells of the run. */
+/* Returns the films on 2^level times the cells of the run. */
 static films films_on(const ehl_passage *p, films all, int level)
 {
     return all + (size_t)level * (p->last - p->first + 1);
 }
 
-/* Gives rows that no step led to the larger error of those before and behind, where a film may jump
-   from one dip to another. */
+/* Gives a row that no step led to the larger error of its neighbours, since a film may jump from
+ * one dip to another between them. */
 static void take_larger(films all, size_t count, films error)
 {
     for (int k = EHL_LEAST; k < EHL_PEAK; k++)
@@ -202,12 +203,13 @@ static void take_larger(films all, size_t count, films error)
         }
 }
 
-/* Finds the errors from the films of all levels to the finest, what is left on that by order. */
+/* Finds the errors from the films of all levels; the order of the finest gives what is left there.
+ */
 static void find_errors(const ehl_results *r, const ehl_march *m, const ehl_passage *p, films all,
                         int finest, films error)
 {
     const uint32_t of[] = {EHL_H_MIN, EHL_H_CENTRAL};
-    /* what all twins miss alike falls out of their difference; with heat it is much the same */
+    /* errors that all levels share cancel in their difference; with heat these are much the same */
     const double within = m->heat || m->thermal ? 10 : 0.25;
     const double left = ldexp(1, -ehl_carrying_order(m->solver->reynolds));
     const films before = films_on(p, all, finest - 1), fine = films_on(p, all, finest);
@@ -229,7 +231,7 @@ static void find_errors(const ehl_results *r, const ehl_march *m, const ehl_pass
     take_larger(all, count, error);
 }
 
-/* Returns how many films that count are not those of the run. */
+/* Returns how many of the films that count differ from those of the run. */
 static size_t differing(const ehl_results *r, const ehl_passage *p, ehl_row_counts *counts,
                         int kind, films error)
 {
@@ -254,8 +256,8 @@ static ff_status pass_twins(const ehl_results *r, const ehl_march *m, const ehl_
 ff_status ehl_passage_errors(const ehl_results *r, const ehl_march *m, ehl_passage *p,
                              ehl_row_counts *counts, int kind)
 {
-    /* Many steps of a run are shorter than a fifth of a cell. Where its load vibrates, films by
-       longer ones are not its own. */
+    /* Many steps of a run are shorter than a fifth of a cell. If its load vibrates, longer steps
+     * give other films. */
     const double shorter = 0.25;
     const size_t count = p->last - p->first + 1;
     films tried = calloc(3 * count, sizeof *tried);

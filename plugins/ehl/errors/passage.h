@@ -15,8 +15,8 @@ enum { EHL_PEAK_BOUND = EHL_BOUNDS, EHL_PASSED };
 typedef struct ehl_passage {
     const ehl_history *whole;  /* of all engagements */
     int equal;                 /* the lengths of the steps were given */
-    size_t begin, first, last; /* rows of the series, of one engagement: looked at from first on */
-    double way;                /* m, that the oil moves by in a step at least */
+    size_t begin, first, last; /* rows of one engagement; errors are found from `first` on */
+    double way;                /* m, least distance that the oil moves in a step */
     /* h_min and h_central of these rows on 1, 2, 4 times the cells, and their errors by the cells,
        relative, positive where the film is too thick. NaN where the film on the cells of the run
        is not that of the run within a quarter of the error or of its limit, or, with heat, ten
@@ -27,8 +27,8 @@ typedef struct ehl_passage {
 /* Whether a row counts for the error of an output. */
 typedef int ehl_row_counts(const ehl_results *r, size_t row, int kind);
 
-/* Sets the rows: looks at those about one that `count`, no further than a passage away from it, and
-   begins a passage before. */
+/* Chooses the rows: around one row, those that `count`, at most a passage away from it. They begin
+ * a passage before. */
 void ehl_passage_about(ehl_passage *p, const ehl_results *r, const ehl_march *m, size_t row,
                        ehl_row_counts *counts, int kind);
 
@@ -36,12 +36,13 @@ void ehl_passage_about(ehl_passage *p, const ehl_results *r, const ehl_march *m,
    since the film of the row has come from a tenth of its half-width upstream. */
 int ehl_outlet_moves(const ehl_passage *p, const ehl_results *r, size_t row);
 
-/* Fills in the errors by twice the cells; kind: what the rows are looked at for. FF_OK, or a
-   failure that leaves none. */
+/* Finds the errors by twice the cells; kind: what the rows are looked at for. FF_OK, or a failure
+ * after which there are no errors. */
 ff_status ehl_passage_errors(const ehl_results *r, const ehl_march *m, ehl_passage *p,
                              ehl_row_counts *counts, int kind);
 
-/* After that: by four times the cells. FF_OK, or a failure that leaves those before. */
+/* Refines these errors by four times the cells. FF_OK, or a failure after which the errors before
+ * stand. */
 ff_status ehl_passage_refine(const ehl_results *r, const ehl_march *m, ehl_passage *p);
 
 /* Marches from a passage before to a row, on so many times the cells of the run, and keeps the film

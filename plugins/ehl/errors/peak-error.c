@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* A film, and what is looked at of it. */
+/* The film on one grid, and what is read from it. */
 typedef struct twin {
     double central, p_max, bound; /* bound: of the error of p_max */
     ehl_spike spike;
@@ -30,11 +30,9 @@ static twin look_at(ehl_grid_level *l, const ehl_instant *at)
 /* Films on 1, 2, 4, 8, 16 times the cells. */
 enum { TWINS = 5 };
 
-/*
- * Returns the tip of a spike on the finer of two grids. What the cells cut off it is some multiple
- * of what the formula says on either, which the spikes of both tell; it is bounded, since few cells
- * show a spike beside the place where it will stand.
- */
+/* Returns the tip of a spike on the finer of two grids. The cells cut off some multiple of what the
+ * formula says, the same multiple on both grids; the heights of both spikes give it. It is limited,
+ * since on few cells a spike stands beside its final place. */
 static double tip_by_formula(const ehl_spike *coarse, const ehl_spike *fine)
 {
     const double most = 1.5;
@@ -50,12 +48,11 @@ static double crest_of(const twin *t)
     return t->spike.seen > 0 ? t->spike.seen : t->p_max;
 }
 
-/*
- * Returns the tip by what the spike grows by from grid to grid, t being the finest. What is cut off
- * falls at the order of the volumes at last, by `fastest`, since a tip of some cells is round, and
- * by no less than the formula says before; the spike of one grid alone is uncertain by where its
- * nodes lie, so that the growth of both halvings counts as much as that of the last.
- */
+/* Returns the tip by the growth of the spike from grid to grid; t is the finest. In the end the
+ * part that is cut off falls at the order of the volumes (`fastest`), since a tip of some cells is
+ * round; before, it falls at least as fast as by the formula (`slowest`). The spike of a single
+ * grid is uncertain by the place of its nodes, so that the larger of two extrapolations counts:
+ * from the last halving, and from both. */
 static double tip_by_growth(const twin *t, double fastest, double slowest)
 {
     double last = crest_of(t) - crest_of(t - 1), before = crest_of(t - 1) - crest_of(t - 2);
@@ -66,9 +63,9 @@ static double tip_by_growth(const twin *t, double fastest, double slowest)
     return crest_of(t) + fmax(last * ratio / (1 - ratio), (last + before) * square / (1 - square));
 }
 
-/* Returns the error of p_max of the run, from the films to t[k], k > 1. By the formula, x/(x + w),
-   cells are shorter than a tip of length w where a halving takes a third off the share that they
-   cut. */
+/* Returns the relative error of p_max of the run, from the films to t[k], k > 1. The tip is
+ * resolved if a halving takes more than a third off the share that the cells cut: by the formula,
+ * x/(x + w), cells are then shorter than the tip's length w. */
 static double peak_error(const ehl_solver *s, double p_max, const twin *t, int k)
 {
     double slowest = t[k].spike.cut / t[k - 1].spike.cut, tip = 0;
@@ -80,13 +77,13 @@ static double peak_error(const ehl_solver *s, double p_max, const twin *t, int k
     return fmax(fmax(0, tip / p_max - 1), fabs(t[k].p_max / p_max - 1));
 }
 
-/* Whether it is known if the error of the peak exceeds `enough`, by the films to t[k]. */
+/* Whether the films to t[k] decide if the error of the peak exceeds `enough`. */
 static int is_told(const ehl_solver *s, double p_max, const twin *t, int k, double enough)
 {
     return k > 1 && (peak_error(s, p_max, t, k) <= enough || t[k].p_max > (1 + enough) * p_max);
 }
 
-/* Straight lines between the nodes. */
+/* Interpolates linearly to the nodes of a finer grid. */
 static void spread(const double *from, size_t cells, double *to, size_t to_cells)
 {
     for (size_t i = 0; i <= to_cells; i++) {
@@ -122,7 +119,8 @@ static ff_status find_twin(const ehl_solver *s, const ehl_instant_film *f, size_
     return status == FF_OK && !(t->p_max > 0) ? FF_NOCONV : status;
 }
 
-/* Fills t with the films of the instant, three at least, until the peak is told; *last: of them. */
+/* Fills t with the films of the instant on more and more cells, three at least, until they decide
+ * about the peak. Sets *last to the index of the last one. */
 static ff_status find_twins(const ehl_solver *s, const ehl_instant_film *run,
                             const ehl_instant_film *fine, double enough, twin *t, int *last)
 {
@@ -135,7 +133,7 @@ static ff_status find_twins(const ehl_solver *s, const ehl_instant_film *run,
         ehl_grid_level *here = &l[k % 2], *before = k > 0 ? &l[1 - k % 2] : NULL;
         ehl_grid_level_destroy(here);
         status = find_twin(&kind, k > 0 ? fine : run, (size_t)1 << k, before, here, &t[k]);
-        if (status == FF_NOCONV && k > 2) { /* three films tell of the peak what they can */
+        if (status == FF_NOCONV && k > 2) { /* three films are enough for an estimate */
             status = FF_OK;
             break;
         }
@@ -154,7 +152,7 @@ static int are_within(double a, double b, double factor)
 
 int ehl_is_like(const ehl_instant_film *f, double h_central, double p_max)
 {
-    const double thicker = 1.2, higher = 1.1; /* without heat, and still much the same film */
+    const double thicker = 1.2, higher = 1.1; /* of much the same film, also without its heat */
     return are_within(f->h_central, h_central, thicker) && are_within(f->p_max, p_max, higher);
 }
 

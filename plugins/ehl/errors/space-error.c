@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Films of the row, and what the cells add to them, m: a bound, or what was measured, negative
-   where the film is too thin. */
+/* film_of returns h_min, h_central or p_max of a row. part_of returns its error by the cells, m or
+ * Pa: a bound, or the measured error, which is negative where the film is too thin. */
 static double film_of(const ehl_results *r, size_t row, int kind)
 {
     static const uint32_t of[] = {EHL_H_MIN, EHL_H_CENTRAL, EHL_P_MAX};
@@ -23,16 +23,16 @@ static int is_measured(const ehl_results *r, size_t row, int kind)
     return *part_of(r, row, EHL_MEASURED + kind) > 0;
 }
 
-/* Films below 2 % of the largest load have none. */
+/* Whether the row has a bound; films below 2 % of the largest load have none. */
 static int has_bound(const ehl_results *r, size_t row, int kind)
 {
     return fabs(*part_of(r, row, kind)) > 0;
 }
 
-/* Returns what p_max of a row is without the error of the cells. Between two looks of one passage
-   by a straight line, no higher than what bounds it, where the load falls in between: on more cells
-   it changes steadily, while the nodes of the run lie anywhere beside the tip; else by the largest
-   share of a bound. */
+/* Estimates p_max of a row without the error of the cells. Between two looks of one passage it is
+ * interpolated linearly, but not above its bound: on more cells p_max changes steadily, while the
+ * nodes of the run lie anywhere beside the tip. Elsewhere the largest share of a bound that a look
+ * found is added. */
 static double tip_by_looks(const ehl_results *r, size_t row)
 {
     const double value = film_of(r, row, EHL_PEAK), bound = *part_of(r, row, EHL_PEAK);
@@ -62,8 +62,8 @@ static int was_looked_at(const ehl_results *r, size_t row)
     return 0;
 }
 
-/* The same, and no lower than a narrow peak may be, which is not that of all if it is below half of
-   it. */
+/* Does the same, and counts what a narrow peak may add. A narrow peak below half of the highest
+ * p_max does not count if only that is wanted. */
 static double tip_of(const ehl_results *r, size_t row)
 {
     const double value = film_of(r, row, EHL_PEAK), narrow = *part_of(r, row, EHL_NARROW);
@@ -73,7 +73,7 @@ static double tip_of(const ehl_results *r, size_t row)
     return is_extreme(r, EHL_PEAK) && value < r->highest / 2 ? tip : fmax(tip, value + narrow);
 }
 
-/* Returns the share of its value by which a row with a bound is off, at most. */
+/* Returns the largest relative error of a row that has a bound. */
 static double share_of_row(const ehl_results *r, size_t row, int kind)
 {
     const double value = film_of(r, row, kind);
@@ -81,9 +81,9 @@ static double share_of_row(const ehl_results *r, size_t row, int kind)
     return isfinite(part) ? part / value : (double)INFINITY;
 }
 
-/* A film without a bound is what the contact left of the one before, or what the one behind is made
-   of: its share is the larger one of both. That of a peak, which goes with the load, is not known.
- */
+/* A film without a bound is what the contact left of an earlier film, or what a later film is made
+ * of: its relative error is the larger one of both. The error of a peak without a bound is not
+ * known, since a peak depends on the load. */
 double ehl_space_part(const ehl_results *r, size_t row, int kind)
 {
     const int none = kind == EHL_PEAK && !has_bound(r, row, kind);
@@ -99,9 +99,9 @@ double ehl_space_part(const ehl_results *r, size_t row, int kind)
     return !(value > 0) ? 0 : (led || leads) && !none ? share * value : (double)INFINITY;
 }
 
-/* Returns what a row makes of the error of the output by the cells: its own, or by how much it goes
-   beyond the extreme of all, where that alone is wanted; infinite: it is not known. A peak without
-   a bound has none. */
+/* Returns what a row contributes to the error of the output by the cells: its own relative error,
+ * or, if only the extreme of all rows is wanted, how much it may exceed that extreme. Infinite: not
+ * known. A peak without a bound contributes 0. */
 static double error_of_row(const ehl_results *r, size_t row, int kind)
 {
     double value = film_of(r, row, kind), part = *part_of(r, row, kind), error = 0;
@@ -130,8 +130,8 @@ static size_t worst_row(const ehl_results *r, int kind)
     return worst;
 }
 
-/* Returns the error of an output by the cells, relative. The lowest film may be as low as the films
-   of all instants may be, or be higher as far as all of them are. */
+/* Returns the error of an output by the cells, relative. The lowest film of all lies between the
+ * least lower end and the least upper end of the bars of all rows. */
 static double error_of(const ehl_results *r, int kind)
 {
     double error = error_of_row(r, worst_row(r, kind), kind), highest = HUGE_VAL;
@@ -147,15 +147,15 @@ static int is_doubtful(const ehl_results *r, size_t row, int kind)
     return error_of_row(r, row, kind) > EHL_FILM_LIMIT / 2;
 }
 
-/* Where the outlet moves errors are larger than their bounds: a film that is somewhat thicker may
-   be the lowest, too. */
+/* Whether a film may be the lowest. If the outlet moves, errors are larger than their bounds, so
+ * that films up to 10 % thicker count too. */
 static int is_low(const ehl_results *r, size_t row, int kind)
 {
     return is_doubtful(r, row, kind) || film_of(r, row, kind) < 1.1 * r->lowest;
 }
 
-/* Returns the largest share of their bounds that errors have, all at most, and all where no bound
-   is large: those that are as good as none tell nothing of others. */
+/* Returns the largest ratio of a measured error to its bound, at most 1. Small bounds are left out,
+ * since they tell nothing of others; 1 if all are small. */
 static double largest_share(const ehl_results *r, const ehl_passage *p, int kind)
 {
     double share = 0;
@@ -168,9 +168,9 @@ static double largest_share(const ehl_results *r, const ehl_passage *p, int kind
     return share > 0 ? share : 1;
 }
 
-/* Puts the errors that are known in place of what bounds them, and leaves that share of the bounds
-   at the rows that were not looked at. A film without load has no bound, and its error does not
-   count unless the lowest film alone is wanted. */
+/* Replaces bounds by measured errors, and multiplies the bounds of rows that were not measured by
+ * the largest ratio found. A film without load has no bound; its error counts only if the lowest
+ * film alone is wanted. */
 static void put_errors(ehl_results *r, const ehl_passage *p, int kind)
 {
     double share = largest_share(r, p, kind);
@@ -201,9 +201,8 @@ static int is_looked_at(const ehl_passage *p, size_t row)
     return row >= p->first && row <= p->last;
 }
 
-/* Returns the row to look at, SIZE_MAX when there is none: the worst one where the error is not
-   known yet, else that of the lowest film of all where its outlet moves, since bounds are those of
-   steady films. */
+/* Returns the row to measure next; SIZE_MAX: none. It is the worst row if that is not measured yet;
+ * else that of the lowest film if its outlet moves, since bounds hold for steady films. */
 static size_t find_row(const ehl_results *r, const ehl_passage *p, int kind, double enough)
 {
     size_t row = worst_row(r, kind);
@@ -216,8 +215,8 @@ static size_t find_row(const ehl_results *r, const ehl_passage *p, int kind, dou
                : SIZE_MAX;
 }
 
-/* Whether the verdict hangs on how much is left of an error on twice the cells: on half of what is
-   there on the cells of the run, or on nothing. */
+/* Whether the verdict depends on how much of an error is left on twice the cells: half of the error
+ * on the cells of the run, or nothing. */
 static int order_decides(const ehl_results *r, const ehl_march *m, int kind)
 {
     double left = ldexp(1, -ehl_carrying_order(m->solver->reynolds));
@@ -225,7 +224,7 @@ static int order_decides(const ehl_results *r, const ehl_march *m, int kind)
     return found <= EHL_FILM_LIMIT && 2 * found > EHL_FILM_LIMIT;
 }
 
-/* Measures the films about a row. */
+/* Measures the errors of the films around a row. */
 static ff_status measure_passage(ehl_results *r, const ehl_march *m, ehl_passage *p, size_t row,
                                  int kind)
 {
@@ -239,14 +238,14 @@ static ff_status measure_passage(ehl_results *r, const ehl_march *m, ehl_passage
     return status;
 }
 
-/* Measures the films that the error of an output hangs on, and once more where those were not all.
-   The lowest film of all is first looked at from half of the limit on. */
+/* Measures the films that decide the error of an output, and a second time if another row is then
+ * the worst. The lowest film of all is measured from half of the limit on. */
 static ff_status measure_film(ehl_results *r, const ehl_march *m, ehl_passage *p, int kind)
 {
     enum { MOST = 2 };
     double enough = is_extreme(r, kind) ? EHL_FILM_LIMIT / 2 : EHL_FILM_LIMIT;
     ff_status status = FF_OK;
-    p->first = 1; /* none was looked at */
+    p->first = 1; /* no row has been measured */
     p->last = 0;
     for (int k = 0; k < MOST && status == FF_OK; k++, enough = EHL_FILM_LIMIT) {
         size_t row = find_row(r, p, kind, enough);
@@ -263,7 +262,7 @@ static ff_status measure_film(ehl_results *r, const ehl_march *m, ehl_passage *p
     return status == FF_NOMEM || status == FF_STOPPED ? status : FF_OK;
 }
 
-/* Keeps a look by the order of the rows. */
+/* Inserts a look, in the order of the rows. */
 static void keep_look(ehl_results *r, ehl_look look)
 {
     size_t k = r->looks++;
@@ -272,8 +271,9 @@ static void keep_look(ehl_results *r, ehl_look look)
     r->look[k] = look;
 }
 
-/* Finds the error of p_max of a row. To a spike that moves four times the cells are marched: those
-   of the run have smoothed how it changes, and twice as many some of it. */
+/* Finds the error of p_max of a row. The contact is marched on four times the cells, for a spike
+ * that moves: the cells of the run smooth its change in time, and twice as many still do in part.
+ */
 static ff_status find_peak_error(ehl_results *r, const ehl_march *m, ehl_passage *p, size_t row,
                                  double *error)
 {
@@ -297,8 +297,8 @@ static ff_status find_peak_error(ehl_results *r, const ehl_march *m, ehl_passage
     return status;
 }
 
-/* Looks at p_max of a row. Where its error is not told there the bound stands, and those of all
-   rows that are not between two looks. */
+/* Measures p_max of a row on more cells. If that fails, the bound stands there and at all rows that
+ * are not between two looks. */
 static ff_status look_at_peak(ehl_results *r, const ehl_march *m, ehl_passage *p, size_t row)
 {
     double value = film_of(r, row, EHL_PEAK), bound = *part_of(r, row, EHL_PEAK) / value, error = 0;
@@ -307,7 +307,7 @@ static ff_status look_at_peak(ehl_results *r, const ehl_march *m, ehl_passage *p
         return status;
     if (status != FF_OK)
         error = bound;
-    /* a bound that is as good as none tells nothing of those that are large */
+    /* a small bound tells nothing of large ones */
     double share = bound > EHL_PEAK_LIMIT / 2 ? error / bound : 0;
     r->share = r->looks > 0 ? fmax(r->share, share) : share;
     keep_look(r, (ehl_look){row, p->begin, (1 + error) * value});
@@ -322,8 +322,8 @@ static size_t highest_row(const ehl_results *r)
     return row;
 }
 
-/* Returns the row to look at, SIZE_MAX when there is none: the worst and that of the highest p_max
-   from half of the limit on, then what may exceed the limit, until that is known of one. */
+/* Returns the row to look at; SIZE_MAX: none. First the worst row and that of the highest p_max,
+ * from half of the limit on; then rows that may exceed the limit, until one is known to. */
 static size_t find_peak(const ehl_results *r)
 {
     size_t worst = worst_row(r, EHL_PEAK), highest = highest_row(r);
@@ -335,7 +335,7 @@ static size_t find_peak(const ehl_results *r)
             return SIZE_MAX;
     }
     if (isinf(error))
-        return SIZE_MAX; /* no look makes that less */
+        return SIZE_MAX; /* no look can reduce it */
     if (r->looks == 0)
         return error > EHL_PEAK_LIMIT / 2 ? worst : SIZE_MAX;
     if (r->looks == 1 && !seen && *part_of(r, highest, EHL_PEAK) > EHL_PEAK_LIMIT / 2 * r->highest)
@@ -358,7 +358,7 @@ static ff_status measure_peaks(ehl_results *r, const ehl_march *m, ehl_passage *
 ff_status ehl_results_measure(ehl_results *r, const ehl_march *m, const ehl_history *whole,
                               int equal)
 {
-    enum { LEAST_COUNT = 100 }; /* a peak takes as long however short the run */
+    enum { LEAST_COUNT = 100 }; /* measuring a peak takes the same time for a short run */
     ehl_passage p = {.whole = whole, .equal = equal};
     size_t count = r->series.count;
     ff_status status = FF_OK;

@@ -6,12 +6,12 @@
 #include <math.h>
 #include <string.h>
 
-/* What a sweep has of the flanks: their passage from node to node. */
+/* A sweep over the columns, with the passage of the flanks from node to node. */
 typedef struct sweep {
     ehl_energy *e;
     const ehl_energy_film *film;
     const ehl_temperature *t;
-    ehl_passage passage[2], rest[2]; /* rest: at the end of the nodes, where none comes from */
+    ehl_passage passage[2], rest[2]; /* rest: at the last node, if no node is behind it */
 } sweep;
 
 /* Transverse flow of mass rho (w - z h_x u - z h_t), kg/(m2 s), at the nodes: what the flow along x
@@ -33,15 +33,14 @@ FF_SIMD_INLINE void transverse_flow(const sweep *s, size_t i, size_t n, double *
     ehl_across_apply(a->integral[0], EHL_ACROSS_MOST, n, out, at);
 }
 
-/*
- * The transverse transport. Where conduction does not smooth what is carried, as in a thick inlet,
- * the polynomial would swing, and no film is found: its highest modes conduct as well as the
- * largest transport carries, and less with more nodes, by the third power. Temperatures that the
- * nodes resolve do not have these modes, so that the error still falls faster than any power.
- */
+/* Computes the transverse transport. Where conduction does not smooth the transported temperature,
+ * as in a thick inlet, the polynomial across the film would oscillate and no film would be found.
+ * Its highest modes therefore get a conductance as large as the largest transport, which falls with
+ * the third power of the number of nodes. Resolved temperatures do not have these modes, so that
+ * the error still falls faster than any power. */
 FF_SIMD_INLINE void transverse_transport(const sweep *s, size_t i, size_t n, ehl_column *c)
 {
-    const double enough = 8.6; /* nodes: with 4 of 20 m/s none is found with 8 nodes */
+    const double enough = 8.6; /* nodes; with 4 instead, no film is found at 20 m/s with 8 nodes */
     const ehl_energy *e = s->e;
     double at[EHL_ACROSS_MOST], most = 0, few = enough / (double)n;
     transverse_flow(s, i, n, at);
@@ -52,8 +51,8 @@ FF_SIMD_INLINE void transverse_transport(const sweep *s, size_t i, size_t n, ehl
     c->damped = e->damping * few * few * few * e->heat_capacity * most;
 }
 
-/* What comes from one side of a column: now T(i) - (near T + far T of the columns there), over dx,
-   of second order away from the ends. */
+/* Transport from one side of a column: (now T(i) - near T - far T_far)/dx, where T and T_far are
+ * those of the next two columns on that side. It is of second order away from the ends. */
 typedef struct side {
     double now, near, far;
     const double *T, *T_far;
@@ -80,7 +79,7 @@ FF_SIMD_INLINE double conductance_of(const sweep *s, size_t i)
            s->film->h[i];
 }
 
-/* Returns 1 over the mean slope of the shear rates by the stress; 0: none flows. */
+/* Returns 1 over the mean slope of the shear rate over the stress; 0: that slope is 0. */
 FF_SIMD_INLINE double per_mean_slope(const ehl_energy *e, size_t i, size_t n)
 {
     double mean = 0;
@@ -89,7 +88,7 @@ FF_SIMD_INLINE double per_mean_slope(const ehl_energy *e, size_t i, size_t n)
     return mean > 1e-290 ? 1 / mean : 0;
 }
 
-/* Sets `off` to what the temperatures leave of the equations of a column, without the flanks. */
+/* Sets `off` to the residuals of the equations of a column, without the flux into the flanks. */
 FF_SIMD_INLINE void find_rest(const sweep *s, size_t i, size_t n, double *off)
 {
     const ehl_across *a = &s->e->across;
@@ -111,7 +110,7 @@ FF_SIMD_INLINE void find_rest(const sweep *s, size_t i, size_t n, double *off)
     }
 }
 
-/* Subtracts `share` times a row from another one, n numbers and what fills the last vector. */
+/* Subtracts `share` times a row from another row. Both have n numbers, padded to whole vectors. */
 FF_SIMD_INLINE void subtract_row(size_t n, double share, const double *row, double *from)
 {
     for (size_t j = 0; j < n; j += EHL_LANES) {
@@ -123,8 +122,8 @@ FF_SIMD_INLINE void subtract_row(size_t n, double share, const double *row, doub
     }
 }
 
-/* Inverts a in place by Gauss-Jordan elimination with the largest pivot of each column; what fills
-   the last vector of a row is a number. 0: singular. */
+/* Inverts a in place by Gauss-Jordan elimination with the largest pivot of each column. The padding
+ * of its rows must hold numbers. 0: singular. */
 FF_SIMD_INLINE int invert(size_t n, ehl_across_matrix a)
 {
     size_t from[EHL_ACROSS_MOST];
@@ -161,7 +160,7 @@ FF_SIMD_INLINE int invert(size_t n, ehl_across_matrix a)
     return 1;
 }
 
-/* Inverts the equations of a column; [l][k] stands before temperature l in equation k. */
+/* Inverts the equations of a column. m[l][k] is the coefficient of temperature l in equation k. */
 FF_SIMD_INLINE void renew(const sweep *s, size_t i, size_t n)
 {
     const ehl_across *a = &s->e->across;
@@ -171,7 +170,7 @@ FF_SIMD_INLINE void renew(const sweep *s, size_t i, size_t n)
     const double *tau = e->tau + i * n, *gamma = e->gamma + i * n, *slope = e->gamma_tau + i * n,
                  *by_eta = e->gamma_eta + i * n, *ln_eta_T = e->ln_eta_T + i * n;
     double *to = e->inverse + i * n * n, by_stress[EHL_ACROSS_MOST], moved[EHL_ACROSS_MOST];
-    /* tau_m goes with the temperatures of the whole column */
+    /* tau_m depends on the temperatures of the whole column */
     double per = ehl_energy_touches(s->film, i) ? 0 : s->film->h[i] * per_mean_slope(e, i, n);
     ehl_across_matrix m;
     for (size_t k = 0; k < n; k++) {
@@ -195,12 +194,10 @@ FF_SIMD_INLINE void renew(const sweep *s, size_t i, size_t n)
     memcpy(e->inverted + (3 * i + 2) * n, c->level, n * sizeof *to);
 }
 
-/*
- * Whether the equations of a column are nearly those that have been inverted. No slope of a node is
- * above n^2/2. Conduction, which is most of the diagonal of a thin film, does not resist a change
- * that is one across it: what leaves the column goes with what does, which is held to a tenth of
- * `keep`.
- */
+/* Whether the equations of a column are close to those whose inverse is kept. Entries of the slope
+ * matrix are at most n^2/2. Conduction, which is most of the diagonal of a thin film, does not
+ * resist a change that is the same at all nodes across; only `level` does, so that its sum is held
+ * to a tenth of `keep`. */
 FF_SIMD_INLINE int is_inverted(const sweep *s, size_t i, size_t n)
 {
     const ehl_column *c = &s->e->column[i];
@@ -218,8 +215,9 @@ FF_SIMD_INLINE int is_inverted(const sweep *s, size_t i, size_t n)
     return !other && moved <= level_share * keep * fabs(all) && keep > 0;
 }
 
-/* Storage, transport along x, compression, and the dissipation or friction of asperities, which
-   their temperature does not change; the diagonal knows all but what goes with tau_m. */
+/* Prepares storage, transport along x, compression, and the dissipation or the friction of
+ * asperities, which does not depend on their temperature. The diagonal has all slopes over
+ * temperature except those by tau_m. */
 FF_SIMD_INLINE void prepare_column(const sweep *s, size_t i, size_t n)
 {
     const ehl_energy *e = s->e;
@@ -260,7 +258,8 @@ FF_SIMD_INLINE void prepare_column(const sweep *s, size_t i, size_t n)
         renew(s, i, n);
 }
 
-/* The equations of a column, inverted. The preset number of nodes is known when it is compiled. */
+/* Prepares and inverts the equations of a column. The preset number of nodes is passed as a
+ * constant, which the compiler can use. */
 FF_SIMD
 static void prepare(const sweep *s, size_t i)
 {
@@ -270,20 +269,20 @@ static void prepare(const sweep *s, size_t i)
         prepare_column(s, i, s->e->across.count);
 }
 
-/* Flank g moves towards the first node. */
+/* Whether flank g moves towards the first node. */
 static int is_backward(const sweep *s, size_t g)
 {
     return s->film->speed[g] < 0;
 }
 
-/* Its way to node i. */
+/* Returns the passage of flank g to node i. */
 static const ehl_passage *passage_to(const sweep *s, size_t g, size_t i)
 {
     return is_backward(s, g) && i + 1 >= s->e->nodes ? &s->rest[g] : &s->passage[g];
 }
 
-/* The modes of flank g at node i without the flux there; returns what they make of its
-   temperature. */
+/* Computes the modes of flank g at node i without the flux there. Returns the temperature that they
+ * give the flank. */
 static double flank_at(const sweep *s, size_t g, size_t i)
 {
     const ehl_energy *e = s->e;
@@ -328,7 +327,8 @@ FF_SIMD_INLINE void change_temperatures(sweep *s, size_t i, size_t n, const doub
     e->change = change;
 }
 
-/* On the way back, flanks are as warm as the last sweep left them without the flux at the node. */
+/* Solves for the temperatures of a column. On the way back (`returns`) the flanks have the
+ * temperature, without the flux at the node, that the last sweep left. */
 FF_SIMD_INLINE void solve_across(sweep *s, size_t i, size_t n, int returns)
 {
     ehl_energy *e = s->e;
@@ -359,7 +359,7 @@ static void solve_column(sweep *s, size_t i, int returns)
         solve_across(s, i, s->e->across.count, returns);
 }
 
-/* Where there is no film the oil keeps its temperature on its way. */
+/* Moves the oil along where there is no film; it keeps its temperature. */
 static void carry_column(sweep *s, size_t i)
 {
     const ehl_energy *e = s->e;
@@ -397,8 +397,8 @@ static int is_film(const sweep *s, size_t i)
     return i < s->film->count && s->film->full[i];
 }
 
-/* Where oil flows back, the columns are solved against the entrainment first: its temperature
-   comes from there. */
+/* Columns with reverse flow are first solved against the entrainment, since the temperature of that
+ * oil comes from downstream. */
 void ehl_energy_sweep(ehl_energy *e, const ehl_energy_film *film, const ehl_temperature *t)
 {
     sweep s = {.e = e, .film = film, .t = t};

@@ -36,14 +36,14 @@ typedef struct ehl_energy_film {
     const double *p_t;             /* dp/dt; NULL: steady */
     const double *through;         /* mass that passes, kg/(m s), nodes; NULL: dp/dx is held */
     const unsigned char *full;     /* 1: the film is full */
-    const unsigned char *asperity; /* 1: and its asperities are in contact; NULL: none are */
-    const double *friction;      /* heat of those, W/m2, nodes; 0 where none touch; NULL: nowhere */
-    const double *weight;        /* of a change there, for the film; NULL: 1 */
-    const double *past;          /* dT/dt = rate T + past; NULL: steady */
+    const unsigned char *asperity; /* 1: asperities are in contact; NULL: none are */
+    const double *friction; /* heat of asperities, W/m2, nodes; 0 where none touch; NULL: nowhere */
+    const double *weight;   /* how much a change at a node matters to the film; NULL: 1 */
+    const double *past;     /* dT/dt = rate T + past; NULL: steady */
     const double *past_modes[2]; /* the same of the modes of both flanks */
 } ehl_energy_film;
 
-/* 1: asperities are in contact at node i, and p is theirs. */
+/* 1: asperities are in contact at node i, and carry p. */
 static inline int ehl_energy_touches(const ehl_energy_film *film, size_t i)
 {
     return film->asperity && film->asperity[i];
@@ -55,15 +55,16 @@ typedef struct ehl_temperature {
     double *modes[2]; /* of the flanks, nodes x their count */
 } ehl_temperature;
 
-/* What the equations of one column are made of but its temperatures. */
+/* Coefficients of the equations of one column. */
 typedef struct ehl_column {
     double damped;                /* conductance of the highest modes across, W/(m2 K) */
     double lift[EHL_ACROSS_MOST]; /* transverse transport by the slope at the node */
-    double on[EHL_ACROSS_MOST], back[EHL_ACROSS_MOST]; /* along the nodes, from before and behind */
-    double own[EHL_ACROSS_MOST];      /* what storage, these and compression take by temperature */
-    double source[EHL_ACROSS_MOST];   /* heat, and what was stored before */
-    double level[EHL_ACROSS_MOST];    /* what resists a change that is one across, without tau_m */
-    double diagonal[EHL_ACROSS_MOST]; /* and with what resists differences across */
+    /* transport along the nodes, from the column before and from the one behind */
+    double on[EHL_ACROSS_MOST], back[EHL_ACROSS_MOST];
+    double own[EHL_ACROSS_MOST]; /* storage, transport and compression, by the temperature here */
+    double source[EHL_ACROSS_MOST];   /* heat produced, and storage by earlier instants */
+    double level[EHL_ACROSS_MOST];    /* resists a change that is one across, without tau_m */
+    double diagonal[EHL_ACROSS_MOST]; /* level, and what resists differences across */
 } ehl_column;
 
 typedef struct ehl_energy {
@@ -81,7 +82,7 @@ typedef struct ehl_energy {
     ehl_column *column;            /* nodes */
     double *base[2];  /* temperature of the flanks without the flux at the node, over T_in, nodes */
     double *inverse;  /* of the equations of each node, nodes x across^2 */
-    double *inverted; /* of what they were made then: diagonal, transverse transport, level */
+    double *inverted; /* the coefficients at the last inversion: diagonal, lift, level */
     double keep;      /* change of these, over the diagonal, up to which the inverse is kept */
     double *called_p, *called_T; /* where the laws were called last; T = 0: nowhere yet */
     double *called_ln_eta, *ln_eta_p, *ln_eta_T, *called_rho, *rho_p, *rho_T; /* what they gave */
@@ -97,7 +98,7 @@ typedef struct ehl_energy {
     double *flux[2];        /* into the flanks, W/m2 */
     unsigned char *reverse; /* 1: oil flows towards the first node */
     unsigned char *there;   /* 1: tau_m has been found */
-    double highest, lowest; /* K, of which the laws are called */
+    double highest, lowest; /* K, bounds of the temperatures that the laws are called with */
     double reach;           /* change of ln(eta) up to which laws are followed by their slopes */
     double damping;         /* of the highest modes across, over the usual one */
     double share;           /* of the change of each temperature that a sweep takes */
@@ -111,15 +112,17 @@ void ehl_energy_destroy(ehl_energy *e);
 /* Forgets all that is kept of other films. */
 void ehl_energy_restart(ehl_energy *e);
 
-/* Laws and flow across the film at these temperatures: all of e but for the fluxes. */
+/* Computes all of e at these temperatures except the fluxes: the laws and the flow across the film.
+ */
 void ehl_energy_flow(ehl_energy *e, const ehl_energy_film *film, const double *T);
 
-/* One step of Newton's method for the temperatures: of the dissipation with tau_m in each column,
-   of all else as it is linear. It takes `share` of the change, and keeps inverses whose equations
-   have changed by less than `keep`. The flow must be that of the temperatures. */
+/* One sweep of Newton's method for the temperatures. The dissipation is linearised with tau_m
+ * within each column; all else is linear. A sweep takes `share` of the change, and keeps inverses
+ * whose equations have changed by less than `keep`. The flow must be that of the temperatures. */
 void ehl_energy_sweep(ehl_energy *e, const ehl_energy_film *film, const ehl_temperature *t);
 
-/* Heat per width of the film, W/m, of the equations as they are solved: what is left is not. */
+/* Heat per width of the film, W/m, by the equations that are solved; their sum is what the solution
+ * has left unbalanced. */
 typedef struct ehl_energy_sums {
     double shear, compression, asperities, stored, carried, flank[2];
 } ehl_energy_sums;

@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the temperatures across a film make of its flow, and how a steady film is brought there. */
+/* Factors by which the temperatures across a film change its flow, and their iteration for a steady
+ * film. */
 #include "thermal.h"
 
 #include <math.h>
 
-/* Of the temperatures of a state: those of mobility, density and carried mass. */
+/* Returns the factors in a state: of mobility, density and carried mass. */
 double *ehl_thermal_factors(const ehl_thermal *t, double *heat)
 {
     return heat + t->width - EHL_THERMAL_FACTORS * t->energy.nodes;
 }
 
-/*
- * Sets the weights of changes along a steady film. A viscosity that is off by a share moves the
- * pressure there by this share, and the film by no more than alpha times that: where pressure
- * begins, vortices of oil that flows back and forth take thousands of sweeps to their last digits,
- * which the film does not see. Behind the contact all counts.
- */
+/* Sets the weights of changes along a steady film. A relative error of the viscosity changes the
+ * pressure there by the same share, and the film by at most alpha times that change of pressure.
+ * The weight is therefore small where pressure begins: vortices of oil that flows back and forth
+ * there take thousands of sweeps to their last digits, which the film does not feel. It does not
+ * fall again behind the contact. */
 void ehl_thermal_weigh(const ehl_thermal *t, const ehl_reynolds *r, const ehl_film *film)
 {
     double most = 0;
@@ -25,11 +25,9 @@ void ehl_thermal_weigh(const ehl_thermal *t, const ehl_reynolds *r, const ehl_fi
     }
 }
 
-/*
- * Sets the factors behind the nodes that pressure can reach. The oil of the void there keeps its
- * density on its way with u_r: a void whose density changed at once would gain mass by it, more
- * than its opening gap takes, and fill. What is carried is that of the last node.
- */
+/* Sets the factors behind the nodes that pressure can reach. The oil of the void there keeps its
+ * density while it moves with u_r. If its density changed at once the void would gain mass, more
+ * than its opening gap takes, and would fill. The carried mass is that of the last node. */
 static void leave_behind(const ehl_thermal *t, const ehl_energy_film *f, size_t n, double *next)
 {
     const double *past = f->past ? t->past + t->width - (EHL_THERMAL_FACTORS - 1) * n : NULL;
@@ -74,12 +72,9 @@ double ehl_thermal_find_factors(ehl_thermal *t, const ehl_reynolds *r, const ehl
     return most;
 }
 
-/*
- * Changes the next factors of a steady film as the rounds before make it seem best. Of sheared oil
- * of which one layer takes all, the factors held make waves of a few cells in h, and these waves
- * such factors: rounds by themselves go away from the film, however small a share of the change
- * they take.
- */
+/* Accelerates the factors of a steady film by those of earlier rounds (Anderson). If one layer
+ * takes all the shear of the oil, the factors make waves of a few cells in h, and these waves make
+ * such factors: plain rounds diverge, however small a share of the change they take. */
 void ehl_thermal_accelerate(ehl_thermal *t, size_t count, double *next)
 {
     size_t n = t->energy.nodes;

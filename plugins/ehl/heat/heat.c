@@ -8,12 +8,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Solutions for the film of one instant. */
+/* Most solutions for the film of one instant. */
 enum { MOST_ROUNDS = 30 };
 
-/* Change of the pressure flow in the inlet, relative, below which the heat is that of the film. It
-   goes with rho h at the highest pressure times less than 1 - R. A steady film begins from one
-   without heat, and takes many rounds; a step begins next to its solution. */
+/* Relative change of the pressure flow in the inlet below which film and heat have settled. It is
+ * at most the relative change of rho h at the highest pressure times 1 - R. A steady film begins
+ * without heat and takes many rounds; a step begins next to its solution. */
 static const double settled = 1e-4, settled_steady = 1e-5;
 
 ff_status ehl_heat_create(ehl_heat *heat, size_t nodes, double conductivity)
@@ -39,8 +39,8 @@ void ehl_heat_destroy(ehl_heat *heat)
 /* Multiples of -a between which the inlet ends. */
 static const double BEGIN = 1.05, END = 0.95;
 
-/* Returns the next node at which the ratio is computed; it bends over the distance to the edge of
-   the contact, at x = -a, and is linear between these nodes. */
+/* Returns the next node at which the ratio is computed. The ratio varies over the distance to the
+ * edge of the contact, at x = -a, and is interpolated linearly between these nodes. */
 static size_t next_place(const ehl_reynolds *r, size_t i, double a)
 {
     const double outside = 4, share = 1. / 8;
@@ -50,7 +50,7 @@ static size_t next_place(const ehl_reynolds *r, size_t i, double a)
     return i + (size_t)fmax(1, fmin(fmax(outside, share * far / r->dx), far / r->dx));
 }
 
-/* Sets the ease of the nodes between two places. */
+/* Interpolates the thermal mobility factor `ease` linearly between two nodes. */
 static void set_between(double *ease, size_t from, size_t to, double left, double right)
 {
     double rise = to > from ? (right - left) / (double)(to - from) : 0;
@@ -58,11 +58,9 @@ static void set_between(double *ease, size_t from, size_t to, double left, doubl
         ease[i] = left + rise * (double)(i - from);
 }
 
-/*
- * Computes the ratio in the inlet, which ends at the edge x = -a of the contact: as a power of R
- * that falls from 1 to 0 between BEGIN and END times -a, so that no node has a jump. Further on the
- * flanks are no longer at one temperature. r has the gap of the film.
- */
+/* Computes `ease` = R^-s in the inlet. The exponent s is 1, and falls to 0 between BEGIN and END
+ * times -a, at the edge of the contact, so that no node has a jump. Further on the flanks no longer
+ * have the same temperature. r has the gap of the film. */
 static void ease_inlet(ehl_heat *heat, const ehl_march *m, const ehl_step *step,
                        const ehl_film *film)
 {
@@ -118,7 +116,8 @@ static double mass_at_peak(const ehl_reynolds *r, const ehl_film *film)
     return rho * fmax(r->h[peak], r->floor);
 }
 
-/* Computes the heat of the film unless, but for the first round, it has settled; 1: it has. */
+/* Computes the heat of the film, unless it has settled after the first round. Returns 1 if it has.
+ */
 static int update(ehl_heat *heat, const ehl_march *m, const ehl_step *step, const ehl_film *film,
                   int first)
 {

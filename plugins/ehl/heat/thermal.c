@@ -11,15 +11,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Factors beyond which none is predicted. */
+/* Least factor that a prediction may give; the largest is 1 over it. */
 static const double LEAST_FACTOR = 1e-3;
 
-/* Solutions for the film of one instant, sweeps after each, and those of them that take the whole
-   change: a sweep that hesitates alternates between two states, and half of it lies between. Along
-   the nodes of rough flanks the oil of one flank flows against that of the other, and in a thin
-   film whole sweeps may go away from its temperatures: after a round that did not end by itself,
-   all sweeps of this instant take half of what they took. Where factors have settled, rounds of
-   temperatures that do not are alike. */
+/* Most rounds for the film of one instant; most sweeps in a round of a step and of a steady film;
+ * sweeps that always take the whole change; and most idle rounds, in which the factors have settled
+ * but the temperatures have not. A sweep that hesitates alternates between two states, and half of
+ * its change lies between them. Along the nodes of rough flanks the oil of one flank flows against
+ * that of the other, so that in a thin film whole sweeps may diverge: after a round that did not
+ * converge, all sweeps of this instant take half of what they took. */
 enum {
     MOST_ROUNDS = 80,
     MOST_PASSES = 8,
@@ -29,36 +29,36 @@ enum {
     FACTORS = EHL_THERMAL_FACTORS
 };
 static const double SHARE_THAT_HESITATES = 0.5, LEAST_SWEEP = 0.125;
-/* Change by a sweep of a steady film, over that of the sweep before, above which it hesitates. */
+/* A sweep of a steady film hesitates if its change is above this share of the change before. */
 static const double SLOW_SWEEP = 0.9;
 
-/* Change of the flow of mass by the factors, relative, below which they are those of the film: it
-   changes h by about as much. A steady film begins without heat, a step next to its solution. A
-   tenth of the bound of rough films moves h_min of ten random ones by 1.6e-3 at most, of eight by
-   less than 3e-4, and friction by less than 3.3e-4 of its largest. */
+/* The factors have settled if they change the flow of mass by less than this, relative; h changes
+ * by about as much. A steady film begins without heat, a step next to its solution. A tenth of the
+ * bound of rough films moves h_min of ten random ones by 1.6e-3 at most, of eight by less than
+ * 3e-4, and friction by less than 3.3e-4 of its largest. */
 static const double SETTLED = 1e-4, SETTLED_STEADY = 1e-5, SETTLED_ROUGH = 1e-3;
-/* Rounds of a steady film after which its factors are accelerated, and the share of their change
-   that is mixed with what the rounds before have shown. */
+/* Rounds of a steady film before its factors are accelerated, and the share of their change that is
+ * then mixed in. */
 static const int PLAIN_ROUNDS = 12;
 static const double MIXED = 0.5;
-/* The share becomes less, down to a least one, while changes do not shrink by this. */
+/* While changes do not shrink by this factor, a smaller share of them is taken, down to a least
+ * one. */
 static const double SHRINKING = 0.95, LEAST_SHARE = 0.15;
-/* Change of ln(eta) by a sweep below which the temperatures are those of the film. */
+/* The temperatures have settled if a sweep changes ln(eta) by less than this. */
 static const double WARM = 1e-3, WARM_STEADY = 1e-6;
-/* The same of a steady film, over what its factors were off before: with temperatures that lag the
-   rounds would not converge, since the factors that they accelerate are not those of the film. */
+/* The same for a steady film, relative to the last error of its factors. With temperatures that lag
+ * behind, the rounds would not converge, since they would accelerate factors of another film. */
 static const double LAGGING = 0.01;
-/* Change of ln(eta) in time up to which laws are followed by their slopes, and ln(eta) by the
-   curvature on the way to the last call: half its square times that curvature is a fifth of SETTLED
-   for laws whose slopes bend as ln(eta)/10, and a twentieth of this is left where the curvature
-   changes by as much of itself. */
+/* Change of ln(eta) up to which a step extrapolates the laws, ln(eta) along a parabola. Half its
+ * square times the curvature is a fifth of SETTLED for laws whose slopes change as ln(eta)/10, and
+ * a twentieth of that remains if the curvature itself changes at that rate. */
 static const double REACH = 0.02;
-/* Change of a column's equations, over their diagonal, up to which the first pass of a step keeps
-   their inverse: it leaves about this share of what it changes, a tenth of WARM. */
+/* Relative change of a column's equations up to which the first pass of a step keeps their inverse.
+ * It leaves about this share of the pass's change, a tenth of WARM. */
 static const double KEPT = 0.1;
 
-/* Fastest and slowest flank of a history along the nodes; FF_UNSUPPORTED where one moves against
-   the oil, or stays in a steady film. */
+/* Finds the fastest and the slowest flank of a history along the nodes. FF_UNSUPPORTED if one moves
+ * against the oil, or stays in a steady film. */
 static ff_status speeds_of(const ff_host *host, const ehl_history *h, double *least, double *most)
 {
     *least = HUGE_VAL;
@@ -188,7 +188,7 @@ void ehl_thermal_restart(ehl_march *m)
     take_factors(t, heat);
 }
 
-/* Sets n values to a line in time through the last two, within their bounds. */
+/* Extrapolates n values linearly in time from the last two states, within their bounds. */
 FF_SIMD
 static void go_on(size_t n, const double *restrict one, const double *restrict two, double ahead,
                   double least, double most, double *restrict now)
@@ -200,7 +200,7 @@ static void go_on(size_t n, const double *restrict one, const double *restrict t
     }
 }
 
-/* Sets `past` to what the difference formula takes of n values. */
+/* Sets `past` to the part of the difference formula that n values of earlier states contribute. */
 FF_SIMD
 static void look_back(size_t n, const double *restrict one, const double *restrict two,
                       const double c[3], double *restrict past)
@@ -226,8 +226,8 @@ static void move_state(const ehl_march *m, size_t k)
     }
 }
 
-/* Sets the temperatures of the trial and its factors to a line in time through the last two, and
-   `past` to what the difference formula takes of them. */
+/* Extrapolates the temperatures of the trial and its factors linearly in time, and sets `past` to
+ * the contribution of earlier states to their change in time. */
 static void predict(ehl_march *m, double time, double c[3])
 {
     ehl_thermal *t = m->thermal;
@@ -243,14 +243,14 @@ static void predict(ehl_march *m, double time, double c[3])
     if (m->smooth >= 2)
         ahead = (time - m->state[0].time) / (m->state[0].time - m->state[1].time);
     look_back(t->width, one, two, c, past);
-    if (m->rough) /* a flank that moves back has its modes from the node behind */
+    if (m->rough) /* a flank that moves back gets its modes from the node behind */
         memcpy(now + temperatures, one + temperatures, (kept - temperatures) * sizeof *now);
     go_on(temperatures, one, two, ahead, t->energy.lowest, t->energy.highest, now);
     go_on(FACTORS * n, one + kept, two + kept, ahead, LEAST_FACTOR, 1 / LEAST_FACTOR, now + kept);
 }
 
-/* Sets p_t, along the path where the nodes move; where asperities were or are in contact it is 0:
-   their pressure is none of the oil. */
+/* Sets p_t, along the path where the nodes move. It is 0 where asperities were or are in contact,
+ * since their pressure is not that of the oil. */
 static void pressure_in_time(const ehl_march *m, const ehl_film *film, const double c[3])
 {
     ehl_thermal *t = m->thermal;
@@ -277,7 +277,7 @@ static void pressure_in_time(const ehl_march *m, const ehl_film *film, const dou
     }
 }
 
-/* What the energy equation sees of the film; r has been evaluated for it. */
+/* Returns the film as the energy equation takes it; r has been evaluated for it. */
 static ehl_energy_film film_of(const ehl_march *m, const ehl_step *step, const ehl_film *film,
                                const double c[3])
 {
@@ -322,14 +322,15 @@ static ehl_energy_film film_of(const ehl_march *m, const ehl_step *step, const e
     return f;
 }
 
-/* Returns the part of these bounds that a film has whose `tolerance` is below the usual one. */
+/* Returns the share of the tolerances above for a film whose own `tolerance` is below the usual
+ * one. */
 static double tightness(const ehl_march *m)
 {
     const double usual = 1e-5, least = 1e-4;
     return fmin(fmax(m->solver->tolerance / usual, least), 1);
 }
 
-/* Computes the temperatures of the film and its factors; 1: they were those already. */
+/* Computes the temperatures of the film and its factors. Returns 1 if both had settled. */
 static int update(ehl_march *m, const ehl_step *step, const ehl_film *film, const double c[3])
 {
     ehl_thermal *t = m->thermal;
