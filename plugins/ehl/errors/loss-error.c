@@ -5,10 +5,10 @@
 
 #include <math.h>
 
-/* Instants on each side that are looked at. */
+/* Instants on each side that enter the estimate. */
 enum { REACH = 3 };
 
-/* Power of the pressure flow at instant k, which goes with the change of the film in time. */
+/* Power of the pressure flow at instant k. It depends on the change of the film in time. */
 static double flow_power(const ehl_results *r, size_t k)
 {
     const double *row = &r->series.data[k * EHL_SERIES];
@@ -20,8 +20,8 @@ static double time_of(const ehl_results *r, size_t k)
     return r->series.data[k * EHL_SERIES + EHL_TIME];
 }
 
-/* Returns how far instant k is off the polynomial through the `count` instants on one side of it,
-   `way` being 1 or -1, by Neville's scheme. */
+/* Returns the distance of instant k from the polynomial through the `count` instants on one side of
+ * it, by Neville's scheme; `way` is 1 for the later side, -1 for the earlier one. */
 static double off_polynomial(const ehl_results *r, size_t k, int way, size_t count)
 {
     double at[REACH], q[REACH], time = time_of(r, k);
@@ -36,19 +36,19 @@ static double off_polynomial(const ehl_results *r, size_t k, int way, size_t cou
     return flow_power(r, k) - q[0];
 }
 
-/*
- * A power that leaps lies on the polynomial from the side which it has leapt to. A smooth curve is
- * to the same side of its lines (count 2) from either side, and a cubic to opposite sides of its
- * parabolas (count 3), and is no error: only an instant that is itself off is so to the same side
- * of both.
- */
+/* Returns the smaller distance of instant k from the polynomials of both sides; 0 if they have
+ * different signs. A power that jumps lies on the polynomial of the side it has jumped to. A smooth
+ * curve lies on the same side of both lines (count 2), a cubic on opposite sides of both parabolas
+ * (count 3), which is no error: only an instant that is itself wrong lies on the same side of both
+ * parabolas. */
 static double off_both(const ehl_results *r, size_t k, size_t count)
 {
     double before = off_polynomial(r, k, -1, count), behind = off_polynomial(r, k, 1, count);
     return before * behind < 0 ? 0 : fmin(fabs(before), fabs(behind));
 }
 
-/* Returns 1 when all instants within REACH are loaded ones of one engagement, later and later. */
+/* Returns 1 if all instants within REACH are loaded, of one engagement, and each is later than the
+ * one before. */
 static int is_inside(const ehl_results *r, size_t k)
 {
     const double *number = &r->series.data[k * EHL_SERIES + EHL_ENGAGEMENT];
@@ -59,12 +59,11 @@ static int is_inside(const ehl_results *r, size_t k)
     return inside;
 }
 
-/*
- * (10.2) takes the change in time wrongly by dt (dt + dt_1)/6 of its second derivative, and a power
- * that goes with this change is off by a third of what it is off the line through two neighbours.
- * (10.1) is late by half a step, and one of them behind a kink leaves the parabola of what follows
- * by its error. Negative where no instant has REACH loaded ones on both sides.
- */
+/* The error of (10.2) in the change in time is dt (dt + dt_1)/6 times its second derivative, so
+ * that the error of a power that depends on this change is a third of its distance from the line
+ * through two neighbours. (10.1) is late by half a step. A wrong instant behind a kink leaves the
+ * parabola of the later instants by its error. Negative if no instant has REACH loaded ones on both
+ * sides. */
 double ehl_results_loss_in_time(const ehl_results *r, const ehl_march *m)
 {
     double worst = -1;

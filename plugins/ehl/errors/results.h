@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is kept of a run, and which of its outputs are wanted. */
+/* The results of a run that are kept, and which of its outputs are wanted. */
 #ifndef EHL_RESULTS_H
 #define EHL_RESULTS_H
 
@@ -9,20 +9,20 @@
 #include "carried.h"
 #include "space-error.h"
 
-/* Columns of the errors by the cells: those of EHL_BOUNDS, m and Pa, bounds or, of films, where
-   EHL_MEASURED + EHL_LEAST or EHL_CENTRAL is 1, what they are, negative of a film that is too thin.
-   EHL_NARROW: of p_max, infinite where the cells do not resolve a peak, what is left of that error
-   where more cells did, else 0. EHL_TIP: of p_max,
-   Pa, no error of it is less where the film is not looked at on more cells. */
+/* Columns of the errors by the cells. Those of EHL_BOUNDS, in m and Pa, are bounds; for a film
+ * whose EHL_MEASURED + EHL_LEAST or EHL_CENTRAL is 1 they are the error itself, negative if the
+ * film is too thin. EHL_NARROW, for p_max: infinite if the cells do not resolve a peak; the
+ * remaining error if more cells did; else 0. EHL_TIP, for p_max, Pa: a lower bound of its error if
+ * the film is not computed on more cells. */
 enum { EHL_MEASURED = EHL_BOUNDS, EHL_NARROW = EHL_MEASURED + EHL_BOUNDS, EHL_TIP, EHL_SPACE };
 
-/* A table of rows of equal width, which grows: their number is known at the end only. */
+/* A table of rows of equal width, which grows, since their number is only known at the end. */
 typedef struct ehl_rows {
     double *data;
     size_t width, count, room;
 } ehl_rows;
 
-/* A row at whose p_max was looked, on more cells. */
+/* A row whose p_max was computed on more cells. */
 typedef struct ehl_look {
     size_t row, begin; /* begin: of the passage before it */
     double tip;        /* Pa, what p_max is without the error of the cells */
@@ -48,26 +48,26 @@ typedef struct ehl_results {
     double worst_load, worst_mass, worst_complement, lost_force;
     double least_resolution, least_inlet;
     double starvation, worst_starvation; /* share of the film: mean over a passage, its largest */
-    int fed;                             /* the domain begins with the pressure of a longer one */
-    double outlet_load, worst_outlet;    /* share of the load: mean over a passage, its largest */
-    double worst_in_time[2];             /* errors of h_min and h_central by the steps, relative */
-    double least_in_time;                /* m, the lowest that h_min may be with it */
+    int fed; /* the domain begins with the pressure that a longer one has there */
+    double outlet_load, worst_outlet; /* share of the load: mean over a passage, its largest */
+    double worst_in_time[2];          /* errors of h_min and h_central by the steps, relative */
+    double least_in_time;             /* m, the lowest that h_min may be with that error */
     double worst_peak_in_time,
         highest_in_time; /* p_max: relative; Pa, the highest that it may be */
-    /* what bounds h_min where it is made, relative: at the last instant, 0: none yet; at all */
+    /* relative bound of h_min where the film is made: of the last instant (0: none yet); of all */
     double by_cells, worst_by_cells;
-    double tolerance; /* the largest of those that the films were solved to */
-    double share;     /* of the bounds of p_max that remains where it was not looked at; 1: all */
-    ehl_look look[EHL_LOOKS]; /* at rows, by their order */
+    double tolerance; /* the largest tolerance that the films were solved to */
+    double share;     /* share of the bound of p_max that remains at rows without a look; 1: all */
+    ehl_look look[EHL_LOOKS]; /* in the order of their rows */
     size_t looks;
-    double known_error[2];  /* largest errors by the cells and by the steps lately, relative */
-    int transported;        /* errors of h_min and h_central are those of their transport */
+    double known_error[2];  /* largest recent errors by the cells and by the steps, relative */
+    int transported;        /* errors of h_min and h_central come from their transport equation */
     int measured[EHL_PEAK]; /* 1: h_min, h_central were measured at some rows */
-    int finest;             /* the most cells at which, over those of the run */
-    size_t narrow;        /* the most for narrow peaks, over those of the run; 0: there are none */
-    ehl_rows space;       /* what the cells add to h_min, h_central, p_max */
-    double *row_in_space; /* its row that is being filled in */
-    double worst_gap_excess, widest_gap;                    /* while the contact is lost, m */
+    int finest;             /* most cells used for that, over those of the run */
+    size_t narrow;  /* most cells used for narrow peaks, over those of the run; 0: there are none */
+    ehl_rows space; /* what the cells add to h_min, h_central, p_max */
+    double *row_in_space;                /* the row of `space` that is being filled in */
+    double worst_gap_excess, widest_gap; /* while the contact is lost, m */
     double share_sum, ratio_sum, trapped_sum, worst_supply; /* sums over rough, loaded instants */
     double least_gap;                                       /* of statistical flanks, over sigma */
     double yield_sum, deepest_yield, worst_yield; /* the same; deepest_yield: plastic part, m */
@@ -81,27 +81,27 @@ typedef struct ehl_results {
     int lowest_alone, highest_alone; /* 1: no h_min, or no p_max, of another instant is wanted */
 } ehl_results;
 
-/* Fills in what the film dissipates. */
+/* Fills in the losses of the film. */
 void ehl_results_loss(ehl_results *r, const ehl_march *m);
 
-/* Estimates the error of the rolling and squeeze in power_loss by the time steps, W/m: the largest
-   of all instants; negative where none is looked at. */
+/* Estimates the error by the time steps of rolling and squeeze in power_loss, W/m, the largest of
+ * all instants; negative if there is no estimate. */
 double ehl_results_loss_in_time(const ehl_results *r, const ehl_march *m);
 
 /* Estimates the errors of the row that is being filled in; h_min is at `node`. */
 void ehl_results_errors(ehl_results *r, const ehl_march *m, size_t node, double h_central,
                         double p_max);
 
-/* What the cells and the steps add to h_min and h_central of the newest film, by the transport of
-   its errors: bars, m, negative of a film that is too thin. */
+/* Errors of h_min and h_central of the newest film by the cells and by the steps, from their
+ * transport equation: bars in m, negative if the film is too thin. */
 typedef struct ehl_transported {
     double by_cells[EHL_PEAK], by_steps[EHL_PEAK];
 } ehl_transported;
 
 ehl_transported ehl_results_transported(ehl_results *r, const ehl_march *m);
 
-/* Returns what bounds the error of p_max by the cells in the newest film of the march, Pa, infinite
-   where they do not resolve its peak. The gap is that of the film. */
+/* Returns a bound of the error of p_max by the cells in the newest film of the march, Pa; infinite
+ * if the cells do not resolve its peak. The reynolds must have the gap of that film. */
 double ehl_peak_bound(const ehl_march *m);
 
 /* Keeps the newest film of the march; f->change has room for its nodes. */
@@ -112,30 +112,31 @@ void ehl_space_keep(const ehl_march *m, ehl_instant_film *f);
 ff_status ehl_results_measure(ehl_results *r, const ehl_march *m, const ehl_history *whole,
                               int equal);
 
-/* What the cells add to the error of h_min, h_central or p_max of a row, m or Pa. */
+/* Returns the error by the cells of h_min, h_central or p_max of a row, m or Pa. */
 double ehl_space_part(const ehl_results *r, size_t row, int kind);
 
-/* 1: of h_min, or of p_max, its extreme over all instants alone is wanted. */
+/* 1: only the extreme of h_min, or of p_max, over all instants is wanted. */
 int ehl_wants_lowest_alone(uint64_t wanted);
 int ehl_wants_highest_alone(uint64_t wanted);
 
-/* The outputs that an error of h_min, of h_central or of p_max is one of. A friction goes with the
-   film in the middle, and with the pressure as the viscosity does. */
+/* Whether an output is wanted that depends on h_min, h_central or p_max. A friction depends on the
+ * central film, and on the pressure as the viscosity does. */
 int ehl_wants_h_min(uint64_t wanted);
 int ehl_wants_h_central(uint64_t wanted);
 int ehl_wants_p_max(uint64_t wanted);
 int ehl_wants_p_max_itself(uint64_t wanted); /* not its distribution, nor a friction alone */
 
-/* The least film, by a parabola, with its node in *at; that at x = 0; of the gap that r has. */
+/* Return the least film, by a parabola, with its node in *at, and the film at x = 0, of the gap
+ * that r has. */
 double ehl_least_film(const ehl_reynolds *r, size_t *at);
 double ehl_central_film(const ehl_grid *g, const ehl_reynolds *r);
 
-/* Returns 1 when an error of a film by the cells is estimated. */
+/* Returns 1 if an error of a film by the cells is estimated. */
 int ehl_results_estimate_cells(const ehl_results *r);
-/* The lines of those errors. */
+/* Writes the quality lines of these errors. */
 void ehl_results_report_cells(const ehl_results *r, const ehl_march *m);
 
-/* 1: an output is wanted that takes the shear stress, or one that takes the pressure flow. */
+/* 1: an output is wanted that needs the shear stress, or one that needs the pressure flow. */
 int ehl_loss_of_shear(uint64_t wanted);
 int ehl_loss_of_flow(uint64_t wanted);
 

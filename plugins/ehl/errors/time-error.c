@@ -12,8 +12,8 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* Fills in (a^2 - s^2)^(1/2) d'(s) dx/(x - s) of n cells, e and h being those of their nodes and s
-   the middle of the first. */
+/* Fills in (a^2 - s^2)^(1/2) d'(s) dx/(x - s) for n cells. e and h are those of the nodes, s is the
+ * middle of the first cell. */
 FF_SIMD
 static void fill_parts(size_t n, const double *restrict e, const double *restrict h, double a,
                        double s, double dx, double x, double *restrict part)
@@ -58,11 +58,9 @@ void ehl_results_peak_in_time(ehl_results *r, const ehl_march *m, size_t peak, d
     ehl_worse(&r->highest_in_time, p_max + off);
 }
 
-/*
- * How far a parabola goes beyond both values in the middle, between t[1] and t[2]. Of the two
- * parabolas through three neighbours of four the flatter counts: of a peak both are bent; of a
- * value that drops or turns at an instant one is that of the smooth side alone.
- */
+/* Returns how far a parabola exceeds both values in the middle, between t[1] and t[2]. Two
+ * parabolas go through three of the four neighbours; the flatter one counts. At a peak both are
+ * bent. If the value drops or turns at an instant, the flatter one is that of the smooth side. */
 static double beyond_both(const double t[4], const double y[4])
 {
     double slope[3], within = t[2] - t[1];
@@ -74,7 +72,7 @@ static double beyond_both(const double t[4], const double y[4])
     return rise > 0 ? rise * rise / (2 * bend) : 0;
 }
 
-/* Whether that row is of the same engagement as the one before, and later. */
+/* Whether a row is of the same engagement as the row before, and later. */
 static int goes_on(const double *row)
 {
     const double *before = row - EHL_SERIES;

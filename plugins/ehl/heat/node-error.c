@@ -1,26 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * What the nodes across a film leave of it: its temperatures and flow are computed once more with a
- * half more nodes, at the same pressure and gap, and what that changes is the error of the nodes
- * that there are. It falls faster than any power of them, so that nearly all of it is seen.
- */
+/* Estimates the error by the number of nodes across a film. The temperatures and the flow are
+ * computed again with one and a half times as many nodes, at the same pressure and gap; the change
+ * is the error of the fewer nodes. Since the error falls faster than any power of their number, the
+ * change has nearly all of it. */
 #include "thermal.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Sweeps on the other nodes: they begin at the temperatures of the film. */
+/* Sweeps on the other nodes, which begin at the temperatures of the film. */
 enum { SWEEPS = 20 };
 
-/* Rise of the temperature, over that of the hottest instant that was looked at, from which on
-   another one is. */
+/* Another instant is checked if its temperature rise exceeds the highest one checked by this
+ * factor. */
 static const double HOTTER = 1.1;
 
-/* Returns by how much the film or its friction is off, relative, where its flow is `now` in place
-   of `then`. The film is the one whose inlet takes exp(-alpha p) from 1 to 0 (as 13.6), so that a
-   mobility that is off counts by its part of this way. What is behind carries the oil off, and has
-   the friction. */
+/* Returns the relative error of the film or its friction if the flow is `now` instead of `then`.
+ * The film is made where exp(-alpha p) falls from 1 to 0 in the inlet (as 13.6), so that an error
+ * of the mobility at a node counts by its part of this fall. The oil behind carries the film off
+ * and has the friction. */
 static double change_of_film(const ehl_energy *now, const ehl_energy *then,
                              const ehl_energy_film *f, double alpha)
 {
@@ -41,13 +40,13 @@ static double change_of_film(const ehl_energy *now, const ehl_energy *then,
     return film + fmax(carried, drag);
 }
 
-/* A half more of them, or a quarter less where there is no room. */
+/* Returns one and a half times as many nodes, or a quarter fewer if there is no room for more. */
 static size_t other_nodes(size_t n)
 {
     return n + n / 2 <= EHL_ACROSS_MOST ? n + n / 2 : n - n / 4;
 }
 
-/* Returns what the nodes across are off by; infinite: it is not known. */
+/* Returns the error by the number of nodes across; infinite: it is not known. */
 static double error_of(ehl_energy *other, const ehl_energy *e, const ehl_energy_film *f,
                        const ehl_temperature *film, double alpha)
 {
