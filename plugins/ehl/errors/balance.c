@@ -39,8 +39,8 @@ void ehl_balance_destroy(ehl_balance *b)
     b->memory = NULL;
 }
 
-/* Returns where that time lies between row b->row and the next, 0 to 1; below 0 where the history
-   jumps. */
+/* Returns where the time lies between row b->row and the next, 0 to 1; below 0 where the history
+ * jumps. */
 static double share_of_row(ehl_balance *b, const ehl_history *h, double time)
 {
     size_t i = b->row >= h->count || time < h->time[b->row] ? 0 : b->row;
@@ -83,7 +83,7 @@ static int is_void(const ehl_reynolds *eq, const ehl_film *film, size_t i)
     return eq->conserving && !film->full[i] && i > 0 && i + 1 < eq->nodes;
 }
 
-/* Factors on the mass of a film with temperatures across it (thermal.h). */
+/* Factors on density and carried mass of a film with temperatures across it (thermal.h). */
 static double swelling(const ehl_reynolds *eq, size_t i)
 {
     return eq->swell ? eq->swell[i] : 1;
@@ -94,8 +94,7 @@ static double carrying(const ehl_reynolds *eq, size_t i)
     return eq->carry ? eq->carry[i] : 1;
 }
 
-/* Computes the masses of one of the newest films from its pressure and gap; of the newest b->rho,
-   too. */
+/* Computes the masses of state k from its pressure and gap; for the newest state b->rho, too. */
 static void compute_mass(const ehl_balance *b, const ehl_march *m, size_t k)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -114,8 +113,8 @@ static void compute_mass(const ehl_balance *b, const ehl_march *m, size_t k)
         b->mass[k][i] *= is_void(eq, film, i) ? 1 : eq->swell[i];
 }
 
-/* Checks the masses that the next step starts from; between asperities in contact some may be
-   missing. */
+/* Checks the masses that the next step starts from. Where asperities are in contact, mass may be
+ * missing. */
 static void check_kept_oil(ehl_balance *b, const ehl_march *m)
 {
     const ehl_state *s = &m->state[0];
@@ -152,7 +151,7 @@ static void differentiate(ehl_balance *b, const ehl_march *m)
         b->change[i] = c[0] * b->mass[0][i] + c[1] * b->mass[1][i] + c[2] * b->mass[2][i];
 }
 
-/* Returns the mobility between two nodes from those of both. */
+/* Returns the mobility of the face between two nodes. */
 FF_SIMD_INLINE double between(double f, double next)
 {
     double sum = f + next, s = sum > 0 ? 4 * f * next / (sum * sum) : 0;
@@ -198,7 +197,7 @@ static void compute_flow(ehl_balance *b, const ehl_march *m)
     b->face[n - 1] = 0;
 }
 
-/* Computes b->left: what flows into volume i through its ends, less what is stored there. */
+/* Computes b->left: the flow into volume i through its ends, minus the storage there. */
 static void balance_cells(ehl_balance *b, const ehl_march *m)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -217,7 +216,7 @@ static void balance_cells(ehl_balance *b, const ehl_march *m)
     }
 }
 
-/* Returns the same for a volume from node i - 1 to node i (reynolds.h). */
+/* Returns the flow through the face of volumes that lie from node i - 1 to node i (reynolds.h). */
 static double asymmetric_gain(const ehl_balance *b, const ehl_march *m, size_t i)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -240,9 +239,9 @@ static void balance_intervals(ehl_balance *b, const ehl_march *m)
     }
 }
 
-/* Returns the largest mass that the volumes from `first` to another node do not balance, downstream
-   of it with way = 1 and upstream with -1, over what passes there: the entrained oil, and the
-   pressure flow of `per_cell`, the pressure over a cell. */
+/* Returns the largest sum of the imbalances of the volumes from `first` to another node, downstream
+ * with way = 1 and upstream with -1. It is relative to the flow there: the entrained oil, and the
+ * pressure flow of `per_cell`, the pressure over a cell. */
 static double largest_left(const ehl_balance *b, const ehl_march *m, double flow_scale,
                            double per_cell, size_t first, int way)
 {
@@ -258,8 +257,8 @@ static double largest_left(const ehl_balance *b, const ehl_march *m, double flow
     return isfinite(sum) ? most : NAN;
 }
 
-/* Returns the mass that the volumes between the highest pressure and any other node do not balance;
-   the pressure is known to a share of p_max alone. */
+/* Returns the largest mass that the volumes between the highest pressure and any other node do not
+ * balance. The pressure is only known to a share of p_max. */
 static double check_mass(ehl_balance *b, const ehl_march *m, double flow_scale, size_t peak)
 {
     const ehl_reynolds *eq = m->solver->reynolds;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The errors of outputs by the transport of those of the film. */
+/* Errors of outputs from the transport equation of the film's errors. */
 #include "results.h"
 
 #include "../time/error-transport.h"
@@ -7,14 +7,15 @@
 #include <math.h>
 #include <string.h>
 
-/* A bar is so many times the error: that of a linear equation, with what is known of tau. */
+/* A bar is this many times the error, which is that of a linear equation, from tau as far as it is
+ * known. */
 static const double CAUTION = 1.5;
 
 /* An output whose error crosses 0 is known no better than this share of the largest error of the
    film in the last passage. */
 static const double FLOOR = 1. / 3;
 
-/* Outputs of the film less that error, m. */
+/* Computes h_min and h_central of the film without the error, m. */
 static void films_without(ehl_results *r, const ehl_march *m, const double *error, double *film)
 {
     ehl_reynolds *eq = m->solver->reynolds;
