@@ -47,11 +47,9 @@ static void place(ehl_across *a)
     a->z[n] = 1;
 }
 
-/*
- * The stiffness of a spectral vanishing viscosity (Tadmor 1989; Maday, Ould Kaber & Tadmor 1993):
- * of the slopes only the modes above sqrt(count) resist, which a resolved temperature does not
- * have.
- */
+/* The stiffness of a spectral vanishing viscosity (Tadmor 1989; Maday, Ould Kaber & Tadmor 1993):
+ * it resists only the slopes of modes above sqrt(count), which a resolved temperature does not
+ * have. */
 static void damp_highest(ehl_across *a)
 {
     size_t n = a->count, last = n - 2, first = (size_t)sqrt((double)n);

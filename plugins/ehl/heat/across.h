@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Nodes across a film, 0 at flank 1 to 1 at flank 2: those of Gauss, Legendre and Lobatto. */
+/* Nodes across a film, from 0 at flank 1 to 1 at flank 2: the nodes of Gauss, Legendre and Lobatto.
+ */
 #ifndef EHL_ACROSS_H
 #define EHL_ACROSS_H
 
@@ -14,18 +15,18 @@ typedef double ehl_across_matrix[EHL_ACROSS_MOST][EHL_ACROSS_MOST];
 typedef struct ehl_across {
     size_t count;
     double z[EHL_ACROSS_MOST];
-    double weight[EHL_ACROSS_MOST]; /* of an integral, exact up to the degree 2 count - 3 */
-    /* [l][k]: at node k, of the polynomial that is 1 at node l alone */
+    double weight[EHL_ACROSS_MOST]; /* of the integral, exact up to the degree 2 count - 3 */
+    /* [l][k]: of the polynomial that is 1 at node l and 0 at the others, at node k */
     ehl_across_matrix slope;                       /* d/dz */
     ehl_across_matrix integral;                    /* from 0 to node k */
     ehl_across_matrix stiffness;                   /* int (dv/dz) (dT/dz) dz */
-    ehl_across_matrix damping;                     /* the same, of the highest modes alone */
+    ehl_across_matrix damping;                     /* stiffness of the highest modes alone */
     double fine[EHL_ACROSS_FINE][EHL_ACROSS_MOST]; /* values at equal distances */
-    double swing; /* largest size of one of these where those at the nodes are between -1 and 1 */
+    double swing; /* largest of these values of a polynomial between -1 and 1 at the nodes */
 } ehl_across;
 
-/* Sets out[k] to the sum of m[l * stride + k] values[l] over l < n, k < n. Rows of a matrix, and
-   what is computed from them, have room up to a multiple of EHL_LANES. */
+/* Sets out[k] to the sum of m[l * stride + k] values[l] over l < n, for k < n. Rows of a matrix and
+ * the output have room up to a multiple of EHL_LANES. */
 FF_SIMD_INLINE void ehl_across_apply(const double *m, size_t stride, size_t n, const double *values,
                                      double *out)
 {
@@ -39,15 +40,16 @@ FF_SIMD_INLINE void ehl_across_apply(const double *m, size_t stride, size_t n, c
     }
 }
 
-/* Returns the highest of `most` and EHL_ACROSS_FINE values of the polynomial through those at the
-   nodes. */
+/* Returns the largest of `most` and of EHL_ACROSS_FINE values of the polynomial through the values
+ * at the nodes. */
 double ehl_across_highest(const ehl_across *a, const double *values, double most);
 
-/* Sets `to` to the polynomials through `values` of as many columns, at other nodes. */
+/* Evaluates the polynomials through `values`, one for each of the columns, at the nodes of another
+ * across. */
 void ehl_across_move(const ehl_across *a, const ehl_across *other, size_t columns,
                      const double *values, double *to);
 
-/* EHL_ACROSS_LEAST to EHL_ACROSS_MOST nodes. */
+/* Creates EHL_ACROSS_LEAST to EHL_ACROSS_MOST nodes. */
 void ehl_across_create(ehl_across *a, size_t count);
 
 #endif

@@ -19,37 +19,39 @@
 
 #include <stddef.h>
 
-/* EHL_MODES: a multiple of the modes that are treated at once, as is `count`; those beyond the last
-   one have no weight. */
+/* EHL_MODES and `count` are multiples of the modes that are treated at once; modes beyond the last
+ * one have no weight. */
 enum { EHL_MODES = 40 };
 
 typedef struct ehl_half_space {
     size_t count;
-    double lambda[EHL_MODES], weight[EHL_MODES]; /* 1/s; of the kernel, s^(-1/2) = sum */
-    double instant;                              /* of those that are at once steady, s^(1/2) */
-    double scale;                                /* 1/(sqrt(pi) B), m2 K s^(1/2)/J */
+    /* 1/s; of the kernel, s^(-1/2) = sum weight exp(-lambda s) */
+    double lambda[EHL_MODES], weight[EHL_MODES];
+    double instant; /* weight of the modes that are steady at once, s^(1/2) */
+    double scale;   /* 1/(sqrt(pi) B), m2 K s^(1/2)/J */
 } ehl_half_space;
 
-/* A flank with B in J/(m2 K s^(1/2)), for times from `shortest` to `longest`, s. */
+/* Creates a flank with B in J/(m2 K s^(1/2)), for times from `shortest` to `longest`, s. */
 void ehl_half_space_create(ehl_half_space *f, double B, double shortest, double longest);
 
-/* What a step makes of a mode on the way from a node to the next one: keep times the mode, plus
-   `before` and `here` times its source at both. */
+/* Passage of a mode from a node to the next one: it becomes `keep` times the mode plus `before` and
+ * `here` times its sources at both nodes. */
 typedef struct ehl_passage {
     double keep[EHL_MODES], before[EHL_MODES], here[EHL_MODES];
-    double own; /* K m2/W: temperature at a node by the flux at it */
+    double own; /* K m2/W: temperature at a node per flux at it */
 } ehl_passage;
 
-/* The flank moves at u >= 0 along nodes dx apart, and d phi/dt = rate phi + past. */
+/* Computes the passage of a flank that moves at u >= 0 along nodes dx apart, with d phi/dt = rate
+ * phi + past. */
 void ehl_half_space_pass(const ehl_half_space *f, double u, double dx, double rate, ehl_passage *p);
 
-/* Sets the modes at a node to their part without the flux there, from those at the node before and
-   its flux, with the pasts of both; NULL: steady. Returns that part of T - T_bulk. */
+/* Sets the modes at a node to their part without the flux there, from the modes and the flux at the
+ * node before and the pasts of both nodes; NULL: steady. Returns that part of T - T_bulk. */
 double ehl_half_space_reach(const ehl_half_space *f, const ehl_passage *p,
                             const double *modes_before, double flux_before,
                             const double *past_before, const double *past, double *modes);
 
-/* Adds the flux at the node. */
+/* Adds the flux at the node to its modes. */
 void ehl_half_space_add(const ehl_half_space *f, const ehl_passage *p, double flux, double *modes);
 
 #endif

@@ -25,14 +25,14 @@ double ehl_thermal_pressure_flow(const ehl_march *m)
     return sum * r->dx;
 }
 
-/* Returns the heat that a flank has taken up to node `end` of a steady film, from its temperature
-   alone: B sqrt(u/pi) int (T - T_bulk)/sqrt(x_end - x) dx, T linear between the nodes. */
+/* Returns the heat that a flank of a steady film has taken up to node `end`, from its temperature
+ * alone: B sqrt(u/pi) int (T - T_bulk)/sqrt(x_end - x) dx, T linear between the nodes. */
 static double taken_by_flank(const ehl_thermal *t, size_t flank, const double *T, size_t stride,
                              double dx, double u, size_t end)
 {
     double sum = 0, B = 1 / (t->energy.flank[flank].scale * sqrt(pi));
     for (size_t i = 0; i < end; i++) {
-        /* over a cell from `far` to `near` cells in front of the end */
+        /* over a cell from `far` to `near` cells upstream of the end */
         double near = (double)(end - i - 1), far = near + 1, whole = 2 * (sqrt(far) - sqrt(near));
         double tilt = far * whole - 2. / 3 * (far * sqrt(far) - near * sqrt(near));
         double left = T[i * stride] - t->energy.T_in, right = T[(i + 1) * stride] - t->energy.T_in;
@@ -41,7 +41,7 @@ static double taken_by_flank(const ehl_thermal *t, size_t flank, const double *T
     return sum * B * sqrt(u * dx / pi);
 }
 
-/* Returns the heat that flows with the oil past node i, over that of oil as it entered. */
+/* Returns the heat that the oil carries past node i, beyond that of oil as it entered. */
 static double carried_past(const ehl_energy *e, const double *T, size_t i)
 {
     const ehl_across *a = &e->across;
@@ -51,11 +51,9 @@ static double carried_past(const ehl_energy *e, const double *T, size_t i)
     return sum * e->heat_capacity;
 }
 
-/*
- * The heat of a steady film by other sums: what is dissipated by the forces on the flanks and the
- * pressure flow, what the oil carries out of the film, and what the flanks have taken by their
- * temperature. It falls with the cells.
- */
+/* Balances the heat of a steady film by other sums: the heat dissipated by the forces on the flanks
+ * and by the pressure flow, the heat that the oil carries out of the film, and the heat that the
+ * flanks have taken up, by their temperature. The imbalance falls with the cells. */
 static double steady_balance(const ehl_march *m, const ehl_energy_film *f,
                              const ehl_energy_sums *sum)
 {
@@ -108,7 +106,7 @@ void ehl_thermal_report(const ehl_thermal *t, const ff_host *host, const ehl_mar
 {
     const double enough = 0.05, limit = 10 * fmax(m->solver->tolerance, 1e-4), slow = 5;
     char text[200];
-    /* first: what is wrong with a film that is cut is said by this line */
+    /* reported first, since it explains a film whose temperature is cut */
     host->quality(host->ctx, "temperature_max", t->highest, t->energy.highest,
                   t->highest < t->energy.highest ? FF_GOOD : FF_BAD,
                   "highest temperature of the film, K, below that at which it is cut");
