@@ -135,7 +135,7 @@ C14 gears with the tips of their drawing, a mineral oil of 13.28 mPa s, 200 N m,
 
 | | printed | here |
 |---|---|---|""")
-C14 = run(C_PT, ["film={use: ehl/film-formula}", "flanks=", "losses={use: losses/tooth-mesh, lubricant_factor: 0.846}", "gears.roughness_ra=0.355 um",
+C14 = run(C_PT, ["film={use: ehl/film-formula}", "film.bulk=", "flanks=", "losses={use: losses/tooth-mesh, lubricant_factor: 0.846}", "gears.roughness_ra=0.355 um",
                  "gears.tip_diameter=[82.64 mm, 118.54 mm]", "duty.torque=200 N m", "duty.speed=1500 rpm",
                  "oil={use: lubricant/measured, eta0: 13.28 mPa s, at: 90 degC, density_15: 880 kg/m3, base: mineral}",
                  "outputs=[losses.friction_coefficient_formula, losses.loss_factor]"])
