@@ -225,7 +225,7 @@ void ehl_inlet_heating_report(const ff_host *host, const ehl_inlet_heating *heat
         double Q = oil->viscosity * slope * at.entrainment * at.entrainment / heating->conductivity;
         double S = fabs(at.sliding) / at.entrainment;
         if (p_hertz <= p_worst && Q <= Q_worst && S <= S_worst)
-            continue; /* the share grows with each of these numbers */
+            continue; /* the lost share grows with each of these numbers */
         double here = 1 - ehl_gupta_factor(p_hertz, h->modulus, Q, S);
         if (here > lost) {
             lost = here;
@@ -282,11 +282,12 @@ double ehl_starvation(const ehl_oil *oil, const ehl_instant *at, double modulus,
     double share = fmin(1, pow(rigid, 7. / 3));
     double elastic = pressed + (0.2 - 0.1 * thickened) * unloaded;
     double missing = share * unloaded + (1 - share) * elastic;
-    return missing / (1 + missing); /* of the film without end; missing: of what is there */
+    return missing / (1 + missing); /* of the endless inlet's film; missing: of the film left */
 }
 
-/* Squeezed flanks drive int dh/dt dx through the inlet, beside the u (h - h_e) of a steady film;
-   what spreads with x^2 counts a third. */
+/* Returns the share of the starvation that a domain with pressure `fed` at its end leaves. Squeezed
+ * flanks drive int dh/dt dx through the inlet, in addition to the u (h - h_e) of a steady film; a
+ * closing speed that grows with x^2 (`spreading`) counts a third. */
 double ehl_unfed(const ehl_oil *oil, const ehl_instant *at, double modulus, double h, double end,
                  double fed, double closing, double spreading)
 {
@@ -299,8 +300,8 @@ double ehl_unfed(const ehl_oil *oil, const ehl_instant *at, double modulus, doub
     return fmin(1, fabs(1 - fed / l.pressure) + squeezed / (fabs(at->entrainment) * opened));
 }
 
-/* Returns the largest share of the film that a domain from x = -end on leaves out, mean over a
-   passage of the contact, of the steady films of the loaded instants; looks at each `stride`-th. */
+/* Returns the largest share of the film that a domain from x = -end on leaves out, by the steady
+ * films of every `stride`-th loaded instant, averaged over a passage of the contact. */
 static double most_starved(const ehl_history *h, const ehl_oil *oil, double end, size_t stride)
 {
     double worst = 0, mean = 0;
@@ -321,7 +322,7 @@ static double most_starved(const ehl_history *h, const ehl_oil *oil, double end,
 double ehl_inlet_supplied(const ehl_history *h, const ehl_oil *oil)
 {
     enum { LIMIT = 30 };
-    const double most = EHL_STARVED_LIMIT / 1.5; /* the estimate is right within that factor */
+    const double most = EHL_STARVED_LIMIT / 1.5; /* the estimate is right within this factor */
     double widest = 0, end = 0, missing;
     for (size_t i = 0; i < h->count; i++) {
         ehl_instant at = ehl_history_row(h, i);
@@ -331,18 +332,16 @@ double ehl_inlet_supplied(const ehl_history *h, const ehl_oil *oil)
         if (at.load >= EHL_LIGHT_LOAD * h->load_max)
             end = fmax(end, a + 4 * s);
     }
-    /* it falls with the square of the distance from the contact, or slower near to it */
+    /* the share falls with the square of the distance from the contact, or more slowly near it */
     for (int k = 0; k < LIMIT && (missing = most_starved(h, oil, end, 1)) > most; k++)
         end = widest + (end - widest) * fmin(2, fmax(1.02, sqrt(missing / most)));
     return end;
 }
 
-/*
- * Returns the largest error of h_central by the cells at a loaded instant, over the square of their
- * width, 1/m2. With cells of dx it is (0.2 + 0.05 L (1 + (l/a)^2)) (dx/l)^2, l being the length
- * over which the pressure of the inlet rises: fitted to steady films of L 0 to 15 with more than
- * three cells over l.
- */
+/* Returns the largest error of h_central by the cells at a loaded instant, over the square of their
+ * width, 1/m2. With cells of width dx the error is (0.2 + 0.05 L (1 + (l/a)^2)) (dx/l)^2, where l
+ * is the build-up length of the pressure in the inlet. Fitted to steady films of L 0 to 15 with
+ * more than three cells over l. */
 static double most_by_cells(const ehl_history *h, const ehl_oil *oil, size_t stride)
 {
     double worst = 0;
@@ -361,8 +360,8 @@ static double most_by_cells(const ehl_history *h, const ehl_oil *oil, size_t str
     return worst;
 }
 
-/* Returns the least length of an inlet, m. Loads that are too light to count are taken as the least
-   that counts. */
+/* Returns the least length of an inlet, m. Loads too light to count are replaced by the least load
+ * that counts. */
 static double shortest_inlet(const ehl_history *h, const ehl_oil *oil)
 {
     double end = 0;
@@ -375,17 +374,16 @@ static double shortest_inlet(const ehl_history *h, const ehl_oil *oil)
     return end;
 }
 
-/* A film that owes less than this to the longest inlet's cells keeps that inlet: with more cells
-   the domain is the same then, and the error falls as their square. */
+/* The longest inlet is kept if its cells cost less than this share of the film: the domain then
+ * does not depend on the number of cells, and the error falls as the square of their width. */
 static const double ENOUGH = 0.02;
 
 double ehl_inlet_balanced(const ehl_history *h, const ehl_oil *oil, size_t cells, double outlet,
                           double longest)
 {
     enum { ROWS = 256, ROUNDS = 20 };
-    const double close = 0.01; /* of the length, which errors of the film hardly tell */
-    const double most =
-        0.05; /* lost for the sake of instants that have too few cells at any length */
+    const double close = 0.01; /* of the length; it hardly changes the film's errors */
+    const double most = 0.05;  /* lost at most for instants that have too few cells at any length */
     size_t stride = h->count > ROWS ? h->count / ROWS : 1;
     double one = most_by_cells(h, oil, stride), end = longest, change = 1;
     double widest = (longest + outlet) / (double)cells;
@@ -394,9 +392,10 @@ double ehl_inlet_balanced(const ehl_history *h, const ehl_oil *oil, size_t cells
     for (int k = 0; k < ROUNDS && fabs(change) > close; k++) {
         double dx = (end + outlet) / (double)cells, off = fmin(one * dx * dx, most);
         double ratio = off > 0 ? most_starved(h, oil, end, stride) / off : 1;
-        if (!(ratio > 0)) /* no inlet starves it: the shortest will do */
+        if (!(ratio > 0)) /* no inlet starves the film: the shortest will do */
             return fmin(longest, shortest_inlet(h, oil));
-        /* one falls with the square of the length or faster, the other grows with it */
+        /* the starvation falls at least with the square of the length, the error by the cells grows
+         * with it */
         double next = fmin(longest, end * sqrt(sqrt(ratio)));
         change = next / end - 1;
         end = next;

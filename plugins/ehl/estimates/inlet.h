@@ -26,7 +26,7 @@
 
 enum { EHL_INLET_TABLE = 257 };
 
-/* Tables of the oil over pressure, so that a film evaluates the laws for its shear alone. */
+/* Tables of the oil over pressure, so that a film calls the laws for its shear only. */
 typedef struct ehl_inlet {
     ehl_laws laws;
     ehl_oil oil;
@@ -44,21 +44,19 @@ typedef struct ehl_inlet {
 ff_status ehl_inlet_fill(ehl_inlet *n, const ehl_laws *laws, const ehl_oil *oil, double alpha,
                          double conductivity, double highest);
 
-/* Returns rho h that enters at `speed`, kg/m2; load, radius and speed > 0. guess: h_e to start
-   from; *off: the remaining error of ln q at x = -a. */
+/* Returns rho h of the oil that enters at `speed`, kg/m2; load, radius and speed > 0. guess: h_e to
+ * start from; *off: the remaining error of ln q at x = -a. */
 double ehl_inlet_mass(const ehl_inlet *n, const ehl_instant *at, double speed, double modulus,
                       double guess, double *off);
 
-/*
- * Least film over rho h/rho0 inside the contact: 0.725 with a strong rise of viscosity, 0.795
- * without. Fitted to full solutions, M 5 to 200 and L 0 to 10, which it meets within 1 %.
- */
+/* Least film over rho h/rho0 inside the contact: 0.725 if the viscosity rises strongly with
+ * pressure, 0.795 if not. Fitted to full solutions of M 5 to 200 and L 0 to 10, within 1 %. */
 double ehl_exit_ratio(double alpha, double p_hertz);
 
-/* The film that is lost as shear heats the oil in the inlet; the models are isothermal. */
+/* Data for the film lost by shear heating of the oil in the inlet. */
 typedef struct ehl_inlet_heating {
     double conductivity; /* of the oil, W/(m K) */
-    double slope;        /* -d ln eta/dT, 1/K; 0: that of the law, or 0.03 where it has none */
+    double slope;        /* -d ln eta/dT, 1/K; 0: that of the law, or 0.03 if it has none */
 } ehl_inlet_heating;
 
 /* Rows of these parameters for a model with a member `heating`. */
@@ -72,25 +70,23 @@ typedef struct ehl_inlet_heating {
                        "-d ln(eta)/dT of the oil, for inlet_heating alone; auto: that of the "     \
                        "viscosity law, or 0.03 1/K where it knows no temperature")
 
-/* Film with over film without heating: Q = eta0 beta u^2/k, S = |u1 - u2|/u. 0 where the fit has
-   left its range so far that it turns negative. */
+/* Returns the film with heating over the film without: Q = eta0 beta u^2/k, S = |u1 - u2|/u. 0 if
+ * the fit is so far out of its range that it is negative. */
 double ehl_gupta_factor(double p_hertz, double modulus, double Q, double S);
 
-/* The quality line: the greatest share of the film that is lost at any loaded instant; `heated`:
-   the film has the heat of its inlet, beside which the line stands. */
+/* Writes the quality line with the largest share of the film lost at any loaded instant; `heated`:
+ * the film already includes the heat of its inlet. */
 void ehl_inlet_heating_report(const ff_host *host, const ehl_inlet_heating *heating, int heated,
                               const ehl_history *h, const ehl_laws *laws, const ehl_oil *oil);
 
-/*
- * Share of the film that a domain from x = -end on leaves out of that of an inlet without end, by
- * the Reynolds equation in front of the domain; h is the central film. 1 where the domain begins in
- * the contact. The load and the radius of `at` are > 0.
- */
+/* Returns the share of the film that a domain from x = -end on leaves out, compared with an endless
+ * inlet, by Reynolds' equation upstream of the domain; h is the central film. 1 if the domain
+ * begins in the contact. The load and the radius of `at` are > 0. */
 double ehl_starvation(const ehl_oil *oil, const ehl_instant *at, double modulus, double h,
                       double end);
 
-/* Share of what ehl_starvation tells that a domain which begins with the pressure `fed` still
-   leaves out. The gap changes by `closing` at x = 0 and by `spreading` more at x = -end, m/s. */
+/* Returns the share of that starvation that remains if the domain begins with the pressure `fed`.
+ * The gap changes by `closing` at x = 0 and by `spreading` more at x = -end, m/s. */
 double ehl_unfed(const ehl_oil *oil, const ehl_instant *at, double modulus, double h, double end,
                  double fed, double closing, double spreading);
 
@@ -98,18 +94,16 @@ double ehl_unfed(const ehl_oil *oil, const ehl_instant *at, double modulus, doub
    cylinder is there. */
 #define EHL_FED_LENGTHS 2
 
-/* Above this share of the film the line of starvation is doubtful. */
+/* Above this share of the film the quality line of starvation is doubtful. */
 #define EHL_STARVED_LIMIT 0.01
 
-/* Distance from x = 0 at which a domain must begin so that ehl_starvation stays below that limit at
-   every loaded instant, m. */
+/* Returns the distance from x = 0 at which a domain must begin so that ehl_starvation stays below
+ * that limit at every loaded instant, m. */
 double ehl_inlet_supplied(const ehl_history *h, const ehl_oil *oil);
 
-/*
- * The length of an inlet at which the film lost to its end is as much as its error by the cells, of
- * which there are so many from there to `outlet` (m) behind x = 0; no more than `longest`, m. A
- * shorter inlet loses more to its end, a longer one to its coarser cells.
- */
+/* Returns the length of an inlet at which the film lost by starvation equals the error by the
+ * cells, which fill the domain from there to `outlet` (m) behind x = 0; at most `longest`, m. A
+ * shorter inlet loses more film, a longer one has coarser cells. */
 double ehl_inlet_balanced(const ehl_history *h, const ehl_oil *oil, size_t cells, double outlet,
                           double longest);
 
