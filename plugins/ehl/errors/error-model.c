@@ -194,9 +194,8 @@ static double highest_spike(const ehl_reynolds *eq, const double *p, const conta
     return highest;
 }
 
-/* Estimates the relative error of a pressure without a spike. Only the part that is not Hertzian
- * has an error, about l/a of the pressure; it grows with the square of ln(eta/eta0) at the outlet.
- */
+/* Estimates the relative error of a pressure without a spike. It is in proportion to (l/a)^2, since
+ * a Hertzian pressure has hardly any, and grows with the square of ln(eta/eta0) at the outlet. */
 static double smooth_pressure_error(const ehl_reynolds *eq, const contact *c, double fluidity)
 {
     double x = eq->dx / c->buildup, part = fmin(1, c->buildup / c->a);
