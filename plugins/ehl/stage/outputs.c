@@ -98,9 +98,10 @@ static double mean_film(const ehl_march *m)
     return sum / (double)count;
 }
 
-/* The film as a spring in series with the teeth sees it: h00 less the gap that the motion knows,
-   and beyond the dry contact of Hertz under the same force. Its pressure deflects the middle by
-   (4/(pi E')) w (ln(2 X/a) + 1/2), with X = half_width, at which the kernel is 0. */
+/* Returns the film as a spring in series with the teeth sees it: h00 minus the gap that the motion
+ * knows, and minus h00 of the dry Hertzian contact under the same force. Its pressure deflects the
+ * middle by (4/(pi E')) w (ln(2 X/a) + 1/2), where X = half_width is the distance at which the
+ * kernel is 0. */
 static double separation_of(const ehl_march *m)
 {
     const ehl_grid *g = m->solver->grid;
@@ -176,8 +177,9 @@ static void record_yield(ehl_results *r, const ehl_march *m)
     r->deepest_yield = fmax(r->deepest_yield, r->row[EHL_PLASTIC_DEPTH_MAX]);
 }
 
-/* The highest sum of the residuals from the highest pressure to another node, over what passes
-   there: the flow, and the pressure flow of p_max over a cell (check_mass in balance.c). */
+/* Returns the largest sum of the residuals from the highest pressure to another node, over the flow
+ * there: the entrained flow, and the pressure flow of p_max over a cell (check_mass in balance.c).
+ */
 static double unbalanced(const ehl_reynolds *eq, const ehl_film *film, double flow)
 {
     size_t peak = 1;
@@ -358,7 +360,8 @@ ff_status ehl_results_record(ehl_results *r, ehl_march *m, int last)
     ff_status status = record_fields(r, m);
     int undecided = m->solver->counters.undecided > r->undecided;
     r->undecided = m->solver->counters.undecided;
-    int begins = m->smooth < EHL_STATES; /* films that the formula in time begins anew with */
+    int begins =
+        m->smooth < EHL_STATES; /* the difference formula in time starts anew at these films */
     int wholly = wants(r, EHL_MASS_ERROR) || k % SAMPLE == 0 || last || undecided || begins;
     double mass = ehl_balance_hold(&r->balance, m, wholly);
     if (wholly && m->thermal)
@@ -370,7 +373,7 @@ ff_status ehl_results_record(ehl_results *r, ehl_march *m, int last)
     return status;
 }
 
-/* Returns what the cells add to an error that is an output. */
+/* Returns the error by the cells that an output of errors must include; 0 for other outputs. */
 static double space_part(const ehl_results *r, size_t i, uint32_t k)
 {
     return k == EHL_H_MIN_ERROR       ? ehl_space_part(r, i, EHL_LEAST)

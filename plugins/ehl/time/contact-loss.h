@@ -9,8 +9,8 @@
    forces. */
 ff_status ehl_solve_contact_loss(ehl_march *m, ehl_step *step, const ehl_instant *at);
 
-/* Serves where not even the shortest step to `at` converges: while the contact is lost the film
-   follows the prescribed gap without pressure. FF_OK, or FF_NOCONV with `why`. */
+/* Used if not even the shortest step to `at` converges: while the contact is lost the film then
+ * follows the prescribed gap without pressure. FF_OK, or FF_NOCONV with `why`. */
 ff_status ehl_march_without_load(ehl_march *m, const ehl_instant *at);
 
 #endif

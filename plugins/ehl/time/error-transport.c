@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Arrays of one cause, and those of both. */
+/* Numbers of arrays for one cause, and for both. */
 enum { EACH = 5 + EHL_STATES, OWN = 3 };
 
 ff_status ehl_transport_create(ehl_transport *t, size_t nodes)
@@ -46,8 +46,8 @@ void ehl_transport_restart(ehl_transport *t)
     t->known = t->lost = 0;
 }
 
-/* Pressure flow behind each node to the one `stride` cells away, whose mobility is that of
-   face_mobilities (reynolds.c). */
+/* Computes the pressure flow from each node to the one `stride` cells further, with the mobility of
+ * face_mobilities (reynolds.c). */
 FF_SIMD
 static void pressure_flow(size_t faces, size_t stride, double dx, const double *restrict f,
                           const double *restrict p, double *restrict flow)
@@ -71,7 +71,7 @@ static void add_gain(size_t from, size_t to, size_t stride, double factor,
         tau[i] += per * (flow[i] - flow[i - stride]);
 }
 
-/* tau += the wedge less -u dm/dx, which differences of fourth order tell. */
+/* tau += the wedge minus -u dm/dx, where dm/dx comes from differences of fourth order. */
 FF_SIMD
 static void add_wedge_error(size_t from, size_t to, double u, double bend, const double *restrict m,
                             double *restrict tau)
@@ -184,7 +184,7 @@ static void truncate_steps(const ehl_march *m, ehl_transport *t)
     add_difference(t->nodes, d.of, r->mass, s[0].mass, s[1].mass, s[2].mass, factor, to);
 }
 
-/* rows = -tau + dx (c1 e1 + c2 e2), e being the errors of the masses before. */
+/* rows = -tau + dx (c1 e1 + c2 e2), where e1 and e2 are the errors of earlier masses. */
 FF_SIMD
 static void fill_rows(size_t n, const double *restrict tau, double c1, const double *restrict e1,
                       double c2, const double *restrict e2, double *restrict rows)
@@ -193,7 +193,7 @@ static void fill_rows(size_t n, const double *restrict tau, double c1, const dou
         rows[i] = c1 * e1[i] + c2 * e2[i] - tau[i];
 }
 
-/* x goes on in a straight line, and before becomes what x was. */
+/* Extrapolates x in a straight line, and sets `before` to the old x. */
 FF_SIMD
 static void go_on(size_t n, double ahead, double *restrict x, double *restrict before)
 {
@@ -220,7 +220,7 @@ static void add_h00(size_t n, const double *restrict v, double h00, double *rest
         h[i] = v[i] + h00;
 }
 
-/* mass = rho h + h drho/dp p, of errors h and p. */
+/* mass = rho h + h drho/dp p, for the errors of h and p. */
 FF_SIMD
 static void fill_mass(size_t n, const double *restrict rho, const double *restrict rho_p,
                       const double *restrict gap, const double *restrict h,
@@ -249,7 +249,7 @@ static void spread(const ehl_march *m, const ehl_transport *t, ehl_film_error *e
             mass[i] = r->unit * e->now.p[i];
 }
 
-/* Finds the error of one cause, whose tau is known. */
+/* Finds the errors by one cause whose tau is known. */
 static ff_status find(ehl_march *m, ehl_transport *t, int cause)
 {
     ehl_film_error *e = &t->of[cause];

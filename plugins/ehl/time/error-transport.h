@@ -14,7 +14,7 @@
 
 enum { EHL_BY_CELLS, EHL_BY_STEPS, EHL_CAUSES };
 
-/* What one cause has made of the newest film: the film that was computed less the exact one. */
+/* Errors of the newest film by one cause: the computed film minus the exact one. */
 typedef struct ehl_film_error {
     ehl_answer now, before;   /* before: of the film before it */
     double *h;                /* m */
@@ -24,12 +24,12 @@ typedef struct ehl_film_error {
 typedef struct ehl_transport {
     double *memory;
     size_t nodes;
-    double accuracy; /* of the linear solutions, over the larger of both errors */
+    double accuracy; /* residual of the linear solutions, over the larger of both errors */
     ehl_film_error of[EHL_CAUSES];
     double *tau, *rows, *flow;
-    double last_step; /* s, before the newest film; 0: none */
+    double last_step; /* s, length of the step before the newest film; 0: none */
     int known;        /* the newest film has errors */
-    int lost;         /* they were not found once, so that those that follow are not known */
+    int lost;         /* 1: the errors were not found once, so that all later ones are not known */
 } ehl_transport;
 
 /* FF_NOMEM */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Finds the steady film that the marching begins with. */
+/* Finds the steady film from which the march begins. */
 #include "start.h"
 #include "error-transport.h"
 
@@ -16,10 +16,11 @@
 
 enum { SETTLING = 400 };
 
-/* Without load at the start the film of this share of the largest load is taken. */
+/* A history that begins without load starts with the film of this share of the largest load. */
 static const double light = 0.01;
 
-/* Approaches the steady film from the guess by ever longer Euler steps at fixed conditions. */
+/* Approaches the steady film from the guess by Euler steps of growing length at fixed conditions.
+ */
 static ff_status settle(ehl_march *m, const ehl_step *steady, const ehl_instant *at)
 {
     ehl_reynolds *r = m->solver->reynolds;
@@ -77,9 +78,9 @@ static ff_status look_for_steady(ehl_march *m, const ehl_step *step, const ehl_i
     return status;
 }
 
-/* Looks for the film with heat from the one without, which is in the trial: with ever more damping
-   across, since few nodes have no film of a hot inlet with little of it. What it leaves is told by
-   node_error. */
+/* Looks for the film with heat, from the one without heat in the trial, with more and more damping
+ * across: a hot inlet has no film on few nodes with little damping. node_error shows the error that
+ * the damping leaves. */
 static ff_status warm_up(ehl_march *m, const ehl_step *step, const ehl_instant *at)
 {
     enum { TRIES = 3 };
@@ -100,8 +101,8 @@ static ff_status warm_up(ehl_march *m, const ehl_step *step, const ehl_instant *
     return status;
 }
 
-/* Finds the steady film in the trial; one with heat from the one without, which tells whether heat
-   is why there is none. */
+/* Finds the steady film in the trial. A film with heat is found from the one without; that also
+ * shows whether heat is the reason if there is none. */
 static ff_status find_steady(ehl_march *m, const ehl_step *step, const ehl_instant *at)
 {
     if (!m->thermal)
@@ -113,9 +114,9 @@ static ff_status find_steady(ehl_march *m, const ehl_step *step, const ehl_insta
     return status == FF_OK ? warm_up(m, step, at) : status;
 }
 
-/* Finds the steady film of statistical flanks in the trial, from that of smooth ones by
-   continuation in what their asperities carry: its share grows by ratios, which shrink where a
-   solution fails and grow where one is found: of nearly dry flanks the last of them are small. */
+/* Finds the steady film of statistical flanks in the trial, from that of smooth flanks, by
+ * continuation in the load that their asperities carry. Their share grows by ratios that shrink if
+ * a solution fails and grow if one is found; for nearly dry flanks the last ratios are small. */
 static ff_status find_steady_of_asperities(ehl_march *m, const ehl_step *step,
                                            const ehl_instant *at)
 {
@@ -204,10 +205,8 @@ void ehl_march_restart(ehl_march *m)
     memset(m->local, 0, n * sizeof *m->local);
 }
 
-/*
- * Rough flanks start smooth, at an earlier time, and their roughness enters with the oil: by the
- * first instant it has reached the far side of the widest contact, and goes on from there.
- */
+/* Rough flanks start smooth, at an earlier time, and their roughness enters with the oil. By the
+ * first instant it has reached the far side of the widest contact, and it goes on from there. */
 ff_status ehl_march_start(ehl_march *m)
 {
     double first = m->history->time[0];

@@ -5,8 +5,8 @@
 
 #include "../equations/march.h"
 
-/* Starts with the steady film of the first instant. Without load there it is the film of a light
-   load, and at rest that of a slow motion, or the gap full of oil. */
+/* Starts with the steady film of the first instant. A start without load has the film of a light
+ * load; a start at rest has that of a slow motion, or the gap full of oil. */
 ff_status ehl_march_start(ehl_march *m);
 
 /* Starts with the steady film of that time, between smooth flanks. */

@@ -20,18 +20,18 @@ static const double SHARP_BREAKPOINT = 0.25;
 static const double SHARP_BEND = 0.25;
 /* First step after a breakpoint, as a share of the passage time. */
 static const double FIRST_STEP = 5e-4;
-/* Shortest steps, in units of dx/u: SHORT_STEP for the sake of truncation, SHORTEST_STEP for that
-   of convergence. */
+/* Shortest steps, in units of dx/u: SHORT_STEP if the truncation demands it, SHORTEST_STEP if
+ * convergence demands it. */
 static const double SHORT_STEP = 0.02, SHORTEST_STEP = 1e-4;
 
-/* Share of the tolerance by which a straight line between two instants may miss the film. */
+/* Share of the tolerance by which a straight line between two instants may differ from the film. */
 static const double CHORD_SHARE = 1. / 16;
 /* The history has at least LEAST_INSTANTS (tolerance/REFERENCE_TOLERANCE)^INSTANTS_EXPONENT
    steps. */
 static const double LEAST_INSTANTS = 100, REFERENCE_TOLERANCE = 5e-3, INSTANTS_EXPONENT = -0.15;
 
-/* Truncation allowed while the contact is lost, over that under load: the impact at its end
-   squeezes most of that film out. */
+/* Truncation allowed while the contact is lost, relative to that under load. It is larger, since
+ * the impact at the end squeezes most of that film out. */
 static const double CONTACT_LOSS_ALLOWANCE = 10;
 
 static double slope_of_row(const ehl_history *h, const double *y, size_t i)
@@ -40,8 +40,8 @@ static double slope_of_row(const ehl_history *h, const double *y, size_t i)
     return span > 0 ? (y[i + 1] - y[i]) / span : 0;
 }
 
-/* Returns 1 when the history jumps, changes its slope sharply, or loses or regains contact at row
-   i. */
+/* Returns 1 if at row i the history jumps, changes its slope sharply, or loses or regains contact.
+ */
 static int is_breakpoint(const ehl_march *m, size_t i)
 {
     const ehl_history *h = m->history;
@@ -99,8 +99,8 @@ int ehl_step_control_done(const ehl_step_control *p)
     return p->next == p->breakpoints;
 }
 
-/* Returns the factor of the next step when this one's truncation was `error` times what is
-   allowed. */
+/* Returns the factor of the next step if the truncation of this one was `error` times the allowed
+ * one. */
 static double step_growth(const ehl_march *m, double error)
 {
     double order = m->scheme == EHL_EULER ? 1 : 2;
@@ -108,9 +108,9 @@ static double step_growth(const ehl_march *m, double error)
     return fmin(fmax(factor, 0.25), 2);
 }
 
-/* Returns the step whose chord misses the film by as much as is allowed, dt^2/8 h''. Where the
-   contact takes many passages to change, a bound on the truncation alone would step over whole
-   extrema. */
+/* Returns the step whose chord differs from the film by the allowed amount, dt^2/8 h''. If the
+ * contact takes many passages to change, a bound on the truncation alone would step over whole
+ * extrema. */
 static double longest_chord(const ehl_step_control *p, const ehl_march *m)
 {
     const ehl_state *s = m->state;
@@ -124,10 +124,8 @@ static double longest_chord(const ehl_step_control *p, const ehl_march *m)
     return fmin(longest, sqrt(8 * CHORD_SHARE * p->tolerance * s[0].thinnest / fmax(bend, 1e-300)));
 }
 
-/*
- * Returns the time after which an accumulated error has left the film: that of its passage, or,
- * where the oil hardly moves, that in which the film changes by as much as itself.
- */
+/* Returns the time after which an accumulated error has left the film: the passage time, or, where
+ * the oil hardly moves, the time in which the film changes by as much as itself. */
 static double forgetting_time(const ehl_march *m)
 {
     const double hardly = 0.1;
@@ -139,7 +137,7 @@ static double forgetting_time(const ehl_march *m)
     return fmin(time, (s[0].time - s[1].time) / fmax(change, 1e-300));
 }
 
-/* Starts anew after the breakpoint that the newest state stands at, with short steps. */
+/* Restarts after the breakpoint at the newest state, with short steps. */
 static void pass_breakpoint(ehl_step_control *p, ehl_march *m)
 {
     p->next++;
@@ -164,11 +162,9 @@ static ehl_instant next_instant(const ehl_step_control *p, const ehl_march *m, i
     return *last ? ehl_history_before(m->history, to) : ehl_history_at(m->history, straight);
 }
 
-/*
- * Returns the change of the film in the trial over what a step may change; the error grows with its
- * cube. A load that vanishes or returns within a step counts as well: the film of rigid flanks goes
- * with 1/load.
- */
+/* Returns the change of the film in the trial over the change that a step may make; the error grows
+ * with its cube. A load that vanishes or returns within a step counts as well, since the film of
+ * rigid flanks goes with 1/load. */
 static double change_over_limit(const ehl_step_control *p, const ehl_march *m)
 {
     if (m->rough)
@@ -179,7 +175,7 @@ static double change_over_limit(const ehl_step_control *p, const ehl_march *m)
     return fmax(film, load / 2) / cbrt(0.6 * p->tolerance);
 }
 
-/* Returns 1 when the step has to be taken again, and sets its length p->dt. */
+/* Returns 1 if the step must be repeated, and sets its length p->dt. */
 static int repeat_step(ehl_step_control *p, ehl_march *m, ff_status status, double dt, double error,
                        double cell)
 {
@@ -199,8 +195,8 @@ static int repeat_step(ehl_step_control *p, ehl_march *m, ff_status status, doub
     return 0;
 }
 
-/* Returns the time in which the fastest film moves on by a cell; at rest, one cell's share of the
-   history. */
+/* Returns the time in which the fastest film moves by a cell; at rest, one cell's share of the
+ * history. */
 static double cell_time(const ehl_march *m)
 {
     const ehl_grid *g = m->solver->grid;

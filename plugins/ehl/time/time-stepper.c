@@ -10,14 +10,15 @@
 
 enum { MOST_HALVINGS = 12, MOST_THINNING_HALVINGS = 6 };
 
-/* A step that leaves less than this share of the least film is cut while it can be. Smooth
-   flanks. */
+/* A step that leaves less than this share of the least film is cut if possible, with smooth flanks.
+ */
 static const double MOST_THINNING = 0.5;
-/* So is a step that changes the least film by more than this share as the contact opens or
-   closes. */
+/* A step is also cut if it changes the least film by more than this share as the contact opens or
+ * closes. */
 static const double MOST_CHANGE_AT_CONTACT_LOSS = 0.05;
 
-/* The last step of an interval takes all that is left when it would leave less than 1e-3 of it. */
+/* The last step of an interval takes all that is left if a shorter one would leave less than 1e-3
+ * of the interval. */
 static const double ALMOST_ALL = 0.999;
 /* Steps that Newton's method cannot take without load are followed by one 16th of the interval. */
 static const double AFTER_FAILURE = 16;
@@ -59,8 +60,8 @@ static void limit_step_length(ehl_march *m, ff_status status, double dt)
     }
 }
 
-/* Returns the longest step towards `time`, s. With rough flanks the steps are equal, and the oil
-   moves by no more cells in one than ehl_largest_advection. */
+/* Returns the longest step towards `time`, s. With rough flanks the steps are equal, and none moves
+ * the oil by more cells than ehl_largest_advection. */
 static double longest_step(const ehl_march *m, double time)
 {
     double now = m->state[0].time, steps = 1;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Advances the film through time by implicit steps that are cut where they fail. */
+/* Advances the film through time by implicit steps, which are cut if they fail. */
 #ifndef EHL_TIME_STEPPER_H
 #define EHL_TIME_STEPPER_H
 
@@ -12,8 +12,8 @@ ff_status ehl_march_to(ehl_march *m, double time);
    `local`. */
 ff_status ehl_march_try(ehl_march *m, const ehl_instant *at);
 
-/* Returns 1 when the film thins so fast in the trial, or changes so much as the contact opens or
-   closes, that the step should be cut. */
+/* Returns 1 if a step should be cut because the film of the trial thins too fast, or changes too
+ * much as the contact opens or closes. */
 int ehl_march_step_too_large(const ehl_march *m);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the time steps leave out of a film, and its way through the contact. */
+/* The truncation of the time steps, and how the film carries its sum through the contact. */
 #include "truncation.h"
 
 #include "../contact/lanes.h"
@@ -24,11 +24,9 @@ static void fill_local(size_t n, const double *restrict y, const double *restric
     }
 }
 
-/*
- * The error of the differentiation formula for a polynomial one order higher, whose leading term is
- * the difference between the new film and the extrapolation of the old ones,
- * (y - y_extrapolated)/(rate (t - t_oldest)).
- */
+/* The error of the difference formula for a polynomial of one order more. Its leading term is the
+ * difference between the new film and the extrapolation of the old ones, (y - y_extrapolated)/(rate
+ * (t - t_oldest)). */
 void ehl_estimate_truncation(ehl_march *m)
 {
     size_t n = m->solver->grid->nodes, order = m->scheme == EHL_EULER || m->smooth < 2 ? 2 : 3;
@@ -64,8 +62,8 @@ static double start_of_accumulation(const ehl_march *m)
     return -a - ehl_inlet_buildup(a, radius, h) / 2;
 }
 
-/* Updates the distance over which the film still stems from a jump of the load within a step, which
-   steps of second order do not resolve. */
+/* Updates the distance over which the film still stems from a jump of the load within a step. Steps
+ * of second order do not resolve such a jump. */
 static void detect_load_jump(ehl_march *m, double distance)
 {
     const double leap = 1.2, passage = 3 * m->solver->grid->half_width;
@@ -85,7 +83,7 @@ static double error_at_kink(double local, double third, double second)
     return fabs(third) > fabs(second) / 2 && fabs(second) > 2 * fabs(local) ? second / 2 : local;
 }
 
-/* to = (1 - part) from + part times that of the node in front, and gain/cells. */
+/* to = (1 - part) from + part times the value of the node before, plus gain/cells. */
 FF_SIMD
 static void fill_moved(size_t n, const double *restrict from, double part,
                        const double *restrict gain, double cells, double *restrict to)
@@ -94,8 +92,8 @@ static void fill_moved(size_t n, const double *restrict from, double part,
         to[i] = (1 - part) * from[i] + part * from[i - 1] + gain[i] / cells;
 }
 
-/* Fills in the sums of `local` up to each node. What the oil meets on its way is the sum at its end
-   less that at its beginning, which is taken off what comes from there. */
+/* Fills in the sums of `local` up to each node. The sum that the oil meets on its way is the
+ * difference of the sums at the end and at the beginning of the way. */
 FF_SIMD
 static void sum_on_way(size_t n, const double *restrict local, double cells, double *restrict sum,
                        double *restrict error)
@@ -108,7 +106,7 @@ static void sum_on_way(size_t n, const double *restrict local, double cells, dou
 }
 
 /* Moves the accumulated error on with the film by `cells`, and adds the mean of `local` along that
-   path downstream of node `first`; upstream of it nothing accumulates. */
+ * path, downstream of node `first`. Upstream of it no error accumulates. */
 static void advect_and_add(ehl_march *m, size_t first, double cells)
 {
     size_t n = m->solver->grid->nodes, whole = (size_t)fmin(cells, (double)n), start = whole + 1;

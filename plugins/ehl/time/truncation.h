@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the time steps leave out of a film, and its way through the contact. */
+/* The truncation of the time steps, and how the film carries its sum through the contact. */
 #ifndef EHL_TRUNCATION_H
 #define EHL_TRUNCATION_H
 
@@ -11,7 +11,7 @@ double ehl_march_truncation(const ehl_march *m);
 /* Estimates the truncation of the step to the trial, in `local`. */
 void ehl_estimate_truncation(ehl_march *m);
 
-/* Moves the accumulated truncation on with the film by `distance` and adds that of the trial. */
+/* Moves the accumulated truncation on with the film by `distance`, and adds that of the trial. */
 void ehl_advect_error(ehl_march *m, double distance);
 
 #endif
