@@ -44,9 +44,18 @@ static double change_over(const history *h, int period, int ago)
     return change;
 }
 
+static double size_of(const history *h)
+{
+    const double *now = h->state[(h->count - 1) % HISTORY];
+    double size = 0;
+    for (int i = 0; i < DYNAMICS_TAKEN; i++)
+        size = fmax(size, fabs(now[i]));
+    return size;
+}
+
 /* Finds the shortest period whose motion is near. If the change shrinks by mu per period, all
  * further changes sum to 1/(1 - mu) of the last one. mu is at least the factor of the mesh damping.
- */
+ * A change at round-off of the state says nothing about mu. */
 static void find_period(const history *h, const dynamics_excitation *excitation,
                         const dynamics_settling *how, dynamics_settled *settled)
 {
@@ -54,7 +63,8 @@ static void find_period(const history *h, const dynamics_excitation *excitation,
     for (int p = 1; p <= DYNAMICS_LONGEST_PERIOD && h->count > 2 * (size_t)p; p++) {
         double change = change_over(h, p, 0), before = change_over(h, p, p);
         double damped = exp(-excitation->zeta * p * how->T);
-        double mu = fmin(fmax(before > 0 ? change / before : 0, damped), 1 - 1e-6);
+        int tells = before > 0 && change > dynamics_state_round_off * size_of(h);
+        double mu = fmin(fmax(tells ? change / before : 0, damped), 1 - 1e-6);
         double distance = change / (1 - mu);
         int near = distance < how->tolerance || distance < 0.01 * settled->distance;
         if (!near)

@@ -100,6 +100,8 @@ size_t dynamics_settle_limit(const dynamics_excitation *excitation, double T, do
     return (size_t)fmin(ceil(-4 * log(tolerance) / decay) + 100, DAMPED_LIMIT);
 }
 
+const double dynamics_state_round_off = 4 * DBL_EPSILON;
+
 typedef struct history {
     double delta[HISTORY], rate[HISTORY];
     size_t count;
@@ -122,12 +124,16 @@ static double change_over(const history *h, int period, int ago)
 
 /* Estimates the distance to a motion of that period. A disturbance that shrinks by mu in one period
  * changes by 1 - mu of the distance. mu is exp(-zeta p T), as in contact, or the ratio of the last
- * two changes if that is larger. */
+ * two changes if that is larger. A change at round-off of the state says nothing about mu. */
 static double distance_to(const history *h, const dynamics_excitation *excitation, double T,
                           int period)
 {
+    size_t now = (h->count - 1) % HISTORY;
     double change = change_over(h, period, 0), before = change_over(h, period, period);
-    double mu = fmax(exp(-excitation->zeta * period * T), before > 0 ? change / before : 0);
+    double size = fmax(fabs(h->delta[now]), fabs(h->rate[now]));
+    double mu = exp(-excitation->zeta * period * T);
+    if (before > 0 && change > dynamics_state_round_off * size)
+        mu = fmax(mu, change / before);
     if (excitation->zeta > 0)
         mu = fmin(mu, 1 - 1e-6);
     return change == 0 ? 0 : change / fmax(1 - mu, DBL_EPSILON);

@@ -61,6 +61,9 @@ double dynamics_sweep_from(dynamics_branch branch, const dynamics_excitation *ex
 double dynamics_sweep_rate(const dynamics_excitation *excitation, double frequency);
 size_t dynamics_sweep_start_cycles(const dynamics_excitation *excitation, double T);
 
+/* Relative change of a state over a period that round-off makes, without any disturbance. */
+extern const double dynamics_state_round_off;
+
 /* Returns the most cycles that a motion may take to settle to a tolerance. */
 size_t dynamics_settle_limit(const dynamics_excitation *excitation, double T, double tolerance);
 
