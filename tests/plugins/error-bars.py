@@ -218,8 +218,12 @@ def is_after_jump(jumps, when, passage):
     return any(-SHIFT * passage <= when - jump <= (1 + SHIFT) * passage for jump in jumps)
 
 
+def known_or_all(row):
+    return math.inf if row['relative'] is None else row['relative']
+
+
 def judge_series(answer, exact, name, goal):
-    """Share of the points whose bar holds, median of bar over error, largest error; None: not to be compared."""
+    """Share of the points with a bar whose bar holds, median of bar over error, largest error; None: not to be compared."""
     own, ref = answer['outputs'][name], exact['outputs'][name]
     t, T = answer['outputs']['film.time']['value'], exact['outputs']['film.time']['value']
     if not own['bar'] or not ref['bar'] or len(own['shape']) != 1:
@@ -228,14 +232,19 @@ def judge_series(answer, exact, name, goal):
         t, T = [0], [0]
     most = max(abs(v) for v in ref['value'])
     passage = passage_of(answer)
-    held, ratios, errors, opened = 0, [], [], 0
+    held, ratios, errors, opened, judged = 0, [], [], 0, 0
 
     def at(row, key, when):
         return row[key][0] if len(T) == 1 else sample(T, row[key], when)
 
+    ref = dict(ref, bar=[math.inf if bar is None else bar for bar in ref['bar']])
     for x, value, bar in zip(t, own['value'], own['bar']):
+        if bar is None:  # the answer says that it does not know
+            continue
+        judged += 1
         scale = max(abs(at(ref, 'value', x)), 0.1 * most)
         known = at(ref, 'bar', x)
+        known = math.inf if math.isnan(known) else known
         off = abs(value - at(ref, 'value', x))
         if off > bar + known and len(T) > 1 and is_after_jump(exact['jumps'], x, passage):
             near = [at(ref, 'value', x + SHIFT * passage * k / 4) for k in range(-4, 5)]
@@ -244,8 +253,10 @@ def judge_series(answer, exact, name, goal):
         held += off <= bar + known
         errors.append(off / scale)
         ratios.append((bar / off if off else math.inf, off / scale / goal))
-    return {'share': held / len(t), 'error': max(errors), 'claimed': own['relative'], 'open': opened / len(t),
-            'known': ref['relative'], 'ratios': [q for q in ratios if q[1] > 0.05][::max(1, len(ratios) // 50)]}
+    if not judged:
+        return None
+    return {'share': held / judged, 'error': max(errors), 'claimed': known_or_all(own), 'open': opened / judged,
+            'known': known_or_all(ref), 'ratios': [q for q in ratios if q[1] > 0.05][::max(1, len(ratios) // 50)]}
 
 
 def judge_scalar(answer, exact, name, goal):
