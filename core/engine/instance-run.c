@@ -299,8 +299,8 @@ ff_status ff_instance_call(ff_instance *instance, const char *action, ff_status 
         .instance = instance, .work = call, .name = action, .call = work, .ctx = ctx});
 }
 
-/* Takes the state that the stage left, into the heap in use. The state that the stage was given
- * for its own next run stays. */
+/* Gives the state that the stage left, in memory of the heap in use. The state that the stage was
+ * given for its own next run stays. */
 static bool take_state(ff_instance *from, void **state, size_t *size, ff_report *report)
 {
     ff_stage *stage = &from->stage;

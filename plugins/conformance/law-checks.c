@@ -32,7 +32,7 @@ static double now(void) /* s */
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-/* One check at work. */
+/* State of one check. */
 typedef struct checking {
     const ff_fixture *fixture;
     random_state random;
@@ -83,7 +83,8 @@ static batch batch_draw(const ff_fixture *fixture, const conformance_function *f
     return b;
 }
 
-/* What a call omits, as NULL: the optional argument, the derivatives. */
+/* Flags of the arguments that a call passes; the others are NULL: the optional argument, the
+ * derivatives. */
 enum { WITH_OPTIONAL = 1, WITH_DERIVATIVES = 2, WITH_ALL = 3, CHOICES = 4 };
 
 static ff_status call(const conformance_function *function, const void *table, const batch *b,

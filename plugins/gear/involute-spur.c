@@ -23,14 +23,14 @@ static const ff_param params[] = {
     FF_QUANTITY("face_width", "mm", spur, face_width, FF_REQUIRED, NULL, NULL, 1e-3, 1e5, 0, 0,
                 "width of the teeth in contact"),
     FF_LIST("profile_shift", "1", spur, spec.shift, 0, "0", NULL, -10, 10, 0, 0, 1, 2,
-            "profile shift coefficients x1 and x2, outward positive; what leaves a tooth undercut "
-            "where its flank meshes is refused"),
+            "profile shift coefficients x1 and x2, positive outward; a shift that undercuts a "
+            "flank where it meshes is refused"),
     FF_QUANTITY("centre_distance", "mm", spur, spec.centre_distance, 0, NULL, NULL, 1e-3, 1e9, 0, 0,
-                "working centre distance; left out: where teeth of these profile shifts mesh "
-                "without backlash"),
+                "working centre distance; left out: the one at which teeth of these profile shifts "
+                "mesh without backlash"),
     FF_LIST("tip_diameter", "mm", spur, spec.tip_diameter, 0, NULL, NULL, 1e-3, 1e9, 0, 0, 1, 2,
-            "tip (outside) diameters; left out: d + 2 m (1 + x), shortened as DIN 3960 says where "
-            "the profile shifts do not cancel"),
+            "tip (outside) diameters; left out: d + 2 m (1 + x), shortened by DIN 3960 if the "
+            "profile shifts do not cancel"),
     FF_LIST("root_diameter", "mm", spur, spec.root_diameter, 0, NULL, NULL, 1e-3, 1e9, 0, 0, 1, 2,
             "root diameters; left out: d + 2 m (x - dedendum)"),
     FF_LIST("dedendum", "1", spur, spec.dedendum, 0, "1.25", NULL, 0.5, 3, 1, 1.6, 1, 2,
@@ -44,12 +44,12 @@ static const ff_param params[] = {
             "begins"),
     FF_LIST("machining_allowance", "um", spur, spec.machining_allowance, 0, NULL, NULL, 0, 1e3, 0,
             0, 1, 2,
-            "stock that is ground off the flank after the tool, normal to it, and what of the "
-            "protuberance it takes back"),
+            "stock that is ground off the flank after the tool, normal to it; only the part of the "
+            "protuberance that is deeper than this stock undercuts the flank"),
     FF_QUANTITY("backlash", "mm", spur, spec.backlash, 0, NULL, "thickness", 0, 1e3, 0, 0,
-                "total backlash of the mounted pair, twice the half-gap b, whose teeth are thinned "
-                "alike; left out: what "
-                "the thickness of the teeth leaves, which are full where nothing is said of them"),
+                "total backlash of the mounted pair, twice the half-gap b, for which both gears "
+                "are thinned alike; left out: as the tooth thickness gives it, of full teeth if "
+                "that is not given either"),
     FF_ONE_OF("line-of-action|circular", "backlash_measure", spur, spec.backlash_measure, 0,
               "line-of-action",
               "where `backlash` is measured: along the line of action, or as an arc of the working "
@@ -85,15 +85,15 @@ static const ff_param params[] = {
             "densities of the gears, for mass, inertia and heat; left out: those of the material"),
     FF_LIST("thermal_conductivity", "W/(m K)", spur, material.conductivity, 0, NULL, NULL, 1e-3,
             1e4, 0, 0, 1, 2,
-            "thermal conductivities of the gears; left out: those of the material, unless "
-            "elastic_modulus or density say that it is another one"),
+            "thermal conductivities of the gears; left out: those of the material, unless a given "
+            "elastic_modulus or density differs from the material's"),
     FF_LIST("specific_heat", "J/(kg K)", spur, material.specific_heat, 0, NULL, NULL, 1, 1e5, 0, 0,
-            1, 2, "specific heats of the gears; left out: likewise"),
+            1, 2, "specific heats of the gears; left out: as for thermal_conductivity"),
     FF_LIST("hardness", "GPa", spur, material.hardness, FF_MIN_OPEN, NULL, NULL, 0, 1e3, 0, 0, 1, 2,
             "hardness of the flanks, the pressure at which their metal yields, 7 GPa is 700 HV; "
-            "left out: likewise"),
+            "left out: as for thermal_conductivity"),
     FF_LIST("yield_strength", "MPa", spur, material.yield, FF_MIN_OPEN, NULL, NULL, 0, 1e4, 0, 0, 1,
-            2, "yield strengths of the flanks in tension; left out: likewise"),
+            2, "yield strengths of the flanks in tension; left out: as for thermal_conductivity"),
     FF_COUNT("stations", spur, stations, FF_TUNABLE, "800", NULL, 8, 100000, 0, 0,
              "about how many intervals the path of contact is cut into"),
     FF_LIST("tip_relief", "um", spur, flank_spec.tip.amount, 0, "0 um", NULL, 0, 1e4, 0, 0, 1, 2,
@@ -103,24 +103,29 @@ static const ff_param params[] = {
         0, 0, 1, 2,
         "roll angle of the own gear from which the tip is relieved; left out: each gear's HPSTC"),
     FF_LIST("tip_relief_diameter", "mm", spur, flank_spec.tip.diameter, 0, NULL, "tip_relief_start",
-            1e-3, 1e9, 0, 0, 1, 2, "diameter from which the tip is relieved, instead"),
+            1e-3, 1e9, 0, 0, 1, 2,
+            "diameter from which the tip is relieved, instead of tip_relief_start"),
     FF_LIST("tip_relief_length", "mm", spur, flank_spec.tip.length, 0, NULL, "tip_relief_start", 0,
             1e5, 0, 0, 1, 2,
             "length of the tip relief from the tip, along the line of action as in profile "
-            "diagrams, instead"),
+            "diagrams, instead of tip_relief_start"),
     FF_ONE_OF("linear|parabolic", "tip_relief_shape", spur, flank_spec.tip.shape, 0, "linear",
               "growth of the tip relief from its start to the tip"),
     FF_LIST("back_relief", "um", spur, back_relief.amount, 0, NULL, NULL, 0, 1e4, 0, 0, 1, 2,
-            "tip relief of the back flanks, which bear where the torque is below 0; this and what "
-            "follows of it, left out: as on the driving flank"),
+            "tip relief of the back flanks, which bear the load if the torque is below 0; left "
+            "out: this and the other parameters of back_relief are those of the driving flank"),
     FF_LIST("back_relief_start", "deg", spur, back_relief.start, 0, NULL, "back_relief_start", 0,
-            1e4, 0, 0, 1, 2, "roll angle of the own gear from which its tip is relieved"),
+            1e4, 0, 0, 1, 2,
+            "roll angle of the own gear from which the tip of its back flank is relieved"),
     FF_LIST("back_relief_diameter", "mm", spur, back_relief.diameter, 0, NULL, "back_relief_start",
-            1e-3, 1e9, 0, 0, 1, 2, "diameter from which it is relieved, instead"),
+            1e-3, 1e9, 0, 0, 1, 2,
+            "diameter from which the back flank is relieved, instead of back_relief_start"),
     FF_LIST("back_relief_length", "mm", spur, back_relief.length, 0, NULL, "back_relief_start", 0,
-            1e5, 0, 0, 1, 2, "length of it from the tip along the line of action, instead"),
+            1e5, 0, 0, 1, 2,
+            "length of the back relief from the tip along the line of action, instead of "
+            "back_relief_start"),
     FF_ONE_OF("linear|parabolic", "back_relief_shape", spur, back_relief.shape, 0, NULL,
-              "its growth from its start to the tip"),
+              "growth of the back relief from its start to the tip"),
     FF_LIST("root_relief", "um", spur, flank_spec.root.amount, 0, "0 um", NULL, 0, 1e4, 0, 0, 1, 2,
             "metal taken off at the lowest point of contact, one value or two"),
     FF_LIST(
@@ -129,11 +134,11 @@ static const ff_param params[] = {
         "roll angle of the own gear below which the root is relieved; left out: each gear's LPSTC"),
     FF_LIST("root_relief_diameter", "mm", spur, flank_spec.root.diameter, 0, NULL,
             "root_relief_start", 1e-3, 1e9, 0, 0, 1, 2,
-            "diameter below which the root is relieved, instead"),
+            "diameter below which the root is relieved, instead of root_relief_start"),
     FF_LIST("root_relief_length", "mm", spur, flank_spec.root.length, 0, NULL, "root_relief_start",
             0, 1e5, 0, 0, 1, 2,
             "length of the root relief from the lowest contact, along the line of action as in "
-            "profile diagrams, instead"),
+            "profile diagrams, instead of root_relief_start"),
     FF_ONE_OF("linear|parabolic", "root_relief_shape", spur, flank_spec.root.shape, 0, "linear",
               "growth of the root relief from its start to the lowest point of contact"),
     FF_LIST("crowning", "um", spur, flank_spec.crown, 0, "0 um", NULL, 0, 1e4, 0, 0, 1, 2,
@@ -148,7 +153,7 @@ static const ff_param params[] = {
             "index deviations of the teeth of gear 1 along the line of action, tooth by tooth, "
             "positive: more metal on the working flank; teeth not listed have none"),
     FF_LIST("pitch_error_2", "um", spur, flank_spec.index[1], 0, NULL, NULL, -1e4, 1e4, 0, 0, 1,
-            100000, "the same of the teeth of gear 2"),
+            100000, "index deviations of the teeth of gear 2, as pitch_error"),
     FF_LIST("quality", "1", spur, quality, FF_WHOLE, NULL, NULL, 0, 12, 0, 0, 1, 2,
             "accuracy class of ISO 1328-1:1995, one value or two: the tolerances that a drawing "
             "does not write out"),

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * The first attempt has the presets. What it misses predicts the settings of one repeat, by the
- * order that its twins show. There is no third: where the repeat misses a goal, or none promises
- * it, the answer says so. Earlier attempts and twins serve as twins.
- */
+/* The first attempt uses the presets. If it misses a goal, the settings of one repeat are predicted
+ * from the errors and the order that the twins show. There is no second repeat: if this one misses
+ * a goal, or no settings promise to meet it, the answer says so. Earlier attempts and their twins
+ * are reused as twins. */
 #include "control.h"
 
 #include "choice.h"
@@ -23,11 +22,11 @@
 /* Share of a goal allowed to the reference model's own error while cheaper models are compared with
    it: they may use half of the goal (choice.c), and this error is added to what they change. */
 static const double reference_error = 0.25;
-/* Share of a goal that the repeat aims at: orders are observed, not known, and the part of settings
-   that the file fixes stays. */
+/* Shares of a goal at which the repeat aims. They are below 1 because orders are observed, not
+ * known; the second is for files that fix some settings, whose part of the error stays. */
 static const double aim = 0.7, aim_beside_fixed = 0.5;
-/* Two levels show no order, and their bar has the safety of order 1/2. A third level may lower it
-   to an eighth (estimate.c). */
+/* Two levels show no order; their error bar is that of order 1/2. A third level may lower it to an
+ * eighth (estimate.c). */
 static const double less_by_third_level = 8;
 /* The presets, finer settings where these fail, and the repeat. */
 enum { MOST_ATTEMPTS = 3 };
@@ -146,9 +145,10 @@ static double order_of(const accuracy_error *e)
     return isnan(e->order) ? 1 : fmin(fmax(e->order, 0), 2);
 }
 
-/* Levels by which an error above its goal should meet it. False if not even the finest level
-   promises it, or the stage estimates it itself and the file fixes all that could lower it. Of an
-   estimate no order is seen: it is taken to be the first. */
+/* Gives the number of levels after which an error above its goal should meet it. False if even the
+ * finest level does not promise that, or if the stage estimates the error itself and the file fixes
+ * all settings that could lower it. The order of an error that the stage estimates is not measured
+ * and taken as 1. */
 static bool predict(const control *c, const accuracy_error *e, double *finer)
 {
     const ff_stage *stage = &c->asked->stages[e->stage - c->best->run.pipeline->stages];

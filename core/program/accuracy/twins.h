@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The twins that tell the errors of an answer: earlier runs, and those still to be run. */
+/* Twins of an answer: runs of it with coarser or finer settings, from which its errors are
+ * estimated. They are taken from earlier runs, or run here. */
 #ifndef ACCURACY_TWINS_H
 #define ACCURACY_TWINS_H
 
@@ -21,14 +22,16 @@ typedef struct accuracy_twins {
     accuracy_knob *knobs;        /* the settings of all stages on which a measured output
                                     depends */
     size_t count;
-    const accuracy_twin *half, *quarter, *twice; /* NULL if it cannot be had */
-    accuracy_twin *refined; /* one for each knob; not good if errors are not split by it */
+    const accuracy_twin *half, *quarter, *twice; /* all settings 1 and 2 levels coarser, and 1 level
+                                                    finer; NULL: there is none, or it failed */
+    accuracy_twin *refined; /* one for each knob, which alone is one level finer than in `quarter`;
+                               not good if it was not run */
     bool stopped;
 } accuracy_twins;
 
 /* Finds or runs twins. The first four members are given; the outputs to be measured are in the
-   record. Where attempts are made, the first call finds one twin and the second call another. False
-   if there are no more. */
+ * record. If `known` is not NULL, the first call finds one twin and the second call another. False
+ * if there are no more. */
 bool accuracy_twins_find(accuracy_twins *twins);
 void accuracy_twins_free(accuracy_twins *twins);
 

@@ -8,8 +8,8 @@
 /* Reports temperatures of an oil that are given in two places and differ, with both places. */
 void cli_check_temperatures(cli_session *session);
 
-/* Reports what a run of the pipeline would refuse about its oils. `oils` is a second reading of
- * the file, of which only the oils are run; its messages say what is wrong with them. */
+/* Reports errors of the oils that a run of the pipeline would find. `oils` is a second run of the
+ * file, of its oil stages alone; the errors are the messages of this run. */
 void cli_check_oil(cli_session *session, ff_run *oils);
 
 #endif

@@ -259,8 +259,9 @@ static void judge(int status, crash_end *end)
     }
 }
 
-/* True under a debugger, which follows one process, or valgrind, which counts each one. Read
-   without a stream: memory allocated before the fork is copied after it. */
+/* True under a debugger, which follows one process only, or under valgrind, which counts each
+ * process by itself. The file is read without stdio, whose memory would be allocated before the
+ * fork and copied after it. */
 static bool is_watched(void)
 {
     char status[1024] = ""; /* long enough for the line, which is near the top */
@@ -276,7 +277,8 @@ static bool is_watched(void)
            (preloaded && strstr(preloaded, "vgpreload"));
 }
 
-/* Called in a process that the child makes: nobody leads it, and its plugins are its own. */
+/* Called in a process that the child forks: no process leads it, and its mark of the running plugin
+ * is its own. */
 static void step_down(void)
 {
     words = NULL;

@@ -21,7 +21,8 @@ static _Noreturn void test_guards(const char *plugin)
     _exit(EXIT_FAILURE);
 }
 
-/* False also of a plugin that has no such test. */
+/* Whether the plugin fails the test of `verify` that finds writes outside of its memory. False also
+ * for a plugin without that test. */
 static bool writes_outside(const char *plugin)
 {
     int status = 0;

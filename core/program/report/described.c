@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Writes what is described as JSON: drawings, sentences and tables, of a study or a comparison. All
-   but the drawings is read without scripts. */
+/* Writes HTML from a description in JSON of a study or a comparison: its drawings, sentences and
+ * tables. Only the drawings need scripts. */
 #include "page.h"
 
 #include "../study/kinds/answer/text.h"

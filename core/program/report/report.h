@@ -10,21 +10,21 @@
 
 #define REPORT_BEGINS "<!DOCTYPE html>" /* the first bytes of a page */
 
-/* What pages are put together from. */
+/* Files from which pages are made: layout, styles and scripts. */
 typedef struct report_template report_template;
 
-/* That of the program, with the files layout.html, figure.css, page.css, figure.js and script.js of
-   a folder, unless it is NULL, in place of those of the same names. NULL after an error. */
+/* Opens the program's files. If `folder` is not NULL, those files named layout.html, figure.css,
+ * page.css, figure.js and script.js that it has are taken instead. NULL after an error. */
 report_template *report_template_open(const char *folder, ff_report *report);
 void report_template_close(report_template *of); /* NULL is allowed */
 
 /* Writes the page to a file. `best` are texts "OUTPUT=least" or "OUTPUT=largest": outputs of a
-   sweep of which the page names the best. False with an error in the report, which is the view's as
-   well. */
+ * sweep of which the page names the best. False after an error, which is in `report`; the view must
+ * have the same report. */
 bool report_write(const results_view *view, const report_template *with, const char *const *best,
                   size_t best_count, const char *path, ff_report *report);
 
-/* Writes a page of nothing but figures, whose descriptions are a list in JSON. */
+/* Writes a page that has figures only; `json` is a list of their descriptions. */
 void report_write_figures(FILE *out, const report_template *with, const char *title,
                           const char *json);
 

@@ -143,7 +143,8 @@ typedef struct columns {
     size_t lead; /* the first variable */
     size_t count;
     size_t *variables;
-    uint32_t *dims; /* of a series: which of the dimensions it runs along; else the rank */
+    uint32_t *dims; /* for a series, the index of the dimension along which it runs; for a variable,
+                       the rank */
     ff_array *arrays;
 } columns;
 

@@ -20,13 +20,13 @@ typedef struct ehl_history {
     double load_max;    /* N/m */
     double speed_max;   /* of the entrainment, m/s */
     int mirrored;       /* the entrainment runs towards -x at first */
-    int at_rest;  /* 1: the history begins without entrainment, and EHL_CREEP of speed_max replaces
-                     it */
-    double wakes; /* end of that replacement, s */
+    int at_rest;  /* 1: the history begins without entrainment; until `wakes`, the entrainment is at
+                     least EHL_CREEP times speed_max */
+    double wakes; /* end of that lower bound, s */
     int turns;    /* 1: the entrainment reverses later, or a gap is squeezed at rest */
 } ehl_history;
 
-/* Share of the largest speed with which the film of a history begins that begins at rest. */
+/* A history that begins at rest begins with this share of its largest entrainment speed. */
 #define EHL_CREEP 0.01
 
 /* The contact at one time. `entrainment` is |u1 + u2|/2. */
@@ -38,8 +38,8 @@ typedef struct ehl_instant {
 /* Checks the series and finds the largest load and speed; `h->load_floor` is set before. */
 ff_status ehl_history_check(ehl_history *h, const ff_host *host);
 
-/* Gives the engagement that begins at that row, with the largest load of the whole history. Gives
- * the row at which the next one begins. */
+/* Sets *one to the engagement that begins at the row, with the largest load of the whole history.
+ * Returns the row at which the next engagement begins. */
 size_t ehl_history_engagement(const ehl_history *h, size_t row, ehl_history *one);
 
 /* Returns FF_UNSUPPORTED if the history begins at rest or turns, for models that carry the film one
@@ -56,13 +56,13 @@ int ehl_is_lost(const ehl_history *h, double load);
 ehl_instant ehl_history_row(const ehl_history *h, size_t row);
 
 /* Returns the latest row's time before `to`, or `to`, up to which a straight line from `from`
- * describes the contact. Rows in between may deviate from the line by `within` of speed and radius,
- * twice that of the load (since pressure goes with its root), and ten times that of the gap plus
- * `film` (m). */
+ * describes the contact. Rows in between may deviate from the line by these shares of their value:
+ * `within` for speed and radius, twice `within` for the load (since pressure goes with its root),
+ * and ten times `within` for the gap plus `film` (m). */
 double ehl_history_straight(const ehl_history *h, double from, double to, double within,
                             double film);
 
-/* What the instants of a film miss of its history. */
+/* How much of a history the instants of a film miss. */
 typedef struct ehl_sampling {
     double missed, load; /* load that straight lines between instants miss; the whole load, N s/m */
     double sampled, passed; /* largest load over radius at an instant, and at any row, N/m^2 */

@@ -35,13 +35,13 @@ enum {
     EHL_IN_PERIOD,
     EHL_IN_ORIGIN,
     EHL_IN_ROUGHNESS,
-    EHL_IN_HEAT, /* of the gears, three rows */
+    EHL_IN_HEAT, /* three rows: thermal data of the gears */
     EHL_IN_HARDNESS = EHL_IN_HEAT + NUMERICS_HEAT_INPUTS,
     EHL_IN_SHEAR_RATE,
-    EHL_IN_ASPERITIES, /* of statistical flanks */
+    EHL_IN_ASPERITIES, /* if the flanks have a statistical roughness */
     EHL_IN_CUTOFF,
     EHL_IN_BULK,
-    EHL_IN_DISCRETISATION, /* of ehl/finite-volume alone */
+    EHL_IN_DISCRETISATION, /* ehl/finite-volume only */
     EHL_INPUTS
 };
 
@@ -50,7 +50,7 @@ enum {
     EHL_ESTIMATE_IN_RQ_1 = EHL_IN_LIQUID + 1,
     EHL_ESTIMATE_IN_RQ_2,
     EHL_ESTIMATE_IN_ROUGHNESS,
-    EHL_ESTIMATE_IN_HEAT, /* of the gears, three rows */
+    EHL_ESTIMATE_IN_HEAT, /* three rows: thermal data of the gears */
     EHL_ESTIMATE_IN_HARDNESS = EHL_ESTIMATE_IN_HEAT + NUMERICS_HEAT_INPUTS,
     EHL_ESTIMATE_IN_ASPERITIES,
     EHL_ESTIMATE_IN_BULK,
@@ -166,7 +166,7 @@ extern const ff_port ehl_estimate_outputs[EHL_ESTIMATE_OUTPUTS];
 ff_status ehl_read_history(const ff_host *host, const ff_array *in, double light_load,
                            ehl_history *h);
 
-/* Takes a law. */
+/* Sets the law that an input serves; inputs that serve no law are ignored. */
 void ehl_wire_law(ehl_laws *laws, uint32_t input, const void *service);
 
 #endif

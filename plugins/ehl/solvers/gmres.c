@@ -19,12 +19,13 @@ enum { LEAST_STRIDE = 16, LEAST_CORNERS = 16, MOST_CORNERS = 128 };
  * the flow through the contact. An imbalance counts if both are exceeded. */
 static const double MOST_IMBALANCE_LEFT = 0.3, IMBALANCE_NOTICED = 0.01;
 
-/* The same for an answer to rows that are no residual. */
+/* As MOST_IMBALANCE_LEFT, if the right-hand side is not the residual of a Newton step
+ * (ehl_linear_answer). */
 static const double ANSWER_IMBALANCE = 0.1;
 
 /* A linear system is solved at least to this share of its first residual. The second value applies
- * to rough flanks, whose contacts the rest may turn, and to light loads, where a norm of the
- * pressure says little about the film. */
+ * to rough flanks, where the rest may open or close contacts of asperities, and to light loads,
+ * where a norm of the pressure says little about the film. */
 static const double LEAST_REDUCTION = 0.2, CAREFUL_REDUCTION = 0.05;
 
 /* The value where statistical flanks touch: load that passes between oil and asperities changes the
@@ -39,12 +40,12 @@ static const double SHARE_OF_LAST = 0.01;
  * for a viscosity exp(alpha p), some 10 in a contact of gears. */
 static const double CURVATURE = 10;
 
-/* How the multiple is learned from a step that follows another: twice the value found, but at least
- * LEAST_CURVATURE. It grows by FORGETTING after a step that was enough by itself. */
+/* How the multiple is learned from two successive Newton steps: LEARNED times the value found, but
+ * at least LEAST_CURVATURE. It grows by FORGETTING after a step that was enough by itself. */
 static const double LEARNED = 2, LEAST_CURVATURE = 0.3, FORGETTING = 1.05;
 
-/* Share of the tolerance that one time step may leave. The oil carries what each step leaves
- * through the contact, where it adds up; docs/performance.md has the sum for the presets. */
+/* Share of the tolerance that one time step may leave. The oil carries these errors through the
+ * contact, where they add up; docs/performance.md has the sum for the presets. */
 static const double SHARE_OF_STEP = 1. / 20;
 
 /* Imbalance of flow that a step may leave between the inlet and any place, in tolerances. Between
@@ -286,8 +287,8 @@ static double forcing_term(const ehl_solver *s, double change, int careful)
     return fmin(s->reynolds->touching ? SHARED_REDUCTION : least, left);
 }
 
-/* Returns the share of the preconditioned residual `first` that may be left for that accuracy: the
-   residual has the norm of what it adds to the answer. */
+/* Returns the share of the preconditioned residual `first` that may be left for that accuracy. The
+ * preconditioned residual is measured in the same norm as the answer. */
 static double share_left(const ehl_accuracy *accuracy, double first, size_t rows, double weight)
 {
     double most = first;
@@ -380,7 +381,8 @@ static void negate_solved(size_t last, int all, const unsigned char *restrict fu
         asked[i] = (full[i] | all) ? -residual[i] : 0;
 }
 
-/* Solves for what w->asked says. `accuracy`: gmres. */
+/* Solves the system with the right-hand side w->asked in the rows of the nodes and `sum` in the row
+ * of the load. `accuracy`: see gmres. */
 static ff_status solve_for_asked(ehl_solver *s, const ehl_step *step, const ehl_film *film,
                                  double sum, const ehl_accuracy *accuracy, double *dh00)
 {
@@ -415,7 +417,7 @@ ff_status ehl_linear_solve(ehl_solver *s, const ehl_step *step, const ehl_film *
     return status;
 }
 
-/* Sets the guess to 0 where no equation holds, and its deflection to what is left. */
+/* Sets the guess to 0 where no equation holds, and recomputes its deflection. */
 static void fit_guess(ehl_solver *s, const ehl_step *step, const ehl_film *film, ehl_answer *e)
 {
     const ehl_reynolds *r = s->reynolds;

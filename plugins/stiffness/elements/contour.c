@@ -12,9 +12,11 @@ static double half_angle_at(const stiffness_contour *o, double roll)
     return o->half_angle - numerics_involute_at_roll(roll);
 }
 
-/* Point of the fillet that the rounded tip of the rack cuts when its centre is `travel` beside
- * the pitch point; the normal there passes through the pitch point (Litvin & Fuentes 2004). The
- * middle of the tooth space is then an arc of travel - land on the reference circle behind. */
+/* Gives the radius of a point of the fillet, and half the angle of the tooth there. The rounded tip
+ * of the rack cuts the point when the centre of the tip is `travel` beside the pitch point; the
+ * normal at the point passes through the pitch point (Litvin & Fuentes 2004). Along the reference
+ * circle, the middle of the tooth space is then travel - land beside the pitch point, on the same
+ * side. */
 static void fillet(const stiffness_contour *o, double travel, double *radius, double *half_angle)
 {
     double reach = hypot(travel, o->depth);
