@@ -149,7 +149,7 @@ awk -v in_="$work" -F, '
             both("%g", "1250-lower", "contact_loss", 1), both("%g", "2085-lower", "contact_loss", 1)
         printf "| III on the upper branch: separation | apart for %s of the time |\n", both("%.2f", "2375-upper", "contact_loss", 1)
         printf "| III: W_d more than twice the largest W_s | %s times |\n", still
-        printf "| | III, upper: rms %s um: a flight is ballistic and hardly knows k(t) |\n", both("%.1f", "2375-upper", "dte_rms", 1e6)
+        printf "| | III, upper: rms %s um: in flight the spring does not act, so k(t) has little effect |\n", both("%.1f", "2375-upper", "dte_rms", 1e6)
         printf "| | III, lower: rms %s um, in proportion to the harmonics of k(t): not to be compared before these are known |\n", both("%.1f", "2375-lower", "dte_rms", 1e6)
         printf "| two motions | more in places: from %.0f to %.0f Hz, and %.0f to %.0f Hz, the linear motion is unstable and doubles its period; above f_n stable motions of period 2 exist from %.0f and %.0f Hz up |\n", \
             from["energy"], to["energy"], from["load"], to["load"], two["energy"], two["load"]
@@ -186,7 +186,7 @@ awk '
         }
         printf "| its folds, rounded as it gives them, Hz | 1 | %.2f | %d |\n", most, m
     }' "$work/test-pinned"
-worst "own folds and doublings by steps along the branch that differ by 4, relative" "fold_frequency|doubling_frequency" pinned
+worst "own folds and doublings, found with steps that differ by a factor of 4, relative" "fold_frequency|doubling_frequency" pinned
 worst "determinant of the monodromy against exp(-2 zeta omega_n T)" "det|det M|det by steps|determinant" pinned flow twin extremes atlas
 worst "the same at 3 to 40 Hz, thousands of radians in a mesh cycle" "determinant, slow mesh" extremes
 worst "energy balance" "energy balance" pinned twin extremes atlas

@@ -44,7 +44,7 @@ print("""# Friction and loss against measurement
 
 Made by `sh docs/validation/friction.sh build`. The spur pair 40/40 of Petry-Johnson, Kahraman, Anderson & Chase 2008 at 413 N m
 ([its data](measured.md#loss-of-a-spur-gear-mesh)), `configs/validation/mesh-loss-oils.yaml`: laws and temperatures were laid down in a commit before
-the first run, and no constant is fitted. Which oil stands for the 75W90 is a choice, as its laws at high pressure are not printed: eta0 is
+the first run, and no constant is fitted. The laws of the 75W90 at high pressure are not published, so another oil is chosen in its place: eta0 is
 that of the 75W90 in all rows, and the rise with pressure and the limiting stress are those of three gear oils that were measured. The
 spread of the rows is the claim.
 
@@ -66,7 +66,7 @@ for s in speeds:
     print("| %d | %s | %s | %s |" % (s, "%.0f" % loss if loss else "-", "within" if loss and off == 0 else "%+.0f %%" % (100 * off), judged))
 print("""
 Up to 8000 rpm the measured losses lie between those of PAO100 and M100; the choice misses the 10 %, by up to 16 %. The oil moves
-the loss by a factor of 2.2 to 3.8, the Eyring stress within 10 % by 1 to 3 %: heat holds the stress. Not in these films: that oil
+the loss by a factor of 2.2 to 3.8, an Eyring stress 10 % higher or lower moves it by 1 to 3 % only, since heat limits the stress. Not in these films: that oil
 conducts heat better under pressure, and asperities at 2000 rpm.
 
 ## Friction coefficients
@@ -101,7 +101,7 @@ print("""
 ## FZG C-mod gears
 
 `%s`: 183.4 N m, Ra 0.2 um, a paraffinic gear oil of ISO VG 100 at 90 degC. At 0.5 m/s a mean of at most 0.065 was measured, which is also where the boundary friction 0.065 of the film comes from, so that this row cannot be missed and tests nothing; at 8.3 m/s
-what is known is the formula, 0.0423, which is no measurement of these gears: held to 0.040 to 0.055.
+only the formula's 0.0423 is known, which is no measurement of these gears: held to 0.040 to 0.055.
 
 | m/s | film, fluid alone | with asperities | formula | held to | |
 |---|---|---|---|---|---|""" % C_MOD)

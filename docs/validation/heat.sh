@@ -98,8 +98,8 @@ print("""
 Where a formula holds, by this table: in pure rolling both are within 3 % of the film, and `inlet` within 8 %. With sliding
 neither is. Gupta's film is 1 to 10 % too thin up to 2 m/s, and 15 to 33 % at 10 m/s; Wilson & Sheu's, whose sliding part is
 several times as large, 3 to 34 % and 42 to 74 %: as printed it does not hold with sliding. Where the slower flank hardly
-moves (slide-roll ratio 1.9) all are too thick up to 2 m/s but for Wilson & Sheu's at 2 m/s: its flank heats the oil before
-the inlet does. `inlet` is within 3 % up to 2 m/s and a slide-roll ratio of 1, and 20 % too thin at 10 m/s there.
+moves (slide-roll ratio 1.9) all films are too thick up to 2 m/s, except Wilson & Sheu's at 2 m/s: the slow flank heats
+the oil before the inlet does. `inlet` is within 3 % up to 2 m/s and a slide-roll ratio of 1, and 20 % too thin at 10 m/s there.
 
 ## Traction over slip
 
@@ -159,8 +159,8 @@ for name in laws:
               for a, b in zip(losses[name, 8000], losses[name, 10000])]
     print("| %s | %s | -0.08 to +0.02 |" % (name, ", ".join(slopes)), flush=True)
 print("""
-With heat the losses bend, most where the laws made most of it (Barus, 28 MPa: 1.361 kW at 10,000 rpm, 3.335 without), but
-none of the four as far as the measured ones; each law agrees at one speed at most. What else moves the loss, at 6000 rpm and
+With heat the losses grow more slowly with speed, most for the law with the highest loss (Barus, 28 MPa: 1.361 kW at 10,000
+rpm, 3.335 without), but for none of the four as slowly as the measured ones; each law agrees at one speed at most. What else moves the loss, at 6000 rpm and
 110 degC:
 
 | laws | as above | alpha -10 % | alpha +10 % | 512 cells, 1000 steps |

@@ -108,9 +108,9 @@ Damping 0.01: stable motions that both branches and 16 starts lead to, and at ho
 |---|---|{'---|' * (len(SPEEDS) + 1)}
 {chr(10).join(number)}
 
-Against another program, which solves sharing at each instant on finite elements: the first fold at zeta 0.05. Its rim is not known; ours is where
-the slope of the unmodified pair is as much above its chord as there, 3.8 %, and of the same share of the root radius for the 25 teeth.
-`frozen` is on the chord, `shared` has the ten levels.
+Against another program, which solves sharing at each instant on finite elements: the first fold at zeta 0.05. Its rim is not known. Ours is
+chosen so that the slope of the unmodified pair's stiffness lies as far above the chord, 3.8 %, as in that program; the 25 teeth have the same
+ratio of rim to root radius. `frozen` uses the chord, `shared` ten levels of the force.
 
 | pair | frozen there, Hz | here, Hz | off | shared there, Hz | here, Hz | off |
 |---|---|---|---|---|---|---|

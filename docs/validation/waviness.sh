@@ -43,8 +43,8 @@ TEXT
     cat <<'TEXT'
 
 The paper's own table and fit differ among themselves by far more than 5 % at the longest waves.
-Further than 5 % off its table are the high waves of one half-width, where the table leaves the
-smooth course of its own rows, and the low ones of an eighth. Neither comes from the grid here, as the
+Two sets of points are more than 5 % off the paper's table: the highest waves of one half-width,
+where the table leaves the smooth course of its own rows, and the low waves of an eighth. Neither comes from the grid here, as the
 refinement shows: the shortest waves settle above the table, and a coarse grid takes away from them,
 never adds.
 
