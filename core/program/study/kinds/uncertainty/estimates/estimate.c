@@ -217,6 +217,11 @@ static void contribute(const estimate_samples *s, double (*g)(double, double), d
         }
 }
 
+/* Samples of a single level, below which a surface would choose its terms by these few samples and
+   make the interval of the mean too narrow. With several levels the first block holds differences,
+   which bend less. */
+enum { LEAST_FOR_SURFACE = 32 };
+
 /* Takes away what a surface over the inputs explains of a block's contributions, whose mean is 0.
  */
 static estimate_explanation explain(const estimate_samples *s, double *value, size_t begin,
@@ -250,7 +255,9 @@ static estimate mean_of(const estimate_samples *s, double (*g)(double, double), 
     contribute(s, g, about, &p, m);
     for (size_t block = 0; block < s->levels; block++) {
         size_t begin = begin_of(s, block), count = s->count[block] - begin;
-        estimate_explanation by = explain(s, p.value, begin, count);
+        estimate_explanation by = {1, 1, 0};
+        if (s->levels > 1 || count >= LEAST_FOR_SURFACE)
+            by = explain(s, p.value, begin, count);
         double own, freedom;
         sum += block_sum(p.value + begin, count, by.terms, &own, &freedom);
         if (!isfinite(own))
