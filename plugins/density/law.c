@@ -199,10 +199,12 @@ ff_status density_softening_ready(const void *self, density_softening *softening
     int given = !isnan(softening->at), flat = softening->decay <= 0;
     if (!given)
         softening->at = 313.15; /* of no effect */
-    if (!flat && !law->liquid)
-        return ff_failf(law->host, FF_INVALID, "K0_decay",
-                        "K0_decay goes with the expansion of an oil: wire one (oil) in place of "
-                        "rho0");
+    if (!flat && !law->liquid) {
+        law->host->log(law->host->ctx, FF_LOG_WARNING,
+                       "K0_decay has no effect without an oil, whose expansion it goes with");
+        softening->decay = 0;
+        return FF_OK;
+    }
     return given || flat ? FF_OK
                          : ff_failf(law->host, FF_INVALID, "at",
                                     "K0_decay needs the temperature that the other constants of "

@@ -31,7 +31,7 @@ typedef struct density_softening {
                        150,                                                                        \
                        "temperature that the constants of the law hold at; auto: at any, which "   \
                        "K0_decay contradicts")
-/* Refuses a decay without `at`; makes `at` a number. */
+/* Refuses a decay without `at`, makes `at` a number, and takes out the decay if no oil is wired. */
 ff_status density_softening_ready(const void *law, density_softening *softening);
 
 #define DENSITY_RHO0_ROW(type, doc)                                                                \

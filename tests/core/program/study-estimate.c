@@ -435,7 +435,6 @@ int main(int argc, char **argv)
     test_ishigami(rng);
     test_shapes(rng);
     test_many(rng);
-    repeat_few(repeats, FEW, rng, values, numbers);
     repeat_few(repeats, 2 * FEW, rng, values, numbers);
     problem *p = problems;
     p->mean = p->median = 3;
@@ -465,6 +464,7 @@ int main(int argc, char **argv)
         for (size_t samples = FEW; samples <= 16 * FEW; samples *= 4)
             repeat_shares(&problems[i], repeats, samples, rng, values, numbers);
     }
+    repeat_few(repeats, FEW, rng, values, numbers);
     for (int k = 0; k < LEVELS; k++)
         free(values[k]);
     free(numbers);

@@ -14,7 +14,7 @@ fail() { # CARD TEXT
 }
 
 for card in $(ls "$source"/configs/lubricants/*.yaml); do
-    at=$(sed -n 's/.*[{ ]at: \([^,}]*\).*/\1/p' "$card")
+    at=$(sed -n '/lubricant\/measured/s/.*[{ ]at: \([^,}]*\).*/\1/p' "$card")
     cat >"$lab/oil.yaml" <<EOF
 format: 2
 include: [$card]
