@@ -8,25 +8,23 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Numbers of arrays for one cause, and for both. */
-enum { EACH = 5 + EHL_STATES, OWN = 3 };
-
 ff_status ehl_transport_create(ehl_transport *t, size_t nodes)
 {
     *t = (ehl_transport){.nodes = nodes, .accuracy = 1e-2};
-    double *next = t->memory = calloc((EHL_CAUSES * EACH + OWN) * nodes, sizeof *next);
+    double *next = t->memory = calloc(EHL_TRANSPORT_ARRAYS * nodes, sizeof *next);
     if (!next)
         return FF_NOMEM;
     for (size_t k = 0; k < EHL_CAUSES; k++) {
         ehl_film_error *e = &t->of[k];
-        double **own[EACH - EHL_STATES] = {&e->now.p, &e->now.v, &e->before.p, &e->before.v, &e->h};
-        for (size_t j = 0; j < EACH - EHL_STATES; j++, next += nodes)
+        double **own[EHL_ERROR_ARRAYS - EHL_STATES] = {&e->now.p, &e->now.v, &e->before.p,
+                                                       &e->before.v, &e->h};
+        for (size_t j = 0; j < EHL_ERROR_ARRAYS - EHL_STATES; j++, next += nodes)
             *own[j] = next;
         for (size_t j = 0; j < EHL_STATES; j++, next += nodes)
             e->mass[j] = next;
     }
-    double **own[OWN] = {&t->tau, &t->rows, &t->flow};
-    for (size_t k = 0; k < OWN; k++, next += nodes)
+    double **own[EHL_SHARED_ARRAYS] = {&t->tau, &t->rows, &t->flow};
+    for (size_t k = 0; k < EHL_SHARED_ARRAYS; k++, next += nodes)
         *own[k] = next;
     return FF_OK;
 }
@@ -39,7 +37,7 @@ void ehl_transport_destroy(ehl_transport *t)
 
 void ehl_transport_restart(ehl_transport *t)
 {
-    memset(t->memory, 0, (EHL_CAUSES * EACH + OWN) * t->nodes * sizeof *t->memory);
+    memset(t->memory, 0, EHL_TRANSPORT_ARRAYS * t->nodes * sizeof *t->memory);
     for (size_t k = 0; k < EHL_CAUSES; k++)
         t->of[k].now.h00 = t->of[k].before.h00 = 0;
     t->last_step = 0;
@@ -272,6 +270,8 @@ void ehl_transport_step(ehl_march *m)
     ehl_transport *t = m->transport;
     ehl_reynolds *r = m->solver->reynolds;
     const ehl_film *film = &m->trial.film;
+    if (t->lost) /* later errors would be made of numbers that are none */
+        return;
     ehl_reynolds_evaluate(r, &m->trial_step, film);
     ehl_reynolds_slopes(r, &m->trial_step, film);
     if (r->statistical.law)

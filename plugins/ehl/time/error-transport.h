@@ -14,6 +14,13 @@
 
 enum { EHL_BY_CELLS, EHL_BY_STEPS, EHL_CAUSES };
 
+/* Arrays of one cause and of both, and all of them. */
+enum {
+    EHL_ERROR_ARRAYS = 5 + EHL_STATES,
+    EHL_SHARED_ARRAYS = 3,
+    EHL_TRANSPORT_ARRAYS = EHL_CAUSES * EHL_ERROR_ARRAYS + EHL_SHARED_ARRAYS
+};
+
 /* Errors of the newest film by one cause: the computed film minus the exact one. */
 typedef struct ehl_film_error {
     ehl_answer now, before;   /* before: of the film before it */
@@ -22,7 +29,7 @@ typedef struct ehl_film_error {
 } ehl_film_error;
 
 typedef struct ehl_transport {
-    double *memory;
+    double *memory; /* EHL_TRANSPORT_ARRAYS of `nodes` values each */
     size_t nodes;
     double accuracy; /* residual of the linear solutions, over the larger of both errors */
     ehl_film_error of[EHL_CAUSES];

@@ -339,6 +339,8 @@ static void mirror_states(ehl_march *m, const ehl_instant *at)
         reverse_flags(s->film.asperity, n);
     }
     reverse_values(m->accumulated_error, n);
+    for (size_t k = 0; m->transport && k < EHL_TRANSPORT_ARRAYS; k++)
+        reverse_values(m->transport->memory + k * n, n);
     m->mirrored = at->mirrored;
 }
 

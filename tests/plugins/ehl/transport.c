@@ -10,6 +10,7 @@
 #include "../../../plugins/ehl/time/error-transport.h"
 #include "../../../plugins/ehl/time/start.h"
 #include "../../../plugins/ehl/time/time-stepper.h"
+#include "../../../plugins/ehl/time/trial.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -22,6 +23,14 @@ static const double pi = 3.14159265358979323846;
 static const double time_of[ROWS] = {0, 40e-6, 80e-6}, radius[ROWS] = {0.0128, 0.0128, 0.0128},
                     speed_1[ROWS] = {4.4, 4.4, 4.4}, speed_2[ROWS] = {3.6, 3.6, 3.6},
                     load[ROWS] = {1e5, 2e5, 1e5};
+static const ehl_history swelling = {.count = ROWS,
+                                     .time = time_of,
+                                     .radius = radius,
+                                     .speed_1 = speed_1,
+                                     .speed_2 = speed_2,
+                                     .load = load,
+                                     .modulus = 226.4e9,
+                                     .load_max = 2e5};
 
 typedef struct scene {
     ehl_history history;
@@ -35,16 +44,9 @@ typedef struct scene {
     double p[NODES], v[NODES], matrix[SIZE][SIZE], answer[SIZE];
 } scene;
 
-static void make(scene *s, const ehl_laws *laws)
+static void make(scene *s, const ehl_laws *laws, const ehl_history *history)
 {
-    *s = (scene){.history = {.count = ROWS,
-                             .time = time_of,
-                             .radius = radius,
-                             .speed_1 = speed_1,
-                             .speed_2 = speed_2,
-                             .load = load,
-                             .modulus = 226.4e9,
-                             .load_max = 2e5}};
+    *s = (scene){.history = *history};
     ehl_fluid_oil(laws, &s->oil);
     ehl_grid_fit(&s->grid, CELLS, 4, 1.6, &s->history, &s->oil, 0, 0);
     ehl_reynolds_create(&s->reynolds, &s->grid, laws, &s->oil, 2);
@@ -159,7 +161,7 @@ static void check_twin(scene *s, const char *what, int cause)
 static void test_twin(const ehl_laws *laws)
 {
     static scene s;
-    make(&s, laws);
+    make(&s, laws, &swelling);
     check_true("a steady film", ehl_march_start(&s.march) == FF_OK && s.transport.known);
     check_twin(&s, "cells", EHL_BY_CELLS);
     ff_status status = FF_OK;
@@ -174,7 +176,7 @@ static void test_twin(const ehl_laws *laws)
 static void errors_of(const ehl_laws *laws, double accuracy, double *of)
 {
     static scene s;
-    make(&s, laws);
+    make(&s, laws, &swelling);
     s.transport.accuracy = accuracy;
     ff_status status = ehl_march_start(&s.march);
     for (int k = 1; k <= STEPS && status == FF_OK; k++)
@@ -197,6 +199,37 @@ static void test_accuracy(const ehl_laws *laws)
         most = fmax(most, fabs(exact[i]));
     }
     check_below("linear solutions to 1e-2 against 1e-8: errors of the gap", off / most, 0.05);
+}
+
+/* Where the entrainment turns, the nodes do, and the errors with them. */
+static void test_turn(const ehl_laws *laws)
+{
+    static const double time[ROWS] = {0, 40e-6, 40.01e-6}, speed[ROWS] = {4, 0.2, -0.2};
+    static double before[EHL_TRANSPORT_ARRAYS][NODES];
+    static scene s;
+    ehl_history turning = swelling;
+    turning.time = time;
+    turning.speed_1 = turning.speed_2 = speed;
+    turning.turns = 1;
+    make(&s, laws, &turning);
+    ff_status status = ehl_march_start(&s.march);
+    for (int k = 1; k <= STEPS && status == FF_OK; k++)
+        status = ehl_march_to(&s.march, time[1] * k / STEPS);
+    check_true("a history up to its turn", status == FF_OK && !s.march.mirrored);
+    memcpy(before, s.transport.memory, sizeof before);
+    const ehl_instant at = ehl_history_at(&s.history, time[2]);
+    ehl_march_place(&s.march, &at);
+    double off = 0, uneven = 0;
+    for (size_t k = 0; k < EHL_TRANSPORT_ARRAYS; k++)
+        for (size_t i = 0; i < NODES; i++) {
+            double there = before[k][NODES - 1 - i];
+            off = fmax(off, fabs(s.transport.memory[k * NODES + i] - there));
+            uneven = fmax(uneven, fabs(before[k][i] - there));
+        }
+    check_true("errors turn with the nodes", s.march.mirrored && off <= 0 && uneven > 0);
+    status = ehl_march_to(&s.march, time[2]);
+    check_true("and go on", status == FF_OK && s.transport.known);
+    destroy(&s);
 }
 
 /* A steady film on a given domain: M, L, or the contact of line_open. */
@@ -306,6 +339,7 @@ int main(void)
                      .rheology = stage_service(flow, FF_RHEOLOGY_3_ID)};
     test_twin(&laws);
     test_accuracy(&laws);
+    test_turn(&laws);
     stage_close(oil);
     stage_close(rho);
     stage_close(flow);
