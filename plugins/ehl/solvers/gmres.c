@@ -451,6 +451,8 @@ ff_status ehl_linear_answer(ehl_solver *s, const ehl_step *step, const ehl_film 
     ehl_add(e->p, 1, w->p_step, r->nodes);
     ehl_add(e->v, 1, w->v_step, r->nodes);
     e->h00 += dh00;
+    if (status == FF_OK && !ehl_linear_converged(w))
+        status = FF_NOCONV;
     w->krylov = before.krylov;
     w->suffices = before.suffices;
     w->reached = before.reached;

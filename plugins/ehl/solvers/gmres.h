@@ -64,7 +64,8 @@ ff_status ehl_linear_solve(ehl_solver *s, const ehl_step *step, const ehl_film *
 
 /* Solves J (e->p, e->h00) = (rows, 0) with the derivatives that the equations have now, starting
  * from the values in `e`. The last row is the balance of the load. Leaves the state of Newton's
- * method and the counters as they were. FF_NOCONV: a number overflowed. */
+ * method and the counters as they were. FF_NOCONV: a number overflowed, or the accuracy was not
+ * reached. */
 ff_status ehl_linear_answer(ehl_solver *s, const ehl_step *step, const ehl_film *film,
                             const double *rows, const ehl_accuracy *accuracy, ehl_answer *e);
 

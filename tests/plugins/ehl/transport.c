@@ -201,6 +201,20 @@ static void test_accuracy(const ehl_laws *laws)
     check_below("linear solutions to 1e-2 against 1e-8: errors of the gap", off / most, 0.05);
 }
 
+/* Errors whose equations are not solved are not known, and neither are later ones. */
+static void test_lost(const ehl_laws *laws)
+{
+    static scene s;
+    make(&s, laws, &swelling);
+    s.transport.accuracy = 1e-200;
+    ff_status status = ehl_march_start(&s.march);
+    check_true("errors of a steady film that are not found", status == FF_OK && !s.transport.known);
+    s.transport.accuracy = 1e-2;
+    status = ehl_march_to(&s.march, time_of[1] / STEPS);
+    check_true("nor those after them", status == FF_OK && !s.transport.known);
+    destroy(&s);
+}
+
 /* Where the entrainment turns, the nodes do, and the errors with them. */
 static void test_turn(const ehl_laws *laws)
 {
@@ -339,6 +353,7 @@ int main(void)
                      .rheology = stage_service(flow, FF_RHEOLOGY_3_ID)};
     test_twin(&laws);
     test_accuracy(&laws);
+    test_lost(&laws);
     test_turn(&laws);
     stage_close(oil);
     stage_close(rho);
