@@ -6,9 +6,24 @@
 /* Returns w of the wedge alone, at beta = 0. */
 static const double wedge_load = 4.8949684937;
 
-double dynamics_film_node(const dynamics_film *film)
+/* Returns the mesh cycles that lead to a phase, just past a node that `phase` is but for rounding.
+   A place in front of a node (landing.c) stays there. */
+static double cycles_to(const dynamics_film *film, double phase)
 {
-    return film->pairs - floor(film->pairs);
+    static const double rounding = 1e-13;
+    return film->span > 1 ? (phase + rounding) * film->span : phase;
+}
+
+/* Returns those of them that are whole. */
+static double whole_cycles(const dynamics_film *film, double phase)
+{
+    return film->span > 1 ? floor(cycles_to(film, phase)) : 0;
+}
+
+double dynamics_film_node(const dynamics_film *film, double phase)
+{
+    double node = film->pairs - floor(film->pairs);
+    return (whole_cycles(film, phase) + node) / fmax(film->span, 1);
 }
 
 /* Returns R^1.5 of the pair x mesh cycles after SAP. */
@@ -23,14 +38,15 @@ static double radius_power(const dynamics_film *film, double x)
 dynamics_film_place dynamics_film_at(const dynamics_film *film, double phase, double T)
 {
     static const double root_of_two = 1.4142135623730951;
-    double sum = 0, count = 0;
-    for (double x = phase; x < film->pairs; x += 1, count++)
+    double sum = 0, count = 0, span = fmax(film->span, 1);
+    for (double x = cycles_to(film, phase) - whole_cycles(film, phase); x < film->pairs;
+         x += 1, count++)
         sum += radius_power(film, x);
     if (count == 0)
         sum = radius_power(film, film->pairs), count = 1;
     dynamics_film_place place = {.squeeze = 3 * M_PI * root_of_two * film->viscosity * sum};
     if (film->rolling) {
-        double radius = cbrt(sum / count), u = film->entrainment / T;
+        double radius = cbrt(sum / count), u = film->entrainment * span / T;
         radius *= radius;
         place.wedge = count * film->viscosity * u * radius;
         place.speed = u / sqrt(2 * radius);

@@ -20,6 +20,7 @@ typedef struct dynamics_film {
     double hand_over; /* h_c */
     double supply;    /* thickness above which the oil does not fill the gap; may be infinite */
     double pairs;     /* contact ratio */
+    double span;      /* mesh cycles in one cycle of the excitation, of which T and phases are */
     double
         radius[3]; /* equivalent radius of a pair, as a polynomial in the mesh cycles since SAP */
     double entrainment;           /* distance that the oil travels at (u1 + u2)/2 per mesh cycle */
@@ -38,9 +39,10 @@ typedef struct dynamics_approach {
     double speed, by_load, by_film, by_entrainment;
 } dynamics_approach;
 
-/* Returns the phase at which a pair leaves the mesh. The other node is phase 0, at which one
+/* Returns the first phase behind `phase` at which a pair leaves the mesh, or one before it in a
+ * mesh cycle without another. The other nodes are the starts of the mesh cycles, at which one
  * enters. */
-double dynamics_film_node(const dynamics_film *film);
+double dynamics_film_node(const dynamics_film *film, double phase);
 
 dynamics_film_place dynamics_film_at(const dynamics_film *film, double phase, double T);
 

@@ -96,6 +96,7 @@ ff_status dynamics_oil_read(const ff_host *host, const ff_array *in, const dynam
     film->hand_over = oil->hand_over / length;
     film->supply = isnan(oil->supply) ? INFINITY : oil->supply / length;
     film->rolling = oil->rolling;
+    film->span = excitation->span;
     read_path(in, inputs, length, film);
     if (film->rolling)
         dynamics_squeeze_table_build(&film->table);

@@ -268,7 +268,7 @@ static int solve_step(const dynamics_run *r, double end, dynamics_landing *step)
 /* Solves the longest step that keeps the accuracy, at most to the next node. 0: none was found. */
 static int find_step(dynamics_run *r, dynamics_landing *step)
 {
-    double node = dynamics_film_node(r->excitation->film),
+    double node = dynamics_film_node(r->excitation->film, r->at),
            end = dynamics_piece_end(r->excitation, r->piece);
     if (node > r->at && node < end)
         end = node;

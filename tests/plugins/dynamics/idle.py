@@ -26,12 +26,12 @@ def report(good, text):
     print(f"{'ok' if good else 'FAIL'} {text}")
 
 
-def run(outputs, torque="0 N m", motion="shooting", film="film-formula", mesh="load-distribution, compliance: analytical", more=""):
+def run(outputs, torque="0 N m", motion="shooting", film="film-formula", mesh="load-distribution, compliance: analytical", more="", frequency=1900):
     text = f"""format: 2
 include: [{source}/configs/lubricants/mil-l-23699.yaml]
 pipeline:
   {GEARS}
-  duty: {{use: operating/steady, torque: {torque}, mesh_frequency: 1900 Hz, oil_temperature: 100 degC{more}}}
+  duty: {{use: operating/steady, torque: {torque}, mesh_frequency: {frequency} Hz, oil_temperature: 100 degC{more}}}
   mesh: {{use: stiffness/{mesh}}}
   motion: {{use: dynamics/{motion}}}
   tooth: {{use: contact/tooth-pair, load: motion, points: 200}}
@@ -184,6 +184,17 @@ def folds():
         report(off < 1e-6, f"period {period}: each fold is there, off by {off:.2g}")
 
 
+def landing():
+    """Oil between the flanks under a swing too small to be felt: pairs, radii and speeds are those of each of the three mesh cycles."""
+    names = ["motion.squeeze_loss", "motion.dte_rms", "motion.period"]
+    for rolling in "true", "false":
+        one, three = (run(names, "30 N m", f"shooting, damping_ratio: 0.01, branch: upper, squeeze: series, squeeze_rolling: {rolling}, handover_film: 0.5 um",
+                          more=f", torque_fluctuation: {{amplitude: [1e-7 N m], order: [{order}]}}", frequency=4000) for order in (27, 9))
+        report(three["motion.period"] == 3 * one["motion.period"], f"squeeze_rolling {rolling}: {three['motion.period']:g} mesh cycles")
+        for name in names[:2]:
+            check(f"squeeze_rolling {rolling}: {name}", three[name], one[name], 1e-6)
+
+
 def exchanged():
     """Gear 2 written first: the same motion, its swings those of the other gear. Their angle counts from a pair at the start of the profile of
     gear 1, which with a torque below 0 is its end: the contact ratio apart."""
@@ -269,5 +280,6 @@ both_signs()
 idle()
 wrong()
 folds()
+landing()
 exchanged()
 sys.exit(failed)

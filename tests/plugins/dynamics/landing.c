@@ -117,7 +117,7 @@ static void follow_reference(const fixture *f, double T, double y[3])
     numerics_integrator gsl;
     check_true("integrator", numerics_integrator_make(&gsl, 3, 1e-14, 1e-13));
     gsl_odeiv2_evolve *evolve = gsl_odeiv2_evolve_alloc(3);
-    double t = 0, h = 1e-6, node = dynamics_film_node(&f->film) * T;
+    double t = 0, h = 1e-6, node = dynamics_film_node(&f->film, 0) * T;
     for (size_t i = 0; i < f->mesh.count; i++) {
         r.piece = &f->mesh.pieces[i];
         double end = (r.piece->start + r.piece->length) * T;
