@@ -351,6 +351,7 @@ static void test_ishigami(gsl_rng *rng)
         check(t[k].low <= total[k] && total[k] <= t[k].high, "Ishigami's bar", total[k], t[k].low,
               t[k].high);
     }
+    free(numbers);
 }
 
 /* Two of three starts from below, beside an input between two ends: any answer by the word has a
