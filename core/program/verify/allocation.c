@@ -41,12 +41,22 @@ static size_t with_zone(size_t size)
     return size <= SIZE_MAX - ZONE ? size + ZONE : SIZE_MAX;
 }
 
+/* Drops the blocks that a library has freed, which lie where a new one is. Called with the lock
+ * held. */
+static void drop_blocks_in(const unsigned char *first, size_t size)
+{
+    for (size_t i = block_count; i-- > 0;)
+        if (blocks[i].first < first + size && first < blocks[i].first + blocks[i].size + ZONE)
+            blocks[i] = blocks[--block_count];
+}
+
 static void *remember(void *memory, size_t size)
 {
     if (!memory)
         return NULL;
     memset((unsigned char *)memory + size, FILLING, ZONE);
     pthread_mutex_lock(&lock);
+    drop_blocks_in(memory, size + ZONE);
     if (block_count == block_room) {
         block_room = block_room ? 2 * block_room : 64;
         blocks = memory_resize(blocks, block_room * sizeof *blocks);

@@ -13,7 +13,7 @@
    cosine by (0.25)^8/(2^7 8!) = 3e-12. */
 static const double longest_part = 0.5;
 
-enum { SAMPLES = 32, MOST_CYCLES = 4096 };
+enum { SAMPLES = 32, MOST_CYCLES = 4096, MOST_TURNS = 64 }; /* turns of an order in a mesh cycle */
 
 static const char *name_of(int input)
 {
@@ -42,6 +42,11 @@ ff_status dynamics_fluctuation_read(const ff_host *host, const ff_array *in, dou
     *span = (size_t)*period;
     for (size_t i = 0; i < f->count; i++) {
         double turns = f->order[i] / teeth * *period;
+        if (!isfinite(f->cosine[i]) || !isfinite(f->sine[i]) || f->order[i] > MOST_TURNS * teeth)
+            return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_FLUCTUATION_ORDER),
+                            "order %g must have finite amplitudes and turn at most %d times in a "
+                            "mesh cycle",
+                            f->order[i], MOST_TURNS);
         if (!(f->order[i] > 0 && fabs(turns - round(turns)) <= 1e-9 * turns))
             return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_FLUCTUATION_ORDER),
                             "order %g of a gear of %g teeth does not repeat itself after %g mesh "

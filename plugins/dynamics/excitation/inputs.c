@@ -186,6 +186,7 @@ static ff_status check_scalars(const ff_host *host, const ff_array *in)
         {DYNAMICS_IN_TEETH, 0, 0},          {DYNAMICS_IN_BACKLASH, 0, 1},
         {DYNAMICS_IN_MESH_FREQUENCY, 0, 0}, {DYNAMICS_IN_STIFFNESS_MEAN, 0, 0},
         {DYNAMICS_IN_LINE_FORCE, 0, 1},     {DYNAMICS_IN_REFERENCE_FORCE, 0, 1},
+        {DYNAMICS_IN_DRIVEN_MASS, 0, 1},
     };
     for (size_t i = 0; i < sizeof bounds / sizeof bounds[0]; i++) {
         double value = in[bounds[i].input].data ? in[bounds[i].input].data[0] : 1;

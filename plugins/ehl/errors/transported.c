@@ -29,16 +29,20 @@ static void films_without(ehl_results *r, const ehl_march *m, const double *erro
     memcpy(eq->h, kept, r->nodes * sizeof *kept);
 }
 
-/* Turns errors into bars, with a floor that fades within a passage. */
+/* Turns errors into bars, with a floor that fades within a passage. An error that is not finite is
+ * not known, and its bar is infinite. */
 static void widen(const ehl_march *m, const double *film, double *error, double *known)
 {
     double way = m->known > 1 ? m->at.entrainment * (m->state[0].time - m->state[1].time) : 0;
     double largest = 0;
     for (int k = 0; k < EHL_PEAK; k++)
-        largest = fmax(largest, fabs(error[k]) / film[k]);
+        largest = fmax(largest, isfinite(error[k]) ? fabs(error[k]) / film[k] : 0);
     *known = fmax(largest, *known * exp(-way / (2 * m->solver->grid->half_width)));
     for (int k = 0; k < EHL_PEAK; k++)
-        error[k] = copysign(CAUTION * fmax(fabs(error[k]), FLOOR * *known * film[k]), error[k]);
+        error[k] =
+            isfinite(error[k])
+                ? copysign(CAUTION * fmax(fabs(error[k]), FLOOR * *known * film[k]), error[k])
+                : (double)INFINITY;
 }
 
 ehl_transported ehl_results_transported(ehl_results *r, const ehl_march *m)
