@@ -16,6 +16,7 @@
 #include "../../../../memory/memory.h"
 
 #include <gsl/gsl_cdf.h>
+#include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -180,34 +181,23 @@ static void fill(const surface *s, const double *polynomial, double *x)
    other. */
 static bool factorise(double *m, size_t n)
 {
-    for (size_t j = 0; j < n; j++) {
-        double whole = m[j * n + j];
-        for (size_t k = 0; k < j; k++)
-            m[j * n + j] -= m[j * n + k] * m[j * n + k];
-        if (!(m[j * n + j] > 1e-10 * whole))
-            return false;
-        m[j * n + j] = sqrt(m[j * n + j]);
-        for (size_t i = j + 1; i < n; i++) {
-            for (size_t k = 0; k < j; k++)
-                m[i * n + j] -= m[i * n + k] * m[j * n + k];
-            m[i * n + j] /= m[j * n + j];
-        }
-    }
-    return true;
+    double whole[MOST_TERMS + 1];
+    for (size_t j = 0; j < n; j++)
+        whole[j] = m[j * n + j];
+    gsl_matrix_view view = gsl_matrix_view_array(m, n, n);
+    gsl_error_handler_t *before = gsl_set_error_handler_off(); /* it would end the process */
+    bool good = gsl_linalg_cholesky_decomp1(&view.matrix) == GSL_SUCCESS;
+    gsl_set_error_handler(before);
+    for (size_t j = 0; good && j < n; j++)
+        good = m[j * n + j] * m[j * n + j] > 1e-10 * whole[j];
+    return good;
 }
 
 static void solve(const double *m, size_t n, double *x)
 {
-    for (size_t i = 0; i < n; i++) {
-        for (size_t k = 0; k < i; k++)
-            x[i] -= m[i * n + k] * x[k];
-        x[i] /= m[i * n + i];
-    }
-    for (size_t i = n; i-- > 0;) {
-        for (size_t k = i + 1; k < n; k++)
-            x[i] -= m[k * n + i] * x[k];
-        x[i] /= m[i * n + i];
-    }
+    gsl_matrix_const_view factor = gsl_matrix_const_view_array(m, n, n);
+    gsl_vector_view of = gsl_vector_view_array(x, n);
+    gsl_linalg_cholesky_svx(&factor.matrix, &of.vector);
 }
 
 static double product(const double *a, const double *b, size_t n)
