@@ -61,10 +61,12 @@ ff_status dynamics_refuse_fluctuation(const ff_host *host, const dynamics_inputs
 {
     return inputs->fluctuation.count == 0
                ? FF_OK
-               : ff_failf(host, FF_UNSUPPORTED, name_of(DYNAMICS_IN_FLUCTUATION_ORDER),
-                          "torque or speed fluctuate, and %s follows a mesh cycle that repeats "
-                          "itself: take dynamics/shooting or dynamics/time-integration",
-                          what);
+               : ff_failf(
+                     host, FF_UNSUPPORTED, name_of(DYNAMICS_IN_FLUCTUATION_ORDER),
+                     "torque or speed fluctuate, and %s follows a mesh cycle that repeats "
+                     "itself: take dynamics/shooting or dynamics/time-integration, with no film "
+                     "wired back",
+                     what);
 }
 
 double dynamics_fluctuation_size(const dynamics_fluctuation *f)
