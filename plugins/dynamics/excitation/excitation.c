@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* The relative size below which a jump or a kink of the excitation is round-off. */
+/* A jump or a kink of the excitation below this relative size is round-off. */
 static const double round_off = 1e-12;
 
 static double end_value(const dynamics_piece *p, const double *c)
@@ -37,7 +37,7 @@ static int jumps(const dynamics_piece *a, const dynamics_piece *b)
     return 0;
 }
 
-/* Whether b carries on the straight lines of a. */
+/* Returns whether piece b continues the straight lines of piece a without a kink. */
 static int continues(const dynamics_piece *a, const dynamics_piece *b)
 {
     double length = a->length + b->length;
@@ -75,13 +75,14 @@ static dynamics_piece piece_between(const dynamics_excitation *excitation,
     return p;
 }
 
-/* Two phases that differ by round-off mark a jump, too. */
+/* Two phases that differ only by round-off also mark a jump. */
 static int is_jump(const dynamics_mesh_curves *x, size_t i)
 {
     return x->phase[i + 1] - x->phase[i] <= round_off;
 }
 
-/* Adds the lines from node `first` to `last`, between which nothing jumps. */
+/* Adds the straight lines between the nodes `first` and `last`. No curve jumps between these
+   nodes. */
 static void add_stretch(dynamics_excitation *excitation, const dynamics_mesh_curves *x,
                         const dynamics_spring_nodes *spring, size_t first, size_t last)
 {
@@ -181,7 +182,8 @@ double dynamics_mesh_force(const dynamics_excitation *excitation, const dynamics
 {
     double damper = 2 * excitation->zeta * rate, b = excitation->half_gap;
     if (b == 0)
-        return dynamics_spring_force(piece, since, delta) + damper; /* the flanks never part */
+        /* no gap: the flanks never part */
+        return dynamics_spring_force(piece, since, delta) + damper;
     int side = (delta > b) - (delta < -b);
     if (side == 0)
         return excitation->damping == DYNAMICS_DAMPING_ALWAYS ? damper : 0;

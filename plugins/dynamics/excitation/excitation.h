@@ -1,15 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * The gear pair as an oscillator with one degree of freedom (Li & Kahraman 2011, eqs 2a and 2b),
- * without dimensions:
- *
+ * The gear pair as a dimensionless oscillator with one degree of freedom (Li & Kahraman 2011, eqs
+ * 2a and 2b):
  *   s'' + 2 zeta (s' - e') + k g(s - e) = load - drag
- *
- * in the unit of length `length`, the mean mesh stiffness and the unit of time 1/omega, omega^2 =
- * mean stiffness / equivalent mass. g is the dead zone of half width `half_gap`. Where k is the
- * slope of the mesh at the mean load, or the mesh force is known at several loads, the force behind
- * the dead zone bends, as spring.h has it. k and e are polynomials between the nodes of a mesh
- * cycle and may jump there; so is drag, which is 0 without a film that gives its friction back.
+ * The unit of length is `length`, the unit of stiffness is the mean mesh stiffness, and the unit of
+ * time is 1/omega with omega^2 = mean stiffness / equivalent mass. g is the dead zone of half width
+ * `half_gap`. The spring force k g may be replaced by a piecewise linear force (spring.h): if k is
+ * the slope of the mesh at the mean load, or if the mesh force is given at several loads. k and e
+ * are polynomials between the nodes of a mesh cycle and may jump at the nodes. drag has the same
+ * form. It is 0 unless a film is wired back or the torque or speed fluctuates.
  */
 #ifndef DYNAMICS_EXCITATION_H
 #define DYNAMICS_EXCITATION_H
@@ -18,36 +17,37 @@
 
 /* When the damper acts. */
 enum {
-    DYNAMICS_DAMPING_ALWAYS,  /* in the gap too, as Li & Kahraman 2011 */
+    DYNAMICS_DAMPING_ALWAYS,  /* also in the gap (Li & Kahraman 2011) */
     DYNAMICS_DAMPING_CONTACT, /* only while the flanks touch */
-    DYNAMICS_DAMPING_CLIPPED  /* only while they touch, and they never pull */
+    DYNAMICS_DAMPING_CLIPPED  /* only while the flanks touch, and the mesh force is clipped at 0 */
 };
 
-/* A stretch of the mesh cycle between nodes: the coefficients of k and e in powers of the phase
-   since its start. */
+/* Largest degree of the polynomials of a piece, and largest number of lines of its spring. */
 enum { DYNAMICS_DEGREE = 7, DYNAMICS_LINES = 32 };
 
-/* A straight line of the force over g = s - e: slope g - offset. */
+/* A straight line of the spring force: slope g - offset with g = s - e. Slope and offset are
+   polynomials of the phase since the start of the piece. */
 typedef struct dynamics_line {
     double slope[DYNAMICS_DEGREE + 1], offset[DYNAMICS_DEGREE + 1];
 } dynamics_line;
 
 typedef struct dynamics_piece {
     double start, length; /* mesh cycles */
-    int degree;           /* 1: straight lines */
+    int degree;           /* of the polynomials; 1: straight lines */
     double k[DYNAMICS_DEGREE + 1], e[DYNAMICS_DEGREE + 1];
-    double drag[DYNAMICS_DEGREE + 1]; /* of friction and rolling */
-    double
-        film[DYNAMICS_DEGREE + 1]; /* growth of the pairs' films, each by its share of the load */
-    int jump;                      /* k, e or the spring is discontinuous at the start */
-    int lines;                     /* 0: the force is k g; else the greatest of these (spring.h) */
+    double drag[DYNAMICS_DEGREE + 1]; /* of friction, rolling resistance and fluctuation */
+    double film[DYNAMICS_DEGREE + 1]; /* integral of the film growth of the pairs, weighted by their
+                                         load shares */
+    int jump;                         /* whether k, e or the spring is discontinuous at the start */
+    int lines;                        /* 0: the force is k g; else the force is the largest of these
+                                         lines (spring.h) */
     dynamics_line line[DYNAMICS_LINES];
 } dynamics_piece;
 
-/* What the smooth pieces make of the straight lines of a table. */
+/* How closely the smooth pieces reproduce the straight lines of the table. */
 typedef struct dynamics_representation {
     size_t lines, pieces;
-    double at_nodes, between; /* largest difference of k, over the mean stiffness */
+    double at_nodes, between; /* largest difference of k, relative to the mean stiffness */
 } dynamics_representation;
 
 typedef struct dynamics_excitation {
@@ -56,17 +56,17 @@ typedef struct dynamics_excitation {
     double k_max; /* the largest k */
     double zeta, load, half_gap;
     int damping;
-    int on_chord; /* whether k is to be the chord where the stiffness is the slope (spring.h) */
+    int on_chord; /* whether k is replaced by the chord F/(e_l - e) (spring.h) */
     int shared;   /* whether the spring follows the mesh force at all loads (spring.h) */
-    int drags;   /* whether pieces have a drag: of a film that is wired back, with its thickness, or
-                    of a force that swings; all then have the full degree */
-    double span; /* mesh cycles in one cycle of the pieces; 0: one */
+    int drags;    /* whether the pieces have a drag, and then all have the full degree: a film is
+                     wired back, or the force fluctuates */
+    double span;  /* mesh cycles in one period of the excitation; 0: one */
     double length, stiffness, omega; /* units: m, N/m, rad/s */
     dynamics_representation represented;
-    const struct dynamics_film *film; /* the oil between parted flanks; NULL: none */
+    const struct dynamics_film *film; /* the oil film between separated flanks; NULL: none */
 } dynamics_excitation;
 
-/* A polynomial of a piece and its derivatives by the phase. */
+/* Value and derivatives of a polynomial at the phase `since` the start of the piece. */
 static inline double dynamics_piece_value(const double *c, int degree, double since)
 {
     double value = c[degree];
@@ -83,8 +83,8 @@ static inline double dynamics_piece_slope(const double *c, int degree, double si
     return value;
 }
 
-/* The coefficients in powers of the time since a phase, which is that since the start: c moved by
-   `since` and scaled. */
+/* Shifts the polynomial c by the phase `since` and scales its variable: to(x) = c(since + scale
+   x). */
 static inline void dynamics_piece_shift(const double *c, int degree, double since, double scale,
                                         double *to)
 {
@@ -98,7 +98,8 @@ static inline void dynamics_piece_shift(const double *c, int degree, double sinc
         to[i] *= power;
 }
 
-/* Sets the curves of the mesh in a piece that begins `since` behind the start of `from`. */
+/* Copies the mesh curves of piece `from` to piece `to`, which starts at the phase `since` after the
+   start of `from`. */
 static inline void dynamics_piece_start_later(const dynamics_piece *from, double since,
                                               dynamics_piece *to)
 {
@@ -119,17 +120,18 @@ static inline double dynamics_piece_bend(const double *c, int degree, double sin
     return value;
 }
 
-/* The excitation in SI as a stiffness model gives it; `phase` runs from 0 to 1, twice at a jump. */
+/* The mesh curves of a stiffness model, in SI units. `phase` runs from 0 to 1 and repeats a value
+   where a curve jumps. */
 typedef struct dynamics_mesh_curves {
     size_t count;
     const double *phase, *stiffness;
     const double *error; /* NULL: none */
 } dynamics_mesh_curves;
 
-/* Builds the pieces from checked curves; the scalars are set. Where the lines of a table follow a
-   smooth curve, the curve is taken. 0: out of memory. */
+/* Builds the pieces from checked curves. The scalar members are already set. Straight lines that
+   sample a smooth curve are replaced by that curve. Returns 0 if out of memory. */
 int dynamics_excitation_build(dynamics_excitation *excitation, const dynamics_mesh_curves *curves);
-/* The same with a spring that bends, of nodes at the phases of the curves. */
+/* The same with a piecewise linear spring. Its nodes are at the phases of the curves. */
 struct dynamics_spring_nodes;
 int dynamics_excitation_build_bent(dynamics_excitation *excitation,
                                    const dynamics_mesh_curves *curves,
@@ -138,23 +140,25 @@ int dynamics_excitation_build_bent(dynamics_excitation *excitation,
 void dynamics_excitation_mark_jumps(dynamics_excitation *excitation);
 void dynamics_excitation_free(dynamics_excitation *excitation);
 
-/* The piece at a phase in [0, 1]; at a node that before it (`left`) or that behind it. */
+/* Returns the piece at a phase in [0, 1]. At a node it is the piece before the node if `left`, else
+   the piece after it. */
 const dynamics_piece *dynamics_excitation_piece(const dynamics_excitation *excitation, double phase,
                                                 int left);
 
-/* Deflection s - e under the load alone, on the driving flank, at the spring of phase 0; and that
-   of the spring alone, without the half gap. */
+/* Returns the deflection s - e of the driving flank under the constant load at phase 0. The second
+   function excludes the half gap. */
 double dynamics_rest_deflection(const dynamics_excitation *excitation);
 double dynamics_rest_bend(const dynamics_excitation *excitation);
 
-/* The amplitude from which a motion counts as unbounded: 1000 times half backlash and
-   static deflection; and whether s - e or its rate has reached it. */
+/* A motion counts as unbounded if its amplitude exceeds this cap: 1000 times the sum of half
+   backlash and static deflection. The second function returns whether s - e or its rate exceeds the
+   cap. */
 double dynamics_amplitude_cap(const dynamics_excitation *excitation);
 int dynamics_is_unbounded(const dynamics_excitation *excitation, double delta, double rate);
 
-/* The mesh force of Li & Kahraman 2011, eq. 4: that of the spring behind the dead zone and
-   2 zeta delta', while the damper acts; delta = s - e. `since`: phase since the start of the piece.
- */
+/* Returns the mesh force of Li & Kahraman 2011, eq. 4: the spring force behind the dead zone, plus
+   2 zeta delta' while the damper acts. delta = s - e; `since` is the phase since the start of the
+   piece. */
 double dynamics_mesh_force(const dynamics_excitation *excitation, const dynamics_piece *piece,
                            double since, double delta, double rate);
 

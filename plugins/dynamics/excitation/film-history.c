@@ -8,18 +8,20 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Shares of the highest pressure, of which the square is a share of the load, below which the film
-   is that of flanks which part and its thickness no deflection, and from which it counts in full.
-   As flanks part, load and film decide each other at once, and a loop over h ~ W^-0.13 settles only
-   where the film is stiffer than the teeth, W/(0.13 h) > k: from a thousandth of the load on, or
-   0.03. As flanks land the oil takes its time, and films that the motion knows in flight count from
-   a smaller load on. */
+/* The film thickness counts as elastic deflection in full if p_max is at least `borne` times its
+   largest value, and not at all below `parted`. The load is proportional to the square of p_max.
+   Load and film determine each other at once while flanks separate. A fixed-point loop over h ~
+   W^-0.13 then converges only where the film is stiffer than the teeth, W/(0.13 h) > k: from a load
+   share of 0.001 on, that is a pressure share of 0.03. While flanks land, the oil delays the film.
+   `landing` and `landed` are the smaller bounds for landings, if the model of the motion has a film
+   between separated flanks. */
 static const double parted = 0.1, borne = 0.2, landing = 0.01, landed = 0.02;
 
-/* Share of the largest separation from the film that the motion knows, below which flanks fly. */
+/* Flanks are in flight if p_max is below `borne` and the film is thinner than this share of its
+   largest thickness. */
 static const double flight = 0.1;
 
-/* Mesh cycles by which two phases differ at least. */
+/* Phases that differ by less than this (mesh cycles) are equal. */
 static const double at_node = 1e-9;
 
 static ff_status read_series(const ff_host *host, const ff_array *in, int input, size_t count,
@@ -29,7 +31,7 @@ static ff_status read_series(const ff_host *host, const ff_array *in, int input,
     const char *name = dynamics_oil_input_ports[input].name;
     if (!a->data || a->rank != 1 || a->shape[0] != count || count < 2)
         return ff_failf(host, FF_INVALID, name,
-                        "the film must give a series of %zu values, of at least 2", count);
+                        "the film must give a series of %zu values, at least 2", count);
     for (size_t i = 0; i < count; i++)
         if (!isfinite(a->data[i]))
             return ff_failf(host, FF_INVALID, name, "value %zu is not a finite number", i + 1);
@@ -37,7 +39,7 @@ static ff_status read_series(const ff_host *host, const ff_array *in, int input,
     return FF_OK;
 }
 
-/* The largest value; at least 0. */
+/* Returns the largest value, or 0 if all values are negative. */
 static double largest(size_t count, const double *x)
 {
     double most = 0;
@@ -46,7 +48,8 @@ static double largest(size_t count, const double *x)
     return most;
 }
 
-/* How far the thickness is that of loaded flanks, given over the whole history. */
+/* Sets the weight, 0 to 1, with which the thickness counts as that of loaded flanks. h and p are
+   histories over all engagements. */
 static void weigh(const dynamics_film_history *y, const double *h, const double *p, double *weight)
 {
     double thickest = largest(y->count, h), highest = largest(y->count, p);
@@ -62,9 +65,9 @@ static void weigh(const dynamics_film_history *y, const double *h, const double 
     }
 }
 
-/* The thickness x where it is one of loaded flanks, and the straightest way where it is not: least
-   sum w (x - h)^2 + bend (x_(i+1) - x_i)^2, a system of three diagonals. It changes smoothly with
-   the pressure, so that a loop can settle. */
+/* Keeps the thickness h where flanks are loaded (weight 1) and interpolates it where they are not:
+   x minimises sum w (x - h)^2 + bend (x_(i+1) - x_i)^2, a tridiagonal system. x depends smoothly on
+   the pressure, so that the feedback loop converges. */
 static void bridge(size_t count, const double *h, const double *weight, double *x, double *ratio)
 {
     static const double bend = 1e-4;
@@ -99,13 +102,15 @@ static ff_status read_thickness(const double *h, const double *p, dynamics_film_
     return status;
 }
 
-/* A place among non-decreasing stations: behind the first of two, by a share of their distance. */
+/* A place between two non-decreasing stations: the index of the first one and the fraction of their
+   distance. */
 typedef struct between {
     size_t i;
     double share;
 } between;
 
-/* Where one station stands twice, it is that `before` the place or that behind it. */
+/* Finds the place of `at`. If two stations are equal, `before` selects the interval before them,
+   else the interval after them is taken. */
 static between find_between(size_t count, const double *x, double at, int before)
 {
     size_t i = numerics_interval(count, x, at);
@@ -120,7 +125,8 @@ static double value_between(const between *b, const double *y)
     return y[b->i] + b->share * (y[b->i + 1] - y[b->i]);
 }
 
-/* Share of a pair under the mean force, or of a shared force under that of the instant. */
+/* Returns the load share of a pair. With a shared force it is taken at the mesh force of the
+   instant, else at the mean mesh force. */
 static double share_at(const dynamics_film_history *y, const between *station, double force)
 {
     const dynamics_inputs *inputs = y->inputs;
@@ -131,8 +137,8 @@ static double share_at(const dynamics_film_history *y, const between *station, d
     return low + station->share * (dynamics_share(inputs, station->i + 1, force) - low);
 }
 
-/* Adds one engagement's pairs at a phase under a mesh force; at the ends of an engagement `before`
-   the phase or behind it. */
+/* Adds the pairs of one engagement at a phase under a mesh force. At the ends of an engagement
+   `before` selects the limit from the left, else from the right. */
 static void add_engagement(const dynamics_film_history *y, size_t number, double phase, int before,
                            double force, dynamics_film_sum *sum)
 {
@@ -154,7 +160,7 @@ static void add_engagement(const dynamics_film_history *y, size_t number, double
         double share = share_at(y, &station, force), arm[2];
         for (int g = 0; g < 2; g++)
             arm[g] = value_between(&station, radius[g]);
-        /* rolling resistance is the loss over 2 u_r = r1 w1 + r2 w2 */
+        /* rolling resistance = loss / (2 u_r), 2 u_r = r1 w1 + r2 w2 */
         rolling /= arm[0] * y->speed[0] + arm[1] * y->speed[1];
         sum->against[0] += (friction + rolling) * arm[0];
         sum->against[1] += (rolling - friction) * arm[1];
@@ -165,8 +171,8 @@ static void add_engagement(const dynamics_film_history *y, size_t number, double
     }
 }
 
-/* The mean over the engagements. The mesh force of the instant is what the films of the round
-   before bear together. */
+/* Averages over the engagements. The mesh force of an instant is the sum of the loads that the
+   films carried in the previous round. */
 dynamics_film_sum dynamics_film_history_at(const dynamics_film_history *y, double phase, int before)
 {
     dynamics_film_sum sum = {.loss = 0};

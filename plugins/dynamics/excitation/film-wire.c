@@ -9,14 +9,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Pieces to a mesh cycle, and samples to a piece. They are the same in every round, so that what
-   acts on the motion is linear in what the film gives, and a loop can settle. */
+/* Pieces per mesh cycle, and samples per piece. They are the same in every round. The curves of the
+   motion therefore depend linearly on the film, and the feedback loop can converge. */
 enum { DENSITY = 32, SAMPLES = 32 };
 
-/* Distance of the pieces from the curves, over the largest of these, from which it is doubtful. */
+/* The fit is doubtful if the pieces deviate from the curves by more than this share of the largest
+   value. */
 static const double doubtful = 0.02;
 
-/* Mesh cycles by which two phases differ at least. */
+/* Phases that differ by less than this (mesh cycles) are equal. */
 static const double at_node = 1e-9;
 
 int dynamics_film_is_wired(const ff_array *in)
@@ -24,7 +25,7 @@ int dynamics_film_is_wired(const ff_array *in)
     return in[DYNAMICS_IN_FILM_ROLL_ANGLE].data != NULL;
 }
 
-/* Adds a node at a phase, where the curves of the film may jump. */
+/* Splits the piece at a phase where the film's curves may jump. Returns 0 if out of memory. */
 static int cut_at(dynamics_excitation *x, double phase)
 {
     phase -= floor(phase);
@@ -48,9 +49,10 @@ static int cut_at(dynamics_excitation *x, double phase)
     return 1;
 }
 
-/* The samples of all pieces, behind each other. */
+/* The samples of all pieces, one piece after another. */
 typedef struct samples {
-    size_t count, *first; /* first sample of each piece, and the number of all */
+    size_t count, *first; /* index of the first sample of each piece; first[number of pieces] =
+                             count */
     double *phase, *drag, *film, *grown;
     dynamics_film_sum *at;
 } samples;
@@ -94,7 +96,7 @@ static int take_samples(const dynamics_film_history *y, const dynamics_excitatio
     return 1;
 }
 
-/* Mean over the mesh cycle, by trapezia. */
+/* Returns the mean over the mesh cycle, by the trapezoidal rule. */
 static dynamics_film_sum mean_of(const samples *s)
 {
     dynamics_film_sum mean = {.loss = 0};
@@ -108,9 +110,9 @@ static dynamics_film_sum mean_of(const samples *s)
     return mean;
 }
 
-/* How much the films of the pairs grow between two samples, each by its share of the load: what
-   the mesh force does work on. The film in series also changes as the shares do, which is the work
-   of k(t) on springs side by side. */
+/* Returns the film growth of the pairs between two samples, weighted by their load shares. The mesh
+   force does work on this growth. Film changes that come from changing load shares are excluded:
+   their work is that of k(t) on parallel springs. */
 static double growth(const dynamics_film_sum *a, const dynamics_film_sum *z)
 {
     double sum = 0;
@@ -120,9 +122,9 @@ static double growth(const dynamics_film_sum *a, const dynamics_film_sum *z)
     return sum;
 }
 
-/* The drag along the line of action. What torques keep the gears turning sees the mean of gear 1's
-   alone, since its torque is given; the vibration sees what is left, weighted by the gears'
-   compliance to it. */
+/* Makes the curves of drag, film thickness and film growth. The drag acts along the line of action.
+   Its mean is that of gear 1's torque alone, since the torque of gear 1 is given. Its alternating
+   part is the sum over both gears, weighted by base_radius^2/inertia. */
 static void make_curves(const dynamics_film_history *y, const dynamics_excitation *x, samples *s,
                         const dynamics_film_sum *mean)
 {
@@ -151,11 +153,11 @@ static void make_curves(const dynamics_film_history *y, const dynamics_excitatio
 typedef struct builder {
     dynamics_piece *pieces;
     size_t count;
-    double unit[3]; /* largest of drag, film and its growth */
-    double off[3];  /* largest distance from them, over it */
+    double unit[3]; /* largest absolute value of drag, film and film growth */
+    double off[3];  /* largest deviation from each, relative to `unit` */
 } builder;
 
-/* Fits what lies between two samples. */
+/* Fits one piece to the samples `first` to `last`. */
 static void add_piece(builder *b, const dynamics_piece *old, const samples *s, size_t first,
                       size_t last)
 {
@@ -182,14 +184,14 @@ static void report(const ff_host *host, const dynamics_film_history *y, const bu
     double off = fmax(fmax(b->off[0], b->off[1]), b->off[2]);
     snprintf(text, sizeof text,
              "largest distance of %zu pieces from the friction of the film, %.1g, its thickness, "
-             "%.1g, and its growth, %.1g, over the largest of each",
+             "%.1g, and its growth, %.1g, relative to the largest value of each",
              b->count, b->off[0], b->off[1], b->off[2]);
     host->quality(host->ctx, "film_representation", off, doubtful,
                   off <= doubtful ? FF_GOOD : FF_DOUBTFUL, text);
     if (y->engagements > 1)
         host->quality(
             host->ctx, "film_engagements", (double)y->engagements, 1, FF_DOUBTFUL,
-            "engagements of the motion whose films differ; the mean of them acts on each");
+            "engagements of the motion have different films; the motion is driven by their mean");
 }
 
 static ff_status check_gear(const ff_host *host, const ff_array *in, size_t stations)
@@ -199,14 +201,15 @@ static ff_status check_gear(const ff_host *host, const ff_array *in, size_t stat
         if (!in[series[i]].data || in[series[i]].rank != 1 || in[series[i]].shape[0] != stations ||
             stations < 2)
             return ff_failf(host, FF_INVALID, dynamics_oil_input_ports[series[i]].name,
-                            "a film that is wired back needs the radii at the gear's stations");
+                            "a film that is wired back needs the radii of curvature at the "
+                            "gear's stations");
     if (!in[DYNAMICS_IN_FACE_WIDTH].data || !in[DYNAMICS_IN_INERTIA].data)
         return ff_failf(
             host, FF_INVALID,
             dynamics_oil_input_ports[in[DYNAMICS_IN_FACE_WIDTH].data ? DYNAMICS_IN_INERTIA
                                                                      : DYNAMICS_IN_FACE_WIDTH]
                 .name,
-            "a film that is wired back needs a gear that offers it");
+            "a film that is wired back needs a gear that gives this output");
     for (int g = 0; g < 2; g++)
         if (!(in[DYNAMICS_IN_INERTIA].data[g] > 0 && isfinite(in[DYNAMICS_IN_INERTIA].data[g])))
             return ff_failf(host, FF_INVALID, dynamics_oil_input_ports[DYNAMICS_IN_INERTIA].name,
@@ -214,7 +217,7 @@ static ff_status check_gear(const ff_host *host, const ff_array *in, size_t stat
     return FF_OK;
 }
 
-/* Takes out what the user has switched off. */
+/* Removes the effects that the user has switched off. */
 static void switch_off(const dynamics_film_wire *wire, dynamics_film_history *y,
                        const double *nothing)
 {

@@ -1,38 +1,40 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * What the films of the tooth pairs give back to the motion, frozen over the mesh cycle: friction
- * and rolling resistance as torques on both gears, and the thickness of the loaded film, which lies
- * in series with the teeth.
+ * Feedback of the films of the previous round to the motion. Friction and rolling resistance act as
+ * torques on both gears. The thickness of the loaded film acts in series with the teeth.
  */
 #ifndef DYNAMICS_FILM_WIRE_H
 #define DYNAMICS_FILM_WIRE_H
 
 #include "inputs.h"
 
-/* What of it acts, for a member `wire` of the instance. */
+/* Switches for the effects of the film. The instance has a member `wire` of this type. */
 typedef struct dynamics_film_wire {
     int32_t friction, rolling, compliance;
 } dynamics_film_wire;
 
 #define DYNAMICS_FILM_WIRE_ROWS(type)                                                              \
     FF_SWITCH("friction", type, wire.friction, "true",                                             \
-              "with a film wired back: whether its traction acts as torques on the gears"),        \
+              "with a film wired back: whether friction acts as torques on the gears"),            \
         FF_SWITCH("rolling", type, wire.rolling, "true",                                           \
-                  "with a film wired back: whether its rolling resistance acts as torques"),       \
+                  "with a film wired back: whether rolling resistance acts as torques on the "     \
+                  "gears"),                                                                        \
         FF_SWITCH("compliance", type, wire.compliance, "true",                                     \
-                  "with a film wired back: whether its thickness acts in series with the teeth")
+                  "with a film wired back: whether the film thickness acts in series with the "    \
+                  "teeth")
 
-/* Whether a film is wired back and has been computed. */
+/* Returns whether a film is wired back and available, as it is from the second round on. */
 int dynamics_film_is_wired(const ff_array *in);
 
 /* Mean powers, W. */
 typedef struct dynamics_film_powers {
-    double torques; /* what the torques put into friction and rolling */
-    double loss;    /* what the films of all pairs dissipate, as they say; NaN: there are none */
+    double torques; /* power that the torques spend on friction and rolling */
+    double loss;    /* power dissipated by the films of all pairs, as the film model
+                       gives it; NaN: no film */
 } dynamics_film_powers;
 
-/* Adds what the film gives to the pieces of an excitation that dynamics_inputs_read has made, and
-   says how well. */
+/* Adds drag and thickness of the film to the pieces of an excitation that
+   dynamics_inputs_read has made, and reports the error of this representation. */
 ff_status dynamics_film_wire_read(const ff_host *host, const ff_array *in,
                                   const dynamics_film_wire *wire, const dynamics_inputs *inputs,
                                   dynamics_excitation *excitation, dynamics_film_powers *powers);

@@ -9,11 +9,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* The angle, rad, by which an order turns within a piece: a polynomial of degree 7 then misses its
-   cosine by (0.25)^8/(2^7 8!) = 3e-12. */
+/* Largest angle (rad) through which an order may turn within one piece. A polynomial of degree 7
+   then approximates its cosine within 0.25^8/(2^7 8!) = 3e-12. */
 static const double longest_part = 0.5;
 
-enum { SAMPLES = 32, MOST_CYCLES = 4096, MOST_TURNS = 64 }; /* turns of an order in a mesh cycle */
+/* MOST_TURNS: turns of an order per mesh cycle */
+enum { SAMPLES = 32, MOST_CYCLES = 4096, MOST_TURNS = 64 };
 
 static const char *name_of(int input)
 {
@@ -31,26 +32,25 @@ ff_status dynamics_fluctuation_read(const ff_host *host, const ff_array *in, dou
     for (int i = DYNAMICS_IN_FLUCTUATION_COSINE; i <= DYNAMICS_IN_FLUCTUATION_SINE; i++)
         if (!in[i].data || in[i].rank != 1 || in[i].shape[0] != f->count)
             return ff_failf(host, FF_INVALID, name_of(i),
-                            "must have a value for each of %zu orders", f->count);
+                            "must have one value for each of the %zu orders", f->count);
     f->order = order->data;
     f->cosine = in[DYNAMICS_IN_FLUCTUATION_COSINE].data;
     f->sine = in[DYNAMICS_IN_FLUCTUATION_SINE].data;
     const double *period = in[DYNAMICS_IN_FLUCTUATION_PERIOD].data;
     if (!period || !(*period >= 1 && *period <= MOST_CYCLES && *period == floor(*period)))
         return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_FLUCTUATION_PERIOD),
-                        "must be a whole number of mesh cycles up to %d", MOST_CYCLES);
+                        "must be a whole number of mesh cycles, at most %d", MOST_CYCLES);
     *span = (size_t)*period;
     for (size_t i = 0; i < f->count; i++) {
         double turns = f->order[i] / teeth * *period;
         if (!isfinite(f->cosine[i]) || !isfinite(f->sine[i]) || f->order[i] > MOST_TURNS * teeth)
             return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_FLUCTUATION_ORDER),
-                            "order %g must have finite amplitudes and turn at most %d times in a "
-                            "mesh cycle",
+                            "order %g must have finite amplitudes and at most %d turns per mesh "
+                            "cycle",
                             f->order[i], MOST_TURNS);
         if (!(f->order[i] > 0 && fabs(turns - round(turns)) <= 1e-9 * turns))
             return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_FLUCTUATION_ORDER),
-                            "order %g of a gear of %g teeth does not repeat itself after %g mesh "
-                            "cycles",
+                            "order %g of a gear of %g teeth does not repeat after %g mesh cycles",
                             f->order[i], teeth, *period);
     }
     return FF_OK;
@@ -63,8 +63,8 @@ ff_status dynamics_refuse_fluctuation(const ff_host *host, const dynamics_inputs
                ? FF_OK
                : ff_failf(
                      host, FF_UNSUPPORTED, name_of(DYNAMICS_IN_FLUCTUATION_ORDER),
-                     "torque or speed fluctuate, and %s follows a mesh cycle that repeats "
-                     "itself: take dynamics/shooting or dynamics/time-integration, with no film "
+                     "torque or speed fluctuate, but %s needs a motion that repeats every mesh "
+                     "cycle: take dynamics/shooting or dynamics/time-integration, with no film "
                      "wired back",
                      what);
 }
@@ -95,8 +95,8 @@ static size_t parts_of(const dynamics_fluctuation *f, const dynamics_piece *p)
     return (size_t)fmax(ceil(fastest * p->length / longest_part), 1);
 }
 
-/* Sets the drag of a piece that begins `begin` mesh cycles behind the start and is `length` long.
- */
+/* Sets the drag of a piece that starts `begin` mesh cycles after the start of the period and is
+   `length` mesh cycles long. */
 static void set_drag(const dynamics_excitation *x, const dynamics_fluctuation *f, double begin,
                      double length, dynamics_piece *p)
 {
@@ -114,7 +114,8 @@ static void set_drag(const dynamics_excitation *x, const dynamics_fluctuation *f
         p->drag[i] *= unit;
 }
 
-/* A part of a piece of the mesh cycle, in the phases of the long one. */
+/* Copies a part of a piece of the mesh cycle. The phases of `to` count over the whole period of
+   `span` mesh cycles. */
 static void set_part(const dynamics_piece *from, double since, double span, dynamics_piece *to)
 {
     to->degree = DYNAMICS_DEGREE;

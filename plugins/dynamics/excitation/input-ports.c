@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The inputs of the dynamic models. */
+/* The input ports of the dynamic models. */
 #include "inputs.h"
 
-/* The rows that all models have, in two tables. */
+/* The rows that all models share. Two tables contain them. */
 #define COMMON_ROWS                                                                                \
     [DYNAMICS_IN_ROLL_ANGLE] = {.name = "gear.roll_angle",                                         \
                                 .unit = "rad",                                                     \
@@ -23,7 +23,7 @@
     [DYNAMICS_IN_EQUIVALENT_MASS] =                                                                \
         {.name = "gear.equivalent_mass",                                                           \
          .unit = "kg",                                                                             \
-         .doc = "mass that the mesh spring sees, I1 I2/(I1 rb2^2 + I2 rb1^2)",                     \
+         .doc = "equivalent mass at the mesh spring, I1 I2/(I1 rb2^2 + I2 rb1^2)",                 \
          .dims = "",                                                                               \
          .flags = FF_OPTIONAL},                                                                    \
     [DYNAMICS_IN_MESH_FREQUENCY] = {.name = "operating.mesh_frequency",                            \
@@ -36,12 +36,14 @@
                                 .dims = ""},                                                       \
     [DYNAMICS_IN_PHASE] = {.name = "stiffness.phase",                                              \
                            .unit = "1",                                                            \
-                           .doc = "phase of the mesh cycle, 0 to 1; twice at a jump",              \
+                           .doc =                                                                  \
+                               "phase of the mesh cycle, 0 to 1; a repeated value marks a jump",   \
                            .dims = "phase"},                                                       \
     [DYNAMICS_IN_STIFFNESS] =                                                                      \
         {.name = "stiffness.stiffness",                                                            \
          .unit = "N/m",                                                                            \
-         .doc = "mesh stiffness, straight between phases where they follow no smooth curve",       \
+         .doc = "mesh stiffness; linear between phases, or a smooth curve if the values follow "   \
+                "one",                                                                             \
          .dims = "phase"},                                                                         \
     [DYNAMICS_IN_STIFFNESS_MEAN] = {.name = "stiffness.stiffness_mean",                            \
                                     .unit = "N/m",                                                 \
@@ -49,14 +51,14 @@
                                     .dims = ""},                                                   \
     [DYNAMICS_IN_TRANSMISSION_ERROR] = {.name = "stiffness.transmission_error",                    \
                                         .unit = "m",                                               \
-                                        .doc = "unloaded transmission error e; none: 0",           \
+                                        .doc = "unloaded transmission error e; default: 0",        \
                                         .dims = "phase",                                           \
                                         .flags = FF_OPTIONAL},                                     \
     [DYNAMICS_IN_LOADED_ERROR] =                                                                   \
         {.name = "stiffness.loaded_transmission_error",                                            \
          .unit = "m",                                                                              \
-         .doc = "transmission error e_l under the line force, to which a slow motion tends also "  \
-                "where the stiffness is the slope of the mesh; none: e + F/k",                     \
+         .doc = "transmission error e_l under the line force, which a slow motion approaches "     \
+                "also if the stiffness is the slope of the mesh; default: e + F/k",                \
          .dims = "phase",                                                                          \
          .flags = FF_OPTIONAL},                                                                    \
     [DYNAMICS_IN_TOOTH_FORCE] = {.name = "stiffness.tooth_force",                                  \
@@ -65,62 +67,65 @@
                                  .dims = "engagement? gear.station"},                              \
     [DYNAMICS_IN_LOAD_SHARE] = {.name = "stiffness.load_share",                                    \
                                 .unit = "1",                                                       \
-                                .doc = "share of one tooth pair, used where the line force is 0",  \
+                                .doc =                                                             \
+                                    "load share of one tooth pair, used if the line force is 0",   \
                                 .dims = "engagement? gear.station",                                \
                                 .flags = FF_OPTIONAL},                                             \
     [DYNAMICS_IN_FORCE_LEVEL] = {.name = "stiffness.force_level",                                  \
                                  .unit = "N",                                                      \
-                                 .doc = "mesh forces from 0 up, to which the level_... belong",    \
+                                 .doc = "mesh forces, rising from 0, at which the level_... "      \
+                                        "inputs are given",                                        \
                                  .dims = "level",                                                  \
                                  .flags = FF_OPTIONAL},                                            \
     [DYNAMICS_IN_LEVEL_ERROR] = {.name = "stiffness.level_error",                                  \
                                  .unit = "m",                                                      \
-                                 .doc = "transmission error under each of them",                   \
+                                 .doc = "transmission error at each force_level",                  \
                                  .dims = "level phase",                                            \
                                  .flags = FF_OPTIONAL},                                            \
     [DYNAMICS_IN_LEVEL_STIFFNESS] = {.name = "stiffness.level_stiffness",                          \
                                      .unit = "N/m",                                                \
-                                     .doc = "slope of the mesh under each of them",                \
+                                     .doc = "slope of the mesh force at each force_level",         \
                                      .dims = "level phase",                                        \
                                      .flags = FF_OPTIONAL},                                        \
     [DYNAMICS_IN_LEVEL_TOOTH_FORCE] = {.name = "stiffness.level_tooth_force",                      \
                                        .unit = "N",                                                \
-                                       .doc = "tooth force of one pair under each of them",        \
+                                       .doc = "tooth force of one pair at each force_level",       \
                                        .dims = "level gear.station",                               \
                                        .flags = FF_OPTIONAL},                                      \
     [DYNAMICS_IN_REFERENCE_FORCE] = {.name = "operating.reference_force",                          \
                                      .unit = "N",                                                  \
-                                     .doc = "force at which stiffness and sharing are those of "   \
-                                            "the stiffness; none or 0: the line force",            \
+                                     .doc = "line force at which stiffness and load sharing were " \
+                                            "computed; not given or 0: the line force",            \
                                      .dims = "",                                                   \
                                      .flags = FF_OPTIONAL},                                        \
     [DYNAMICS_IN_FLUCTUATION_ORDER] =                                                              \
         {.name = "operating.fluctuation_order",                                                    \
          .unit = "1",                                                                              \
-         .doc = "orders of what the line force swings by, per turn of gear 1",                     \
+         .doc = "orders of the fluctuation of the line force, per turn of gear 1",                 \
          .dims = "fluctuation",                                                                    \
          .flags = FF_OPTIONAL},                                                                    \
     [DYNAMICS_IN_FLUCTUATION_COSINE] =                                                             \
         {.name = "operating.fluctuation_cosine",                                                   \
          .unit = "N",                                                                              \
-         .doc = "of each the force in phase with its order times the angle of gear 1",             \
+         .doc = "amplitude of each order in phase with order times rotation angle of gear 1",      \
          .dims = "fluctuation",                                                                    \
          .flags = FF_OPTIONAL},                                                                    \
     [DYNAMICS_IN_FLUCTUATION_SINE] = {.name = "operating.fluctuation_sine",                        \
                                       .unit = "N",                                                 \
-                                      .doc = "of each the force a quarter of its period later",    \
+                                      .doc = "amplitude of each order a quarter period later "     \
+                                             "than fluctuation_cosine",                            \
                                       .dims = "fluctuation",                                       \
                                       .flags = FF_OPTIONAL},                                       \
     [DYNAMICS_IN_FLUCTUATION_PERIOD] =                                                             \
         {.name = "operating.fluctuation_period",                                                   \
          .unit = "1",                                                                              \
-         .doc = "mesh cycles after which force and mesh repeat themselves together",               \
+         .doc = "mesh cycles after which the line force and the mesh repeat together",             \
          .dims = "",                                                                               \
          .flags = FF_OPTIONAL},                                                                    \
     [DYNAMICS_IN_DRIVEN_MASS] = {.name = "operating.driven_mass",                                  \
                                  .unit = "kg",                                                     \
-                                 .doc = "mass that the mesh spring sees where the speed of gear "  \
-                                        "1 is given; none or 0: equivalent_mass",                  \
+                                 .doc = "equivalent mass at the mesh spring if the speed of gear " \
+                                        "1 is prescribed; not given or 0: equivalent_mass",        \
                                  .dims = "",                                                       \
                                  .flags = FF_OPTIONAL}
 
@@ -171,13 +176,14 @@ const ff_port dynamics_oil_input_ports[DYNAMICS_OIL_INPUT_COUNT] = {
                                      .from = "ehl"},
     [DYNAMICS_IN_FILM_ENGAGEMENT] = {.name = "film.engagement",
                                      .unit = "1",
-                                     .doc = "mesh cycle of the motion in which the pair begins",
+                                     .doc = "number of the mesh cycle of the motion in which the "
+                                            "pair enters mesh",
                                      .dims = "t",
                                      .flags = FF_OPTIONAL | FF_FEEDBACK,
                                      .from = "ehl"},
     [DYNAMICS_IN_FILM_TRACTION] = {.name = "film.traction",
                                    .unit = "N/m",
-                                   .doc = "friction, sign of u1 - u2",
+                                   .doc = "friction force per width, with the sign of u1 - u2",
                                    .dims = "t",
                                    .flags = FF_OPTIONAL | FF_FEEDBACK,
                                    .from = "ehl"},
@@ -189,7 +195,7 @@ const ff_port dynamics_oil_input_ports[DYNAMICS_OIL_INPUT_COUNT] = {
                                        .from = "ehl"},
     [DYNAMICS_IN_FILM_POWER_LOSS] = {.name = "film.power_loss",
                                      .unit = "W/m",
-                                     .doc = "all that the film dissipates",
+                                     .doc = "total power dissipated by the film, per width",
                                      .dims = "t",
                                      .flags = FF_OPTIONAL | FF_FEEDBACK,
                                      .from = "ehl"},
@@ -201,29 +207,28 @@ const ff_port dynamics_oil_input_ports[DYNAMICS_OIL_INPUT_COUNT] = {
                                     .from = "ehl"},
     [DYNAMICS_IN_FILM_P_MAX] = {.name = "film.p_max",
                                 .unit = "Pa",
-                                .doc = "highest pressure, which says where the film "
-                                       "bears load",
+                                .doc = "highest pressure; it shows whether the film is loaded",
                                 .dims = "t",
                                 .flags = FF_OPTIONAL | FF_FEEDBACK,
                                 .from = "ehl"},
     [DYNAMICS_IN_FILM_LOAD] = {.name = "film.load_per_width",
                                .unit = "N/m",
-                               .doc = "load that the film carries, by which pairs share a "
-                                      "force: shared",
+                               .doc = "load carried by the film; with force: shared it "
+                                      "determines the load sharing",
                                .dims = "t",
                                .flags = FF_OPTIONAL | FF_FEEDBACK,
                                .from = "ehl"},
     [DYNAMICS_IN_FILM_SEPARATION] = {.name = "film.separation",
                                      .unit = "m",
                                      .doc =
-                                         "thickness of the film as the teeth in series with it see "
-                                         "it; in its place h_central",
+                                         "film thickness in series with the teeth; used in place "
+                                         "of h_central",
                                      .dims = "t",
                                      .flags = FF_OPTIONAL | FF_FEEDBACK,
                                      .from = "ehl"},
     [DYNAMICS_IN_ETA0] = {.name = "oil.eta0",
                           .unit = "Pa s",
-                          .doc = "viscosity of the oil between parted flanks",
+                          .doc = "viscosity of the oil between separated flanks",
                           .dims = "",
                           .flags = FF_OPTIONAL,
                           .from = "lubricant"},

@@ -40,8 +40,8 @@ static ff_status check_shapes(const ff_host *host, const ff_array *in)
 {
     if (in[DYNAMICS_IN_TOOTH_FORCE].rank > 1 || in[DYNAMICS_IN_LOAD_SHARE].rank > 1)
         return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_TOOTH_FORCE),
-                        "the motion repeats one mesh cycle, and the tooth forces are of several: "
-                        "give mesh_cycle of the stiffness a number, or worst");
+                        "the motion repeats every mesh cycle, but the tooth forces cover "
+                        "several: set mesh_cycle of the stiffness to a number or to worst");
     size_t phases = in[DYNAMICS_IN_PHASE].rank == 1 ? in[DYNAMICS_IN_PHASE].shape[0] : 0;
     size_t stations =
         in[DYNAMICS_IN_ROLL_ANGLE].rank == 1 ? in[DYNAMICS_IN_ROLL_ANGLE].shape[0] : 0;
@@ -93,14 +93,14 @@ static ff_status read_levels(const ff_host *host, const ff_array *in, dynamics_f
     return status;
 }
 
-/* Two values of one error, m, that differ by no more are one. */
+/* Returns whether two transmission errors (m) agree within round-off relative to `size`. */
 static int agree(double a, double z, double size)
 {
     return fabs(a - z) <= 1e-6 * size + 1e-15;
 }
 
-/* Row 0 of the levels is the transmission error without load, and the row of the mean force is that
-   under load. */
+/* Checks that row 0 of the levels is the unloaded transmission error, and that the row of the mean
+   force is the loaded one. */
 static ff_status check_rows(const ff_host *host, const ff_array *in, const dynamics_force_levels *l,
                             double force)
 {
@@ -122,19 +122,20 @@ static ff_status check_rows(const ff_host *host, const ff_array *in, const dynam
     return FF_OK;
 }
 
-/* Levels that a mesh force can be made of: errors and slopes that rise with the force. */
+/* Checks that a mesh force can be made of the levels: errors rise with the force, slopes are above
+   0. */
 static ff_status check_levels(const ff_host *host, const ff_array *in,
                               const dynamics_force_levels *l, double force)
 {
     if (l->count < 2 || !l->error)
         return ff_failf(host, FF_INVALID, "force",
-                        "shared needs a stiffness that knows its transmission error under several "
+                        "force: shared needs a stiffness with transmission errors at several "
                         "forces (force_level, level_error), such as stiffness/load-distribution "
-                        "under a torque; take force: frozen");
+                        "under a torque; or use force: frozen");
     if (!(force > 0))
         return ff_failf(host, FF_INVALID, "force",
-                        "shared needs a line force or a reference force above 0, but it is %g N; "
-                        "give reference_torque of the duty, or take force: frozen",
+                        "force: shared needs a line force or a reference force above 0, but it "
+                        "is %g N; set reference_torque of the duty, or use force: frozen",
                         force);
     if (l->count > DYNAMICS_LINES)
         return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_FORCE_LEVEL),
@@ -203,9 +204,9 @@ void dynamics_tell_servings(const ff_host *host, const dynamics_inertia *inertia
     const char *mass = name_of(DYNAMICS_IN_EQUIVALENT_MASS);
     const ff_serving rows[] = {
         {inertia->equivalent_mass > 0, mass, "", "equivalent_mass",
-         "equivalent_mass is given in place of the gear's inertia"},
+         "equivalent_mass replaces the inertia of the gear"},
         {inertia->natural_frequency > 0, mass, "", "natural_frequency",
-         "natural_frequency is given in place of the gear's inertia"},
+         "natural_frequency replaces the inertia of the gear"},
         {!(zeta > 0) && !isnan(zeta), "damping", "", NULL, "damping_ratio is 0"},
     };
     ff_serve(host, rows, sizeof rows / sizeof rows[0]);
@@ -235,7 +236,7 @@ ff_status dynamics_natural_frequency(const ff_host *host, const dynamics_inertia
     return FF_OK;
 }
 
-/* The range holds the main resonance and the superharmonic ones up to order 8. */
+/* The default range contains the main resonance and the superharmonic ones up to order 8. */
 ff_status dynamics_atlas_bounds(const ff_host *host, double natural, double *from, double *to)
 {
     const char *item = *to > 0 ? "atlas.to" : "atlas.from";
@@ -246,8 +247,8 @@ ff_status dynamics_atlas_bounds(const ff_host *host, double natural, double *fro
     return ff_failf(host, FF_INVALID, item, "the atlas would run from %g to %g Hz", *from, *to);
 }
 
-/* The unit of length is the size of what moves the gears: the static deflection, or else the range
-   of the excitation, or else a small part of the gap. */
+/* Returns the unit of length: the static deflection; if that is 0, the range of the transmission
+   error; if that is 0 too, a small part of the gap. */
 static double length_unit(const ff_array *in, double force, double stiffness)
 {
     double low = 0, high = 0, gap = in[DYNAMICS_IN_BACKLASH].data[0] / 2;
@@ -278,15 +279,15 @@ static ff_status check_stations(const ff_host *host, const dynamics_inputs *inpu
         if (!(cycles > -1e-9 && cycles < 10) ||
             (i && inputs->roll_angle[i] < inputs->roll_angle[i - 1]))
             return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_ROLL_ANGLE),
-                            "must rise from the start of active profile over less than 10 mesh "
-                            "cycles; station %zu is %g mesh cycles behind it",
+                            "must rise from the start of active profile by less than 10 mesh "
+                            "cycles; station %zu is %g mesh cycles after it",
                             i + 1, cycles);
     }
     return FF_OK;
 }
 
-/* Says by how much the smooth pieces differ from the straight lines that the stiffness gives. Where
-   those sample a smooth curve, their own distance from it is of that size. */
+/* Reports how much the smooth pieces differ from the straight lines of the stiffness. If the
+   straight lines sample a smooth curve, their own distance from that curve has the same size. */
 static void report_representation(const ff_host *host, const dynamics_excitation *excitation)
 {
     static const double limit = 1e-4;
@@ -295,25 +296,25 @@ static void report_representation(const ff_host *host, const dynamics_excitation
     if (!(r->at_nodes > 0 || r->between > 0))
         return;
     snprintf(text, sizeof text,
-             "%zu straight lines of k(t) are followed as %zu pieces, which meet the nodes to %.1g "
-             "of the mean stiffness and leave the lines between them by %.1g",
+             "%zu straight lines of k(t) are replaced by %zu polynomial pieces, which deviate by "
+             "%.1g of the mean stiffness at the nodes and by %.1g between them",
              r->lines, r->pieces, r->at_nodes, r->between);
     host->quality(host->ctx, "stiffness_representation", r->between, limit, FF_GOOD, text);
 }
 
-/* Says what the spring is where the stiffness and the loaded transmission error differ. */
+/* Reports which spring the motion uses if the slope k and the chord F/(e_l - e) differ. */
 static void report_spring(const ff_host *host, const dynamics_spring_nodes *s)
 {
     char text[300];
-    static const double much = 0.05; /* between slope and chord */
+    static const double much = 0.05; /* relative difference between slope and chord */
     double off = fmax(s->soft, s->unknown);
     if (!s->stiffness)
         return;
     if (!s->lines) {
         snprintf(
             text, sizeof text,
-            "with squeeze: series the motion vibrates on the chord F/(e_l - e), above which the "
-            "slope of the mesh at the mean load lies by %.3g %% on the mean",
+            "with squeeze: series the motion vibrates on the chord F/(e_l - e); the slope of the "
+            "mesh at the mean load is %.3g %% higher on average",
             100 * s->steeper);
         host->quality(host->ctx, "mesh_slope", s->steeper, much,
                       s->steeper <= much ? FF_GOOD : FF_DOUBTFUL, text);
@@ -323,31 +324,31 @@ static void report_spring(const ff_host *host, const dynamics_spring_nodes *s)
         snprintf(
             text, sizeof text,
             "at %.3g %% of the phases the loaded transmission error does not exceed the unloaded "
-            "one: the stiffness is taken as the chord there",
+            "one: there the spring is the straight line k g",
             100 * s->unknown);
     else if (s->soft > 0)
         snprintf(
             text, sizeof text,
-            "at %.3g %% of the phases the stiffness is below the chord F/(e_l - e), as that of "
-            "no mesh that stiffens under load: the chord is taken there",
+            "at %.3g %% of the phases the stiffness is below the chord F/(e_l - e), but a mesh "
+            "stiffens under load: the chord is used there",
             100 * s->soft);
     else
         snprintf(
             text, sizeof text,
-            "the motion vibrates on the slope of the mesh at the mean load, on the mean %.3g %% "
+            "the motion vibrates on the slope of the mesh at the mean load, on average %.3g %% "
             "above the chord F/(e_l - e); below half the mean force it follows a chord to e",
             100 * s->steeper);
     host->quality(host->ctx, "mesh_slope", off, 0, off > 0 ? FF_DOUBTFUL : FF_GOOD, text);
 }
 
-/* Without a damper, and without oil in its place, nothing that disturbs a motion dies out. */
+/* Warns if there is neither a damper nor an oil film: then no disturbance decays. */
 static void report_damping(const ff_host *host, const dynamics_excitation *excitation)
 {
     if (excitation->zeta == 0 && !excitation->on_chord)
         host->quality(
             host->ctx, "damping", 0, 0, FF_DOUBTFUL,
-            "damping_ratio is 0: no disturbance decays, so that the motion is one of many, "
-            "none of which a machine would settle to");
+            "damping_ratio is 0: no disturbance decays. The motion shown is one of many, and a "
+            "real machine would settle to none of them");
 }
 
 static void report_shared(const ff_host *host, const dynamics_force_levels *l, double force,
@@ -356,19 +357,19 @@ static void report_shared(const ff_host *host, const dynamics_force_levels *l, d
     static const double limit = 1e-3;
     char text[240];
     snprintf(text, sizeof text,
-             "largest share of the mean force by which the mesh force at one of its %zu forces up "
-             "to %.3g times the mean lies below the line of a softer force, and was raised",
+             "the mesh force at one of its %zu forces, up to %.3g times the mean, lies below the "
+             "tangent at a smaller force and was raised; largest change over the mean force",
              l->count, l->force[l->count - 1] / force);
     host->quality(host->ctx, "mesh_force_convex", convex, limit,
                   convex <= limit ? FF_GOOD : FF_DOUBTFUL, text);
     if (soft > 0)
         host->quality(host->ctx, "soft_levels", soft, 0, FF_DOUBTFUL,
                       "share of the phases and forces where level_stiffness is below the chord "
-                      "from the force before, as that of no mesh that stiffens under load: the "
-                      "chord is taken there");
+                      "from the previous force, but a mesh stiffens under load: the chord is "
+                      "used there");
 }
 
-/* The spring at the nodes of the curves. */
+/* Makes the spring at the nodes of the curves. */
 static ff_status make_spring(const ff_host *host, const ff_array *in, const dynamics_inputs *inputs,
                              const dynamics_excitation *excitation, dynamics_spring_nodes *spring)
 {
@@ -417,9 +418,9 @@ int dynamics_floats(const dynamics_inputs *inputs, const dynamics_excitation *ex
 void dynamics_floating_line(const ff_host *host)
 {
     static const char text[] =
-        "without a torque nothing presses the flanks together: the gears float, and every place in "
-        "the backlash is an equilibrium; shown is the middle, without forces. A drag torque, or a "
-        "fluctuation of torque or speed, makes a motion";
+        "without a torque nothing presses the flanks together: the gears float, and every place "
+        "in the backlash is an equilibrium. The middle is shown, without forces. A drag torque "
+        "or a fluctuation of torque or speed would cause a motion";
     host->log(host->ctx, FF_LOG_INFO, text);
     host->quality(host->ctx, "floating", 0, 0, FF_GOOD, text);
 }
@@ -487,8 +488,8 @@ ff_status dynamics_inputs_read(const ff_host *host, const ff_array *in,
         return status;
     if (!(inputs->natural_frequency > 0))
         return ff_failf(host, FF_INVALID, "equivalent_mass",
-                        "no inertia is known: give equivalent_mass or natural_frequency, or wire a "
-                        "gear that offers equivalent_mass");
+                        "the inertia is not known: give equivalent_mass or natural_frequency, or "
+                        "wire a gear that gives equivalent_mass");
     excitation->stiffness = stiffness;
     excitation->omega = 2 * M_PI * inputs->natural_frequency;
     inputs->unit_frequency = inputs->natural_frequency * (double)inputs->span;

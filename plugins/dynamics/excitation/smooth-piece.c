@@ -4,17 +4,18 @@
 #include <math.h>
 #include <string.h>
 
-/* A curve counts as smooth if a polynomial passes its nodes within `meets` and the middles of the
- * lines between them within `between`. Both are relative to the mean stiffness or to the unit of
- * length. */
+/* A curve counts as smooth if a polynomial fits its nodes within `meets` and the midpoints of
+   the lines within `between`. Both bounds are relative to the mean stiffness or to the unit of
+   length. */
 static const double meets = 1e-7, between = 1e-4;
 
-/* The fewest lines of a piece: three for each fitted coefficient, so that a polynomial does not
- * meet the nodes of a rough curve by accident. */
+/* Least number of lines per piece: three per fitted coefficient, so that a polynomial cannot fit a
+   rough curve by chance. */
 enum { FREE = DYNAMICS_DEGREE - 1, LEAST_LINES = 3 * FREE };
 
-/* A fit of one series to the nodes first to last: the line through both ends and a correction,
-   (1 - x^2) (a_0 T_0(x) + ... + a_5 T_5(x)), which vanishes there; -1 <= x <= 1. */
+/* A fit of one series to the nodes `first` to `last`: the line through both ends plus a correction
+   (1 - x^2) (a_0 T_0(x) + ... + a_5 T_5(x)) with Chebyshev polynomials T_n, -1 <= x <= 1. The
+   correction is 0 at both ends. */
 typedef struct fit {
     const double *phase, *value;
     size_t first, last;
@@ -53,7 +54,8 @@ static double fit_at(const fit *f, double x)
     return value;
 }
 
-/* Solves the normal equations, whose matrix is n, for a. The basis is nearly orthogonal. */
+/* Solves the normal equations with matrix n and right-hand side a; a becomes the solution. Returns
+   0 if n is singular. The basis is nearly orthogonal, so n is well conditioned. */
 static int solve_normal(double n[FREE][FREE], double a[FREE])
 {
     for (int j = 0; j < FREE; j++) {
@@ -91,7 +93,7 @@ static int fit_nodes(fit *f)
     return solve_normal(n, f->a);
 }
 
-/* The largest distance of the fit from the nodes, and from the middles of the lines. */
+/* Sets the largest distance of the fit from the nodes, and from the midpoints of the lines. */
 static void distances(const fit *f, double *at_nodes, double *from_lines)
 {
     *at_nodes = *from_lines = 0;
@@ -103,8 +105,8 @@ static void distances(const fit *f, double *at_nodes, double *from_lines)
     }
 }
 
-/* The coefficients in powers of the phase since the start, by Clenshaw's recurrence on polynomials
-   of t with x = 2 t - 1. */
+/* Converts the fit to powers of the phase since the start, by Clenshaw's recurrence on polynomials
+   in t with x = 2 t - 1. */
 static void powers_of(const fit *f, double c[DYNAMICS_DEGREE + 1])
 {
     double now[DYNAMICS_DEGREE + 2] = {0}, after[DYNAMICS_DEGREE + 2] = {0};
@@ -131,7 +133,7 @@ static void powers_of(const fit *f, double c[DYNAMICS_DEGREE + 1])
         c[k] /= scale;
 }
 
-/* Fits one series between two nodes; 0: it is not smooth there. */
+/* Fits one series between two nodes. Returns 0 if it is not smooth there. */
 static int fit_series(const dynamics_mesh_curves *x, const double *value, double unit,
                       const size_t ends[2], double distance[2], double *coefficients)
 {
@@ -145,7 +147,7 @@ static int fit_series(const dynamics_mesh_curves *x, const double *value, double
     return 1;
 }
 
-/* Fits the curves between two nodes; 0: they are not smooth there. */
+/* Fits all curves between two nodes. Returns 0 if one is not smooth there. */
 static int fit_piece(const dynamics_excitation *excitation, const dynamics_mesh_curves *x,
                      const dynamics_spring_nodes *spring, size_t first, size_t last,
                      dynamics_piece *piece, double distance[2])

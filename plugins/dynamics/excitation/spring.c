@@ -5,11 +5,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* The force of the knee over the mean force. Of 0.1 to 0.75 it is the one with which the law stays
-   nearest to the load distribution from 0 to 1.2 F, with and without relief (theory, section 4). */
+/* Force of the knee, relative to the mean force. Among 0.1 to 0.75 this value keeps the law closest
+   to the load distribution from 0 to 1.2 F, with and without profile relief (theory, section 4). */
 static const double knee = 0.5;
 
-/* An offset below this part of the mean force is round-off: k is the chord. */
+/* An offset below this share of the mean force is round-off, and k is the chord. */
 static const double round_off = 1e-6;
 
 double dynamics_spring_knee_energy(const dynamics_piece *p, double since, int band)
@@ -59,7 +59,7 @@ static double way_at(const dynamics_mesh_curves *x, const double *loaded, size_t
     return loaded[i] - (x->error ? x->error[i] : 0);
 }
 
-/* Sets k, the chord and the slope at node i. */
+/* Sets k and both lines of the spring at node i. */
 static void make_node(const dynamics_mesh_curves *x, const double *loaded, double F, size_t i,
                       dynamics_spring_nodes *s)
 {
@@ -127,14 +127,14 @@ size_t dynamics_spring_levels(const dynamics_force_levels *l, double force, int 
     return count;
 }
 
-/* Slopes of neighbouring lines differ by at least this part: else their knee is not defined. */
+/* Slopes of neighbouring lines must differ by at least this relative amount; otherwise their knee
+   is not defined. */
 static const double least_bend = 1e-5;
 
-/* A given slope that is raised by more than this part is told. */
+/* A given slope that is raised by more than this relative amount is reported. */
 static const double much_softer = 1e-3;
 
-/* The last line that is kept at a node: the deflection of the level that it was made from, its
-   force there, and its slope. */
+/* The last line kept at a node: deflection and force at its level, and its slope. */
 typedef struct last_line {
     double g, force, slope;
 } last_line;
@@ -147,10 +147,10 @@ static last_line last_line_at(const dynamics_force_levels *l, const dynamics_spr
     return (last_line){g, row.slope[i] * g - row.offset[i], row.slope[i]};
 }
 
-/* A line at node i. With slopes it is the tangent at the point (g, F) of the level, raised where
-   the last line lies above it and turned where it is less steep than the chord between both points:
-   neither happens where the levels are convex. Without slopes it is the chord from the point to
-   that of the next level. Returns whether a slope that was given has been raised. */
+/* Makes a line at node i. If slopes are given, it is the tangent at the point (g, F) of the level.
+   The tangent is raised if the last line is above it, and made steeper if its slope is below the
+   chord between both points. Neither happens if the levels are convex. Without slopes the line is
+   the chord to the next level. Returns whether a given slope was raised. */
 static int make_line(const dynamics_force_levels *l, const dynamics_spring_nodes *s,
                      const size_t level[3], size_t i, const dynamics_spring_row *row)
 {
@@ -173,7 +173,7 @@ static int make_line(const dynamics_force_levels *l, const dynamics_spring_nodes
     return l->stiffness && slope > l->stiffness[at] * (1 + much_softer);
 }
 
-/* Whether a line is steeper than the last one by more than the least at any node. */
+/* Returns whether, at any node, a line is steeper than the last one by more than `least_bend`. */
 static int bends_up(const dynamics_spring_nodes *s, const dynamics_spring_row *row)
 {
     static const double exact = 1e-9;
@@ -184,7 +184,8 @@ static int bends_up(const dynamics_spring_nodes *s, const dynamics_spring_row *r
     return 0;
 }
 
-/* Returns by how much the spring misses a level that its lines were made of at most, N. */
+/* Returns the largest difference (N) between the spring and a level that its lines were made
+   from. */
 static double largest_miss(const dynamics_force_levels *l, const dynamics_spring_nodes *s,
                            size_t level)
 {

@@ -1,28 +1,28 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * The mesh spring behind the dead zone, at a phase: a convex force of g = s - e, the greatest of
- * straight lines slope g - offset whose slopes rise and whose first goes through g = 0. Where one
- * line takes over from another is a knee; the band of a deflection is the number of its line.
- *
- * Frozen at the mean force F a spring has two lines. A small vibration sees the slope k = dF/d(e_l)
- * of the mesh, which is steeper than the chord F/(e_l - e): with e_t = e_l - F/k the force is
- *
- *   k (s - e_t) = k g - offset,   offset = k (e_t - e) = k (e_l - e) - F >= 0,
- *
- * down to half the mean force. Below it the force follows the chord from there to the unloaded e,
- * so that flight begins and ends there (theory, eq. 4.3a). Without a loaded transmission error
- * beside k, or where k is the chord, the force is k g without lines.
- *
- * Shared, it has a line for each of the forces that the stiffness knows: the tangent of G(phase, s)
- * there (theory, eq. 4.3b). Two tangents meet where a further pair touches, however that moves with
- * the phase. Without the slopes the lines are the chords between the forces.
+ * The mesh spring behind the dead zone, at a phase: a convex piecewise linear force of g = s - e.
+ * It is the largest of several straight lines, slope g - offset. The slopes rise from line to line,
+ * and the first line passes through g = 0. A knee is the intersection of two consecutive lines. The
+ * band of a deflection is the index of the line that gives its force.
+ * A spring that is frozen at the mean force F has two lines. A small vibration has the slope k =
+ * dF/d(e_l) of the mesh, which is steeper than the chord F/(e_l - e). With e_t = e_l - F/k the
+ * force down to half the mean force is
+ *   k (s - e_t) = k g - offset,   offset = k (e_t - e) = k (e_l - e) - F >= 0.
+ * Below half the mean force it follows the chord from there to the unloaded e, so that contact is
+ * lost at e (theory, eq. 4.3a). The force is k g without lines if there is no loaded transmission
+ * error, or if k is the chord.
+ * A shared spring has a line for each force level of the stiffness: the tangent of G(phase, s)
+ * there (theory, eq. 4.3b). Two tangents intersect where a further pair comes into contact, also if
+ * that point moves with the phase. If no slopes are given, the lines are the chords between the
+ * levels.
  */
 #ifndef DYNAMICS_SPRING_H
 #define DYNAMICS_SPRING_H
 
 #include "excitation.h"
 
-/* By how much the force of a line exceeds that of the line before, at a deflection g >= 0. */
+/* Returns by how much the force of a line exceeds that of the previous line at a deflection g >=
+   0. */
 static inline double dynamics_spring_excess(const dynamics_piece *p, int line, double since,
                                             double g)
 {
@@ -34,13 +34,13 @@ static inline double dynamics_spring_excess(const dynamics_piece *p, int line, d
     return steeper * g - offset;
 }
 
-/* Whether a line takes over where another ends. */
+/* Returns whether the spring has a knee. */
 static inline int dynamics_spring_bends(const dynamics_piece *p)
 {
     return p->lines > 1;
 }
 
-/* The band of a deflection; below 0 on the other flank. */
+/* Returns the band of a deflection; it is negative on the back flank. */
 static inline int dynamics_spring_band(const dynamics_piece *p, double since, double bend)
 {
     int band = 0;
@@ -50,8 +50,8 @@ static inline int dynamics_spring_band(const dynamics_piece *p, double since, do
     return bend < 0 ? -band : band;
 }
 
-/* The coefficients of the slope of the force in a band, and of the offset, which has the sign of
-   the band. */
+/* Returns the coefficients of the slope of the force in a band. The second function returns the
+   offset, which has the sign of the band. */
 static inline const double *dynamics_spring_slope(const dynamics_piece *p, int band)
 {
     return p->lines ? p->line[band < 0 ? -band : band].slope : p->k;
@@ -67,8 +67,8 @@ static inline int dynamics_spring_sign(int band)
     return (band > 0) - (band < 0);
 }
 
-/* The force on the flank; its energy, which is the integral of the force over the deflection; and
-   the rate of the energy at a fixed deflection in mesh cycles of duration T, less that of
+/* The force on the flank, its energy (integral of the force over the deflection), and the rate of
+   the energy at constant deflection for mesh cycles of duration T. The rate excludes that of
    dynamics_spring_knee_energy. */
 typedef struct dynamics_spring {
     double force, energy, energy_rate;
@@ -76,14 +76,14 @@ typedef struct dynamics_spring {
 
 dynamics_spring dynamics_spring_at(const dynamics_piece *piece, double since, double T, double bend,
                                    int band);
-/* What the energy in a band is above slope g^2/2 - offset g: the sum of
-   (change of offset)^2/(2 (change of slope)) over the knees below it. It changes with the phase
+/* Returns the difference between the energy in a band and slope g^2/2 - offset g: the sum of
+   (change of offset)^2/(2 (change of slope)) over the knees below the band. It depends on the phase
    alone. */
 double dynamics_spring_knee_energy(const dynamics_piece *piece, double since, int band);
 double dynamics_spring_force(const dynamics_piece *piece, double since, double bend);
 
-/* What a stiffness knows of other mesh forces than the mean, N, m, N/m: rows over the phases and
-   over the stations of the path of contact. count 0: nothing. */
+/* Values of a stiffness at mesh forces other than the mean, in N, m and N/m. Each level has a row
+   over the phases, or over the stations of the path of contact. count 0: none are given. */
 typedef struct dynamics_force_levels {
     size_t count, phases, stations;
     const double *force;       /* rising from 0 */
@@ -92,15 +92,16 @@ typedef struct dynamics_force_levels {
     const double *tooth_force; /* of one pair at each station; NULL: not known */
 } dynamics_force_levels;
 
-/* What the curves of a stiffness make of the spring at their nodes, in SI: k, and the lines of a
-   spring that bends. */
+/* The spring at the nodes of the stiffness curves, in SI units: k, and the lines of the piecewise
+   linear force. */
 typedef struct dynamics_spring_nodes {
-    size_t count, lines; /* lines 0: the spring does not bend */
-    double *stiffness;   /* NULL: as the curves have it */
+    size_t count, lines; /* lines 0: the spring is linear */
+    double *stiffness;   /* NULL: that of the curves */
     double *rows;        /* slopes of each line, then its offsets */
-    double steeper;      /* mean of k over the chord F/(e_l - e), less 1 */
-    double soft;    /* share of the nodes where k is below that chord, which then stands for it;
-                       of the nodes at all levels where the slope is below the chord before */
+    double steeper;      /* mean over the nodes of k divided by the chord F/(e_l - e), less 1 */
+    /* share of the nodes where k is below that chord and is replaced by it; with a shared force
+       the share of nodes and levels where the slope is below the chord to the previous level */
+    double soft;
     double unknown; /* share of the nodes where e_l does not exceed e */
 } dynamics_spring_nodes;
 
@@ -115,17 +116,17 @@ static inline dynamics_spring_row dynamics_spring_row_of(const dynamics_spring_n
     return (dynamics_spring_row){slope, slope + nodes->count};
 }
 
-/* Of the loaded transmission error, m (NULL: none), under the mean force, N; `on_chord`: k is the
-   chord F/(e_l - e) and the spring does not bend. 0: out of memory. */
+/* Makes the spring from the loaded transmission error (m; NULL: none) at the mean force (N).
+   `on_chord`: k is the chord F/(e_l - e), and the spring is linear. Returns 0 if out of memory. */
 int dynamics_spring_nodes_make(const dynamics_mesh_curves *curves, const double *loaded,
                                double force, int on_chord, dynamics_spring_nodes *nodes);
-/* The numbers of the levels that stay when `every` is 2: of every second one, the mean, the least
-   and the largest. Returns how many. */
+/* Selects every `every`-th level so that the mean force is included, and the smallest and the
+   largest level. Returns the number of selected levels. */
 size_t dynamics_spring_levels(const dynamics_force_levels *levels, double force, int every,
                               size_t taken[DYNAMICS_LINES]);
-/* The lines of the mesh force at all forces of `levels`, which has errors, or at those of
-   dynamics_spring_levels. `convex`: by how much the levels are not convex, over the mean
-   force. 0: out of memory. */
+/* Makes the lines of a shared spring from the levels selected by dynamics_spring_levels. `levels`
+   must have errors. Sets `convex` to the largest deviation from a convex curve, relative to the
+   mean force. Returns 0 if out of memory. */
 int dynamics_spring_nodes_share(const dynamics_force_levels *levels, double force, int every,
                                 dynamics_spring_nodes *nodes, double *convex);
 void dynamics_spring_nodes_free(dynamics_spring_nodes *nodes);

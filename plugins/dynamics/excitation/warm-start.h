@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The motion that a case of a chain hands to its neighbour, as a slow sweep of the speed would. */
+/* The motion that one case of a chain passes to the next one, like a slow sweep of the speed. */
 #ifndef DYNAMICS_WARM_START_H
 #define DYNAMICS_WARM_START_H
 
@@ -11,11 +11,11 @@ typedef struct dynamics_warm_start {
     char mark[16];
     double mesh_frequency; /* Hz; 0: there is none */
     double delta, rate;    /* m, m/s: s - e at phase 0, before the node */
-    int64_t period;        /* mesh cycles; below 1: the motion did not repeat itself */
+    int64_t period;        /* mesh cycles; below 1: the motion is not periodic */
 } dynamics_warm_start;
 
-/* What a model's `carry` does: takes over the motion of the neighbouring case, or none when the
-   bytes are not of that kind; hands on its own. */
+/* Implements `carry` of a model: sets `taken` to the motion of the neighbouring case, or to none if
+   the bytes have another format, and writes the model's own motion `left` to `to`. */
 ff_status dynamics_warm_start_carry(dynamics_warm_start *taken, const ff_state_bytes *from,
                                     const dynamics_warm_start *left, ff_state_bytes *to);
 

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The motion of gears without load, at rest in the backlash. */
+/* The state of rest of gears without load, in the backlash. */
 #include "motion.h"
 
 #include <math.h>
 
-/* Any place in the backlash is at rest, so that a place that is disturbed stays where it is put:
-   one multiplier is 1, the other that of the damper. */
+/* Every place in the backlash is an equilibrium, and the gears stay where a disturbance leaves
+   them. Therefore one Floquet multiplier is 1, and the other is that of the damper. */
 ff_status dynamics_motion_put_floating(const dynamics_inputs *inputs,
                                        const dynamics_excitation *excitation, const ff_host *host)
 {
@@ -24,7 +24,7 @@ ff_status dynamics_motion_put_floating(const dynamics_inputs *inputs,
     motion.monodromy[0] = 1;
     motion.monodromy[3] = damped ? exp(-2 * excitation->zeta * motion.T) : 1;
     motion.clocks.parted = motion.T;
-    still.zeta = 0; /* the damper would follow the transmission error of flanks that do not touch */
+    still.zeta = 0; /* without contact the damper must not follow the transmission error */
     still.film = NULL;
     dynamics_floating_line(host);
     ff_status status = dynamics_motion_put(&motion, inputs, host);

@@ -6,8 +6,8 @@
 
 #include <math.h>
 
-/* Moves y0 to the fixed point of the affine map y -> y0' + M (y - y0) of one mesh cycle, by (1 - M)
- * (y - y0) = y0' - y0. 0: the fixed point is unstable or does not exist. */
+/* Finds the fixed point of the affine map y -> y0' + M (y - y0) of one mesh cycle by solving (1 -
+   M) (y - y0) = y0' - y0. Returns 0 if the fixed point is unstable or does not exist. */
 static int fixed_point(const double *after, double *delta, double *rate)
 {
     double a = 1 - after[DYNAMICS_M11], b = -after[DYNAMICS_M12], c = -after[DYNAMICS_M21],
@@ -22,8 +22,8 @@ static int fixed_point(const double *after, double *delta, double *rate)
     return fabs(trace) < 1 + det && det < 1 && isfinite(*delta) && isfinite(*rate);
 }
 
-/* Returns whether the flanks of the pair with its gap touch during the whole cycle that starts
- * there. */
+/* Returns whether the flanks of the pair with backlash touch during the whole mesh cycle that
+   starts at this state. */
 static ff_status stays_in_contact(const dynamics_excitation *excitation, double T, double tolerance,
                                   double delta, double rate)
 {
@@ -42,9 +42,10 @@ static ff_status stays_in_contact(const dynamics_excitation *excitation, double 
     return touches ? FF_OK : FF_NOCONV;
 }
 
-/* Applies Newton's method to the return map of the pair without a gap. For a straight spring that
- * map is affine, and one step finds its fixed point. For a bent spring the iteration ends as soon
- * as the motion passes the same bands. 0: the fixed point is unstable or does not exist. */
+/* Applies Newton's method to the return map of the pair without a gap. With a linear spring the map
+   is affine, and one step finds its fixed point. With a piecewise linear spring the iteration ends
+   when the motion passes through the same bands as before. Returns 0 if the fixed point is unstable
+   or does not exist. */
 static int find_fixed_point(dynamics_oscillator *o, const dynamics_excitation *closed, double T,
                             double tolerance, double *delta, double *rate)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The motion in which the driving flanks never part. Without its gap the pair is linear for a
- * straight spring, so that one Newton step finds it. */
+/* The motion in which the driving flanks stay in contact. If the spring is linear, the pair without
+   a gap is linear, and one Newton step finds the motion. */
 #ifndef DYNAMICS_FULL_CONTACT_H
 #define DYNAMICS_FULL_CONTACT_H
 
@@ -9,7 +9,8 @@
 #include <flankfilm/plugin.h>
 
 /* Finds the state of that motion at phase 0, before the node. T is the duration of a mesh cycle,
- * `tolerance` the error per step. FF_NOCONV: there is none, or it is not stable. */
+   `tolerance` the error per step. Returns FF_NOCONV if there is no such motion, or if it is
+   unstable. */
 ff_status dynamics_full_contact(const dynamics_excitation *excitation, double T, double tolerance,
                                 double *delta, double *rate);
 

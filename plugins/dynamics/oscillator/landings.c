@@ -12,8 +12,8 @@ static double gap_at(const dynamics_motion_view *view, double phase, int left)
     return gap;
 }
 
-/* Two neighbouring samples. At a jump of the excitation the gap outside the interval has another
- * value. */
+/* Two neighbouring samples. If the excitation jumps at one of them, the gap has another value
+   outside the interval. */
 typedef struct interval {
     const dynamics_motion_view *view;
     double from, to;
@@ -36,11 +36,11 @@ static double closing_phase(const interval *x)
     return high;
 }
 
-/* Returns the speed at which the gap falls at a phase, by the parabola through its values there and
- * at two earlier phases. */
+/* Returns the speed at which the gap closes at a phase, from the parabola through the gap there and
+   at two earlier phases. */
 static double closing_speed(const interval *x, double phase)
 {
-    static const double share = 1e-3; /* of the interval */
+    static const double share = 1e-3; /* step, as a share of the interval */
     double h = fmin(share * (x->to - x->from), 0.5 * (phase - x->from));
     h = fmax(h, 1e-9 * (x->to - x->from));
     double earlier = 4 * gap_inside(x, phase - h) - gap_inside(x, phase - 2 * h);
@@ -56,8 +56,8 @@ static void add_landing(const interval *x, double at, size_t *found, double *pha
     ++*found;
 }
 
-/* Finds the landings of the motion that is shown; `phase` and `speed` may be NULL. A jump of the
- * excitation may close the gap itself; the flanks then meet with the speed before the jump. */
+/* Finds the landings of the motion that is shown. `phase` and `speed` may be NULL. A jump of the
+   excitation may close the gap; the flanks then meet with the speed before the jump. */
 static size_t list_landings(const dynamics_motion_view *view, double *phase, double *speed)
 {
     size_t count = dynamics_motion_view_count(view), found = 0;

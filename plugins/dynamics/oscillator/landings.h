@@ -5,8 +5,8 @@
 
 #include "motion-view.h"
 
-/* Gives two series: the times of the landings since the start of the motion that is shown, and the
- * speeds of approach. They are empty if no flanks part. */
+/* Writes two outputs: the times of the landings since the start of the motion that is shown, and
+   the speeds of approach. Both are empty if contact is never lost. */
 ff_status dynamics_landings_put(const dynamics_motion_view *view,
                                 const dynamics_excitation *excitation, uint32_t time_output,
                                 uint32_t speed_output, const ff_host *host);

@@ -27,9 +27,9 @@ double dynamics_motion_view_phase(const dynamics_motion_view *view, size_t sampl
     return sample_at(view, sample)->phase;
 }
 
-/* Integrates by the Euler-Maclaurin rule: the trapezium rule with the slopes at its ends. The error
- * of the second integral is estimated by Simpson's rule on Hermite's cubics, which has the same
- * order. */
+/* Integrates by the Euler-Maclaurin rule: the trapezoidal rule with end corrections from the
+   slopes. The error of the mean square is estimated by comparison with Simpson's rule on Hermite
+   cubics, which has the same order. */
 dynamics_statistics dynamics_motion_view_statistics(const dynamics_motion_view *view)
 {
     size_t count = dynamics_motion_view_count(view);
@@ -81,14 +81,14 @@ double dynamics_station_phase(const dynamics_inputs *inputs, size_t station)
            (double)dynamics_span(inputs);
 }
 
-/* Of two stations at one place the first gets the value before the jump. So does the tip. */
+/* If two stations coincide, the first takes the value before the jump. The tip takes it too. */
 static int is_left(const dynamics_inputs *inputs, size_t i)
 {
     return i + 1 == inputs->stations ||
            inputs->roll_angle[i + 1] - inputs->roll_angle[i] < 1e-12 * inputs->pitch;
 }
 
-/* Gives the force of the pair at each station, at the phase of that station. */
+/* Writes the tooth force of the pair at each station, taken at the phase of that station. */
 static ff_status put_engagements(const dynamics_motion_view *view,
                                  const dynamics_excitation *excitation,
                                  const dynamics_inputs *inputs, const ff_host *host)
@@ -115,7 +115,8 @@ static ff_status put_engagements(const dynamics_motion_view *view,
     return FF_OK;
 }
 
-/* Returns the top of the parabola through three equally spaced points, if it lies between them. */
+/* Returns the top of the parabola through three equally spaced points, or the largest point if that
+   top lies outside of them. */
 static double top_of(const double force[3])
 {
     double rise = (force[2] - force[0]) / 2, bend = force[1] - (force[0] + force[2]) / 2;
@@ -126,8 +127,8 @@ static double top_of(const double force[3])
 /* The tooth force between stations, in units of the excitation's force. */
 typedef struct dynamics_between {
     double largest;
-    double
-        beyond; /* half-way between two stations, the amount by which it leaves the range of both */
+    double beyond; /* largest amount by which the force half-way between two stations is outside the
+                      range of both */
 } dynamics_between;
 
 /* Samples the tooth force on `parts` times the stations; `newton` is the unit of force. */
@@ -159,12 +160,13 @@ static dynamics_between look_between(const dynamics_motion_view *view, double ne
     return found;
 }
 
-/* Largest factor on the number of stations that is tried. */
+/* Largest factor by which the number of stations is multiplied. */
 enum { MOST_PARTS = 27 };
 
-/* Returns how many stations resolve the motion, judged by its tooth force on two, three, five and
- * more times as many. Too few stations miss a vibration that turns between two of them. 0: more
- * than the factors tried. */
+/* Returns the number of stations that resolve the motion. Two, three, five and more times the
+   number of stations are tried, and the tooth force between them is checked. With too few stations
+   a vibration turns between two of them unnoticed. Returns 0 if more than MOST_PARTS times as many
+   are needed. */
 static double enough_stations(const dynamics_motion_view *view, double newton,
                               const dynamics_inputs *inputs, double limit)
 {
@@ -177,10 +179,11 @@ static double enough_stations(const dynamics_motion_view *view, double newton,
     return found.beyond > limit * found.largest ? 0 : (double)(inputs->stations * parts);
 }
 
-/* Judges the loss at a turning point. A vibration that turns by the angle w between two stations
- * leaves their range by 1 - cos(w/2) of its amplitude, and a monotone cubic cuts that off. The
- * Hertz pressure errs by half as much. A jump between stations, as of the damper's force at a
- * corner of the transmission error, is a ramp instead. */
+/* Reports how much of the tooth force the stations miss at a turning point. A vibration whose phase
+   advances by the angle w between two stations exceeds the range of both by 1 - cos(w/2) of its
+   amplitude, and a monotone cubic cuts off this part. The relative error of the Hertz pressure is
+   half as large. A jump between stations becomes a ramp: for instance, the damper force jumps at a
+   corner of the transmission error. */
 static void report_sampling(const dynamics_motion_view *view, double newton,
                             const dynamics_between *found, const dynamics_inputs *inputs,
                             const ff_host *host)
@@ -190,15 +193,18 @@ static void report_sampling(const dynamics_motion_view *view, double newton,
     char more[96] = "", text[240];
     double enough = error > limit ? enough_stations(view, newton, inputs, limit) : 0;
     if (enough > 0)
-        snprintf(more, sizeof more, "; the gear's stations: %.0f or more follow the vibration",
+        snprintf(more, sizeof more,
+                 "; with %.0f or more stations of the gear the vibration is "
+                 "resolved",
                  100 * ceil(enough / 100));
     else if (error > limit)
         snprintf(more, sizeof more,
-                 "; the gear's stations: more than %d times as many follow the vibration",
+                 "; more than %d times as many stations of the gear are needed to resolve the "
+                 "vibration",
                  MOST_PARTS);
     snprintf(text, sizeof text,
-             "tooth force half-way between two stations of the gear, beyond that at both of them, "
-             "over the largest%s",
+             "largest amount by which the tooth force half-way between two stations of the gear "
+             "is outside the range of both, over the largest tooth force%s",
              more);
     host->quality(host->ctx, "station_sampling", error, limit,
                   error <= limit ? FF_GOOD : FF_DOUBTFUL, text);

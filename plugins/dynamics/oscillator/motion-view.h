@@ -7,38 +7,39 @@
 #include "oscillator.h"
 
 /* Samples that begin with a dynamics_sample, `stride` bytes apart. The record continues beyond the
- * shown cycles, for as long as a tooth pair stays in mesh. */
+   shown cycles for as long as a tooth pair stays in mesh. */
 typedef struct dynamics_motion_view {
     const void *samples;
     size_t stride, recorded;
-    size_t cycles; /* mesh cycles that are shown */
+    size_t cycles; /* number of mesh cycles that are shown */
     double T;      /* duration of a mesh cycle */
-    /* times within the shown cycles without contact and with contact on the back flank */
+    /* times within the shown cycles: without contact, and with contact on the back flank */
     double parted, back;
     int period;
-    /* Gives the force and the gap at a phase. At a jump of the excitation `left` asks for the
-     * values before it. */
+    /* Gives the force and the gap at a phase. At a jump of the excitation `left` selects the values
+       before it. */
     void (*look_up)(const void *self, double phase, int left, double *force, double *gap);
     const void *self;
 } dynamics_motion_view;
 
 typedef struct dynamics_statistics {
     double mean, rms, low, high, force, least_force;
-    double rms_error; /* error by the spacing of the samples, relative to rms */
+    double rms_error; /* error that comes from the spacing of the samples, relative to rms */
 } dynamics_statistics;
 
 size_t
-dynamics_motion_view_count(const dynamics_motion_view *view); /* samples in the shown cycles */
+/* number of samples in the shown cycles */
+dynamics_motion_view_count(const dynamics_motion_view *view);
 double dynamics_motion_view_phase(const dynamics_motion_view *view, size_t sample);
 dynamics_statistics dynamics_motion_view_statistics(const dynamics_motion_view *view);
-/* Finds the first sample of the interval that holds the phase. At a jump `left` asks for the
- * interval before it. */
+/* Finds the first sample of the interval that contains the phase. At a jump `left` selects the
+   interval before it. */
 size_t dynamics_motion_view_before(const dynamics_motion_view *view, double phase, int left);
 
-/* Returns the mesh cycles from SAP to a station. */
+/* Returns the phase of a station: mesh cycles from SAP. */
 double dynamics_station_phase(const dynamics_inputs *inputs, size_t station);
 
-/* Gives the scalars of the statistics, and force and gap at the stations. */
+/* Writes the scalar outputs of the statistics, and force and gap at the stations. */
 ff_status dynamics_motion_view_put(const dynamics_motion_view *view,
                                    const dynamics_statistics *statistics,
                                    const dynamics_excitation *excitation,

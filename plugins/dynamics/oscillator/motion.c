@@ -15,14 +15,14 @@ const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT] = {
     [DYNAMICS_OUT_PHASE] =
         {.name = "phase",
          .unit = "1",
-         .doc = "mesh cycles since the entering pair was at SAP; twice where the excitation "
-                "jumps",
+         .doc = "mesh cycles since the entering pair was at SAP; a repeated value marks a jump "
+                "of the excitation",
          .dims = "cycle"},
     [DYNAMICS_OUT_DTE] =
         {.name = "dte",
          .unit = "m",
-         .doc = "dynamic transmission error s; 0 in the middle of the backlash, so that "
-                "half of it is in the values",
+         .doc = "dynamic transmission error s; zero is the middle of the backlash, so that the "
+                "values in contact include half the backlash",
          .dims = "cycle"},
     [DYNAMICS_OUT_DTE_VELOCITY] = {.name = "dte_velocity",
                                    .unit = "m/s",
@@ -30,18 +30,24 @@ const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT] = {
                                    .dims = "cycle"},
     [DYNAMICS_OUT_MESH_FORCE] = {.name = "mesh_force",
                                  .unit = "N",
-                                 .doc = "dynamic mesh force DMF of spring and damper; "
-                                        "with squeeze, of the oil alone while no flank is held",
+                                 .doc = "dynamic mesh force DMF of spring and damper; with "
+                                        "squeeze: series, the force of the oil alone while the "
+                                        "flanks are separated",
                                  .dims = "cycle"},
     [DYNAMICS_OUT_DTE_RMS] = {.name = "dte_rms",
                               .unit = "m",
-                              .doc = "root mean square of the alternating part of s",
+                              .doc = "root mean square of the alternating part of the dynamic "
+                                     "transmission error s",
                               .dims = "",
                               .max = INFINITY},
-    [DYNAMICS_OUT_DTE_MEAN] = {.name = "dte_mean", .unit = "m", .doc = "mean of s", .dims = ""},
+    [DYNAMICS_OUT_DTE_MEAN] = {.name = "dte_mean",
+                               .unit = "m",
+                               .doc = "mean of the dynamic transmission error s",
+                               .dims = ""},
     [DYNAMICS_OUT_DTE_PEAK_TO_PEAK] = {.name = "dte_peak_to_peak",
                                        .unit = "m",
-                                       .doc = "highest less lowest s",
+                                       .doc = "largest minus smallest dynamic transmission error "
+                                              "s",
                                        .dims = "",
                                        .max = INFINITY},
     [DYNAMICS_OUT_TOOTH_FORCE] =
@@ -52,13 +58,14 @@ const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT] = {
          .dims = "engagement? gear.station"},
     [DYNAMICS_OUT_GAP] = {.name = "gap",
                           .unit = "m",
-                          .doc = "separation of the driving flanks; 0 in contact. With squeeze the "
-                                 "film between them beyond handover_film, which bends the teeth",
+                          .doc = "separation of the driving flanks; 0 in contact. With squeeze: "
+                                 "series, the film thickness beyond handover_film, including the "
+                                 "deflection that the film causes",
                           .dims = "engagement? gear.station"},
     [DYNAMICS_OUT_DYNAMIC_FACTOR_TOOTH] =
         {.name = "dynamic_factor_tooth",
          .unit = "1",
-         .doc = "largest dynamic over largest quasi-static tooth force",
+         .doc = "largest dynamic tooth force over largest quasi-static tooth force",
          .dims = ""},
     [DYNAMICS_OUT_DYNAMIC_FACTOR_MESH] = {.name = "dynamic_factor_mesh",
                                           .unit = "1",
@@ -71,127 +78,135 @@ const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT] = {
                                    .max = 1},
     [DYNAMICS_OUT_BACK_CONTACT] = {.name = "back_contact",
                                    .unit = "1",
-                                   .doc = "share of the time with contact on the back flank",
+                                   .doc = "share of the time with contact on the back flanks",
                                    .dims = "",
                                    .max = 1},
     [DYNAMICS_OUT_NATURAL_FREQUENCY] = {.name = "natural_frequency",
                                         .unit = "Hz",
-                                        .doc = "of small vibration, at the mean of the stiffness "
-                                               "that is wired: the slope dF/d(e_l) with "
-                                               "definition: tangent, the chord F/(e_l - e) with "
-                                               "secant",
+                                        .doc = "natural frequency of small vibration at the mean "
+                                               "of the wired stiffness: from the slope dF/d(e_l) "
+                                               "with definition: tangent, from the chord F/(e_l "
+                                               "- e) with secant",
                                         .dims = "",
                                         .max = INFINITY},
     [DYNAMICS_OUT_PERIOD] =
         {.name = "period",
          .unit = "1",
-         .doc = "of the motion in mesh cycles; 0: aperiodic, -1: grows without bound",
+         .doc = "period of the motion in mesh cycles; 0: aperiodic, -1: grows without bound",
          .dims = ""},
     [DYNAMICS_OUT_FLOQUET_MAX] =
         {.name = "floquet_max",
          .unit = "1",
-         .doc = "largest modulus of the multipliers: below 1 the motion is stable",
+         .doc = "largest modulus of the Floquet multipliers; the motion is stable if it is below "
+                "1",
          .dims = ""},
     [DYNAMICS_OUT_MULTIPLIERS] =
         {.name = "multipliers",
          .unit = "1",
-         .doc = "real and imaginary part of the growth of a disturbance over the "
+         .doc = "Floquet multipliers (real and imaginary part): growth of a disturbance over the "
                 "motion shown",
          .dims = "multiplier part"},
     [DYNAMICS_OUT_DTE_HARMONICS] = {.name = "dte_harmonics",
                                     .unit = "m",
                                     .doc =
-                                        "amplitudes of s at 1, 2, 3 ... times the mesh frequency",
+                                        "amplitudes of the dynamic transmission error s at 1, 2, "
+                                        "3 ... times the mesh frequency",
                                     .dims = "harmonic"},
     [DYNAMICS_OUT_LANDING_TIME] =
         {.name = "landing_time",
          .unit = "s",
-         .doc =
-             "when the driving flanks meet after they have parted, since the start of the motion "
-             "shown; empty: they do not part",
+         .doc = "times at which the driving flanks meet again after contact loss, since the start "
+                "of the motion shown; empty: no contact loss",
          .dims = "landing"},
     [DYNAMICS_OUT_LANDING_SPEED] = {.name = "landing_speed",
                                     .unit = "m/s",
-                                    .doc = "how fast they approach each other there",
+                                    .doc = "speeds of approach at these times",
                                     .dims = "landing"},
     [DYNAMICS_OUT_STABLE_MOTIONS] =
         {.name = "stable_motions",
          .unit = "1",
-         .doc = "different motions of at most 6 mesh cycles at this speed in which "
-                "disturbances die out, of those that both branches and 16 starts "
-                "lead to; with known_motions: atlas those of the atlas, too",
+         .doc = "number of different stable motions, of at most 6 mesh cycles, at this speed: "
+                "found from both branches and 16 other starts; with known_motions: atlas also "
+                "from the atlas",
          .dims = "",
          .max = INFINITY},
     [DYNAMICS_OUT_ATLAS_FREQUENCY] =
         {.name = "atlas_frequency",
          .unit = "Hz",
-         .doc = "mesh frequency of all periodic motions, along their branches",
+         .doc = "mesh frequencies of all periodic motions, along their branches",
          .dims = "point"},
     [DYNAMICS_OUT_ATLAS_RMS] = {.name = "atlas_rms",
                                 .unit = "m",
-                                .doc = "root mean square of the alternating part of s there",
+                                .doc = "root mean square of the alternating part of the "
+                                       "transmission error at each atlas point",
                                 .dims = "point"},
     [DYNAMICS_OUT_ATLAS_STABLE] = {.name = "atlas_stable",
                                    .unit = "1",
-                                   .doc = "1: disturbances die out, 0: they grow",
+                                   .doc = "stability of each atlas point; 1: disturbances die "
+                                          "out, 0: they grow",
                                    .dims = "point"},
     [DYNAMICS_OUT_ATLAS_BRANCH] =
         {.name = "atlas_branch",
          .unit = "1",
-         .doc = "number of the branch: 1000 times the period and n for p<period>-<n>",
+         .doc = "branch of each atlas point: 1000 times the period plus n, for branch "
+                "p<period>-<n>",
          .dims = "point"},
     [DYNAMICS_OUT_ATLAS_FLOQUET_MAX] = {.name = "atlas_floquet_max",
                                         .unit = "1",
-                                        .doc = "largest modulus of the multipliers",
+                                        .doc = "largest modulus of the Floquet multipliers at "
+                                               "each atlas point",
                                         .dims = "point"},
     [DYNAMICS_OUT_FOLD_FREQUENCY] = {.name = "fold_frequency",
                                      .unit = "Hz",
-                                     .doc = "where two branches meet and end",
+                                     .doc = "mesh frequencies of folds, where two branches meet "
+                                            "and end",
                                      .dims = "fold"},
     [DYNAMICS_OUT_FOLD_BRANCH] = {.name = "fold_branch",
                                   .unit = "1",
-                                  .doc = "the first of the two",
+                                  .doc = "first of the two branches of each fold",
                                   .dims = "fold"},
     [DYNAMICS_OUT_DOUBLING_FREQUENCY] = {.name = "doubling_frequency",
                                          .unit = "Hz",
-                                         .doc = "where the period doubles",
+                                         .doc = "mesh frequencies at which the period doubles",
                                          .dims = "doubling"},
     [DYNAMICS_OUT_DAMPER_LOSS] = {.name = "damper_loss",
                                   .unit = "W",
-                                  .doc = "mean power that the damper takes",
+                                  .doc = "mean power dissipated by the damper",
                                   .dims = ""},
     [DYNAMICS_OUT_SQUEEZE_LOSS] = {.name = "squeeze_loss",
                                    .unit = "W",
-                                   .doc = "mean power that the oil between parted flanks takes",
+                                   .doc = "mean power dissipated by the oil between separated "
+                                          "flanks",
                                    .dims = ""},
     [DYNAMICS_OUT_EXCITATION_POWER] =
         {.name = "excitation_power",
          .unit = "W",
          .doc =
-             "mean power that the prescribed changes of stiffness and transmission error bring in; "
-             "film_power is not in it",
+             "mean power supplied by the prescribed changes of stiffness and transmission error; "
+             "film_power is not included",
          .dims = ""},
     [DYNAMICS_OUT_TORQUE_POWER] =
         {.name = "torque_power",
          .unit = "W",
-         .doc = "mean power that the torques put into friction and rolling at "
-                "the mean speeds of the gears; 0 without a film wired back",
+         .doc = "mean power that the torques spend on friction and rolling resistance at the "
+                "mean speeds of the gears; 0 without a film wired back",
          .dims = ""},
     [DYNAMICS_OUT_FRICTION_WORK] =
         {.name = "friction_work",
          .unit = "W",
-         .doc = "mean power that friction and rolling take from the vibration; "
-                "0 without a film wired back",
+         .doc = "mean power that friction and rolling resistance take from the vibration; 0 "
+                "without a film wired back",
          .dims = ""},
     [DYNAMICS_OUT_FILM_POWER] =
         {.name = "film_power",
          .unit = "W",
-         .doc = "mean power that the changes of the loaded film's thickness bring "
-                "in; 0 without a film wired back",
+         .doc = "mean power supplied by the changing thickness of the loaded film; 0 without a "
+                "film wired back",
          .dims = ""},
     [DYNAMICS_OUT_DOUBLING_BRANCH] = {.name = "doubling_branch",
                                       .unit = "1",
-                                      .doc = "branch of the shorter period",
+                                      .doc = "branch of the shorter period at each period "
+                                             "doubling",
                                       .dims = "doubling"},
 };
 
@@ -219,7 +234,7 @@ void dynamics_motion_check_energy(dynamics_motion *motion, double start, double 
     motion->energy_error = unit > 0 ? fabs(gain) / unit : 0;
 }
 
-/* Takes over the monodromy and the clocks of the recorded cycles, and checks both invariants. */
+/* Copies the monodromy and the clocks of the recorded cycles, and checks both invariants. */
 static void check_invariants(dynamics_motion *motion, const dynamics_oscillator *o,
                              double start_energy)
 {
@@ -264,7 +279,7 @@ double dynamics_motion_multipliers(const dynamics_motion *motion, double multipl
     }
     double half = 0.5 * (m[0] + m[3]), det = m[0] * m[3] - m[1] * m[2];
     double d = half * half - det, root = sqrt(fabs(d));
-    if (!isfinite(d)) { /* a disturbance of a long aperiodic motion overflows */
+    if (!isfinite(d)) { /* a disturbance of a long aperiodic motion may overflow */
         multipliers[0] = huge;
         multipliers[1] = multipliers[2] = multipliers[3] = 0;
         return huge;
@@ -298,8 +313,9 @@ static dynamics_motion_view view_of(const dynamics_motion *motion)
                                   .self = motion};
 }
 
-/* Interpolates force and gap between two samples. With oil between the flanks they do not follow
- * from s: the film bends the teeth, so that the flanks are further apart than s says. */
+/* Interpolates force and gap between two samples of a motion with oil between the flanks. They do
+   not follow from s, since the film force bends the teeth and the flanks are further apart than s
+   shows. */
 static void read_films(const dynamics_sample *a, const dynamics_sample *z, double phase,
                        double *force, double *gap)
 {
@@ -308,8 +324,8 @@ static void read_films(const dynamics_sample *a, const dynamics_sample *z, doubl
     *gap = fmax(a->film + x * (z->film - a->film), 0);
 }
 
-/* Computes the force and the gap at any phase of the record, from s by Hermite's cubic between
- * samples. At a jump of the excitation `left` asks for the values before the jump. */
+/* Computes force and gap at any phase of the record. s is a Hermite cubic between samples. At a
+   jump of the excitation `left` selects the values before the jump. */
 static void force_and_gap_at(const void *self, double phase, int left, double *force, double *gap)
 {
     const dynamics_motion *motion = self;
@@ -375,7 +391,8 @@ static ff_status put_multipliers(const dynamics_motion *motion, const ff_host *h
                          dynamics_motion_multipliers(motion, multipliers));
 }
 
-/* s cos(2 pi n phase), or with the sine, at a sample, and its derivative by the phase. */
+/* Returns s cos(2 pi n phase), or s sin(2 pi n phase), at a sample, and its derivative by the
+   phase. */
 static double fourier_integrand(const dynamics_motion *motion, const dynamics_sample *s, int n,
                                 int sine, double *slope)
 {
@@ -384,8 +401,8 @@ static double fourier_integrand(const dynamics_motion *motion, const dynamics_sa
     return s->s * (sine ? q : c);
 }
 
-/* Fourier's integrals a_n, b_n = 2 int s (cos, sin)(2 pi n phase) d phase by the Euler-Maclaurin
-   rule: the trapezium with the slopes at its ends. */
+/* Writes the harmonics from Fourier's integrals a_n, b_n = 2 int s (cos, sin)(2 pi n phase) d
+   phase, by the Euler-Maclaurin rule: the trapezoidal rule with end corrections from the slopes. */
 static ff_status put_harmonics(const dynamics_motion *motion, const dynamics_inputs *inputs,
                                const ff_host *host)
 {
@@ -428,13 +445,14 @@ ff_status dynamics_motion_put(const dynamics_motion *motion, const dynamics_inpu
         status = dynamics_motion_view_put(&view, &st, motion->excitation, inputs, host);
     host->quality(host->ctx, "rms_sampling_error", st.rms_error, 1e-3,
                   st.rms_error <= 1e-3 ? FF_GOOD : FF_DOUBTFUL,
-                  "estimate of the error of dte_rms by the points shown, over it");
+                  "estimated relative error of dte_rms that comes from the spacing of the points "
+                  "shown");
     return status;
 }
 
-/* Reports the balance of powers: torques and the prescribed changes of stiffness and transmission
-   error put power in; films, damper and vibration take it. `films` is the loss of the films by
-   their own model. It includes squeezing, so that the motion's squeeze loss is not added. */
+/* Reports the power balance. Torques and the prescribed changes of stiffness and transmission error
+   supply power; films, damper and vibration take it. `films` is the power loss that the film model
+   gives. It includes squeezing, so the squeeze loss of the motion is not added. */
 static void check_powers(const double power[DYNAMICS_POWER_OUTPUT_COUNT], double films, int knows,
                          const ff_host *host)
 {
@@ -445,10 +463,10 @@ static void check_powers(const double power[DYNAMICS_POWER_OUTPUT_COUNT], double
     char text[320];
     snprintf(
         text, sizeof text,
-        "torques and excitation put in %.6g W, film, damper and vibration take %.6g W: the "
-        "difference over what the film takes. Where flanks part it is what the motion does not "
-        "know of the film in flight%s",
-        in, out, knows ? "" : "; squeeze: series gives it one");
+        "torques and excitation supply %.6g W; film, damper and vibration take %.6g W; "
+        "difference over the power of the film. Where flanks separate, the motion neglects the "
+        "film that the film model computes%s",
+        in, out, knows ? "" : "; squeeze: series includes it");
     host->quality(host->ctx, "power_balance", off, limit, off <= limit ? FF_GOOD : FF_DOUBTFUL,
                   text);
 }
@@ -459,7 +477,8 @@ ff_status dynamics_motion_put_powers(const dynamics_motion *motion,
     const dynamics_excitation *x = motion->excitation;
     double unit =
         x->stiffness * x->length * x->length * x->omega / ((double)motion->cycles * motion->T);
-    const int swings = x->drags && isnan(film->loss); /* the drag is then that of the torque */
+    /* the drag is then that of the fluctuating torque */
+    const int swings = x->drags && isnan(film->loss);
     const double power[DYNAMICS_POWER_OUTPUT_COUNT] = {
         [DYNAMICS_OUT_DAMPER_LOSS] = unit * (motion->loss - motion->squeeze),
         [DYNAMICS_OUT_SQUEEZE_LOSS] = unit * motion->squeeze,

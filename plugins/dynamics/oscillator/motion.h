@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A steady motion, its invariants, and what it means for the teeth: the outputs of the models. */
+/* A steady motion, its invariants, and the outputs of the models that follow from it. */
 #ifndef DYNAMICS_MOTION_H
 #define DYNAMICS_MOTION_H
 
@@ -29,10 +29,10 @@ enum {
     DYNAMICS_OUT_LANDING_TIME,
     DYNAMICS_OUT_LANDING_SPEED,
     DYNAMICS_MOTION_OUTPUT_COUNT,
-    /* about other motions at the same speed */
+    /* outputs about other motions at the same speed */
     DYNAMICS_OUT_STABLE_MOTIONS = DYNAMICS_MOTION_OUTPUT_COUNT,
     DYNAMICS_SPEED_OUTPUT_COUNT,
-    /* of models that know all motions over a range of speeds */
+    /* outputs of models that find all motions over a range of speeds */
     DYNAMICS_OUT_ATLAS_FREQUENCY = DYNAMICS_SPEED_OUTPUT_COUNT,
     DYNAMICS_OUT_ATLAS_RMS,
     DYNAMICS_OUT_ATLAS_STABLE,
@@ -43,7 +43,7 @@ enum {
     DYNAMICS_OUT_DOUBLING_FREQUENCY,
     DYNAMICS_OUT_DOUBLING_BRANCH,
     DYNAMICS_ATLAS_OUTPUT_COUNT,
-    /* of a model that keeps account of them */
+    /* outputs of models that compute the powers */
     DYNAMICS_OUT_DAMPER_LOSS = DYNAMICS_ATLAS_OUTPUT_COUNT,
     DYNAMICS_OUT_SQUEEZE_LOSS,
     DYNAMICS_OUT_EXCITATION_POWER,
@@ -57,28 +57,30 @@ extern const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT];
 
 typedef struct dynamics_motion {
     const dynamics_excitation *excitation;
-    int period;             /* mesh cycles, DYNAMICS_APERIODIC or DYNAMICS_UNBOUNDED */
-    size_t cycles;          /* that the outputs show */
-    double T;               /* duration of a mesh cycle, rad of the natural frequency */
-    dynamics_record record; /* of `cycles` and as many more as a tooth pair stays in mesh */
-    dynamics_clocks clocks; /* over `cycles` */
+    int period;             /* in mesh cycles, or DYNAMICS_APERIODIC or DYNAMICS_UNBOUNDED */
+    size_t cycles;          /* number of cycles that the outputs show */
+    double T;               /* duration of a mesh cycle, in rad of the natural frequency */
+    dynamics_record record; /* record of `cycles`, and of as many more as a tooth pair stays in
+                               mesh */
+    dynamics_clocks clocks; /* clocks over `cycles` */
     double monodromy[4];
-    const double *films;        /* at its start; NULL: there are none, or they are not known */
-    double in_oil[4][4];        /* monodromy in (delta, rate, films) of a motion with films */
-    double loss, squeeze, work; /* energy that damper and films took, the films alone, and that the
-                                   excitation brought in, over `cycles` */
+    const double *films;        /* film thicknesses at the start; NULL: no films, or not known */
+    double in_oil[4][4];        /* monodromy in (delta, rate, films) of a motion with oil films */
+    double loss, squeeze, work; /* energies over `cycles`: taken by damper and films, taken by
+                                   the films alone, supplied by the excitation */
     double drag;                /* energy that friction and rolling took from the vibration */
-    double thickness;           /* energy that the loaded film brought in, of the work */
+    double thickness;           /* part of `work` that the loaded film supplies */
     double det_error;           /* relative error of det M */
-    double
-        energy_error; /* energy brought in less what is lost and stored, relative to the energies */
+    double energy_error; /* supplied energy less lost and stored energy, relative to the energies */
 } dynamics_motion;
 
-/* Mesh cycles from the start of active profile (SAP) to the last station, rounded up. */
+/* Returns the mesh cycles from the start of active profile (SAP) to the last station, rounded
+   up. */
 size_t dynamics_mesh_cycles_of_engagement(const dynamics_inputs *inputs);
 
-/* Records the motion that starts at (delta, rate). `motion` has excitation, period, cycles and T
-   set, and is freed by dynamics_record_free(&motion->record). FF_NOCONV: too many steps. */
+/* Records the motion that starts at (delta, rate). The members excitation, period, cycles and T of
+   `motion` are already set. Free it with dynamics_record_free(&motion->record). Returns FF_NOCONV
+   if there were too many steps. */
 ff_status dynamics_motion_record(dynamics_motion *motion, const dynamics_inputs *inputs,
                                  double tolerance, size_t per_cycle, double delta, double rate);
 
@@ -88,31 +90,32 @@ typedef struct dynamics_atlas_columns {
     double *frequency, *rms, *stable, *branch, *floquet;
 } dynamics_atlas_columns;
 
-/* 0: out of memory. */
+/* Returns 0 if out of memory. */
 int dynamics_atlas_columns_open(dynamics_atlas_columns *columns, size_t points,
                                 const ff_host *host);
 
-/* The Floquet multipliers, which are the eigenvalues of the monodromy, as complex pairs (re, im);
-   returns the largest modulus. */
+/* Computes the Floquet multipliers, the eigenvalues of the monodromy, as complex pairs (re, im).
+   Returns the largest modulus. */
 double dynamics_motion_multipliers(const dynamics_motion *motion, double multipliers[4]);
 
-/* Sets det_error by Abel's identity: det M = exp(-2 zeta t) over the time t in which the damper
-   acts. Clocks and monodromy are set. */
+/* Sets det_error by Abel's identity: det M = exp(-2 zeta t), where t is the time in which the
+   damper acts. Clocks and monodromy are already set. */
 void dynamics_motion_check_determinant(dynamics_motion *motion);
 
-/* Sets energy_error by the energies at both ends, the work brought in and what the damper took. */
+/* Sets energy_error from the energies at both ends, the work supplied and the energy that the
+   damper took. */
 void dynamics_motion_check_energy(dynamics_motion *motion, double start, double end, double work,
                                   double loss);
 
-/* The outputs from DYNAMICS_OUT_DAMPER_LOSS on: means over the motion shown. With a film wired back
-   says how far what goes in is from what comes out. */
+/* Writes the outputs from DYNAMICS_OUT_DAMPER_LOSS on: means over the motion shown. With a film
+   wired back it also reports the difference between supplied and dissipated power. */
 ff_status dynamics_motion_put_powers(const dynamics_motion *motion,
                                      const dynamics_film_powers *film, const ff_host *host);
 
 ff_status dynamics_motion_put(const dynamics_motion *motion, const dynamics_inputs *inputs,
                               const ff_host *host);
 
-/* The outputs of gears that float in the middle of the backlash: no motion, and no force. */
+/* Writes the outputs of gears that float in the middle of the backlash: no motion and no force. */
 ff_status dynamics_motion_put_floating(const dynamics_inputs *inputs,
                                        const dynamics_excitation *excitation, const ff_host *host);
 

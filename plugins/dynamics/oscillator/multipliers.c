@@ -9,7 +9,7 @@
 
 double dynamics_films_multipliers(const double m[4][4], double multipliers[8])
 {
-    gsl_set_error_handler_off(); /* GSL's own handler would end the process */
+    gsl_set_error_handler_off(); /* GSL's default handler would end the process */
     gsl_eigen_nonsymm_workspace *work = gsl_eigen_nonsymm_alloc(4);
     gsl_vector_complex *value = gsl_vector_complex_alloc(4);
     double copy[16], size[4];

@@ -10,17 +10,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Longest step, in radians of the stiffest mesh: it holds at most one turning point. */
+/* Longest step, in radians of the natural frequency of the stiffest mesh. Such a step contains at
+   most one turning point. */
 static const double longest_step = 0.5;
 
-/* The motion is given up after this many steps since the start. */
+/* The integration fails after this many steps since the start. */
 static const size_t step_limit = 20000000;
 
-/* Least error of a step, relative to the motion, that can be asked for. */
+/* Smallest error per step, relative to the motion, that may be requested. */
 static const double round_off = 1e-14;
 
-/* An event that comes less than `slip` (rad) after the one before counts as idle. After this many
- * of them in a row the regime is held for that time. */
+/* An event is idle if it comes less than `slip` (rad) after the previous one. After MAX_IDLE idle
+   events in a row the regime is kept for that time. */
 enum { MAX_IDLE = 4 };
 static const double slip = 1e-6;
 
@@ -30,21 +31,22 @@ struct dynamics_oscillator {
     gsl_odeiv2_system system;
     double y[DYNAMICS_STATE_SIZE];
     int side;    /* 1: driving flanks touch, -1: back flanks, 0: neither */
-    int pressed; /* 0 with side != 0: the damper is clipped and the flank lags behind the teeth */
-    int band;    /* of the spring (spring.h) */
+    int pressed; /* 0 with side != 0: the clipped damper holds the flank back behind the teeth,
+                    without force */
+    int band;    /* band of the spring force (spring.h) */
     const dynamics_piece *piece;
     double T;       /* duration of the mesh cycle */
     double t;       /* time since the start of the piece */
-    int refine;     /* divides the longest step and each piece */
+    int refine;     /* divisor of the longest step and of each piece */
     double longest; /* the longest step */
     double cap;     /* longest step in this piece */
-    double h;       /* next step */
+    double h;       /* length of the next step */
     dynamics_clocks clocks;
     size_t steps;
 };
 
-/* A condition that holds while value >= 0. When it fails, the regime changes to (side, pressed), or
- * the spring alone to another band. */
+/* A gate is a condition that holds while value >= 0. When it fails, the regime changes to (side,
+   pressed); at a knee only the band of the spring changes. */
 typedef struct gate {
     double value, rate;
     int side, pressed, knee, band;
@@ -52,7 +54,7 @@ typedef struct gate {
 
 enum { MOST_GATES = 4 };
 
-/* Returns the slope of the spring's force in the present band. */
+/* Returns the slope of the spring force in the current band. */
 static double stiffness_at(const dynamics_oscillator *o, double t)
 {
     return dynamics_piece_value(dynamics_spring_slope(o->piece, o->band), o->piece->degree,
@@ -66,7 +68,7 @@ static double stiffness_rate_at(const dynamics_oscillator *o, double t)
            o->T;
 }
 
-/* Returns slope times deflection less the spring's force, in the present band. */
+/* Returns slope times deflection minus the spring force, in the current band. */
 static double offset_at(const dynamics_oscillator *o, double t)
 {
     return o->band ? dynamics_spring_sign(o->band) *
@@ -106,7 +108,7 @@ static double drag_at(const dynamics_oscillator *o, double t)
                                 : 0;
 }
 
-/* Returns the force that drives delta: the load less the drag and e''. */
+/* Returns the force that drives delta: load minus drag minus e''. */
 static double drive_at(const dynamics_oscillator *o, double t)
 {
     double bend = dynamics_piece_bend(o->piece->e, o->piece->degree, t / o->T);
@@ -124,8 +126,8 @@ static double energy_rate_at(const dynamics_oscillator *o, double t, double bend
     return dynamics_spring_at(o->piece, t / o->T, o->T, bend, o->band).energy_rate;
 }
 
-/* Evaluates the equation of excitation.h in delta = s - e, its variation, and the powers of damper
- * and excitation. The power of the excitation excludes that of the drag. */
+/* Evaluates the equation of excitation.h in delta = s - e, its variational equation, and the powers
+   of damper and excitation. The power of the excitation excludes that of the drag. */
 static int derivative(double t, const double y[], double dydt[], void *self)
 {
     const dynamics_oscillator *o = self;
@@ -172,7 +174,7 @@ void dynamics_oscillator_free(dynamics_oscillator *o)
     free(o);
 }
 
-/* Enters a piece of a mesh cycle of duration T. */
+/* Enters a piece; a mesh cycle lasts T. */
 static void enter_piece(dynamics_oscillator *o, const dynamics_piece *piece, double T)
 {
     o->piece = piece;
@@ -225,8 +227,8 @@ double dynamics_oscillator_energy(const dynamics_oscillator *o)
     return 0.5 * s_rate * s_rate + stored - o->excitation->load * s;
 }
 
-/* Passes a node. s and s' are continuous there, so that delta = s - e jumps by the negative jump of
- * e. The damper turns a jump of e into an impulse of 2 zeta times that jump. */
+/* Crosses a node. s and s' are continuous there, so delta = s - e jumps by minus the jump of e. The
+   damper turns a jump of e into an impulse of 2 zeta times that jump. */
 static void pass_node(dynamics_oscillator *o, const dynamics_piece *piece, double T)
 {
     double before = dynamics_oscillator_energy(o);
@@ -272,8 +274,8 @@ static int find_contact_gates(const dynamics_oscillator *o, double t, const doub
     return 2;
 }
 
-/* Sets the gate at the knee of the spring on one flank, from which a line takes over: the excess
- * over the knee, or the lack (`sign` -1). */
+/* Makes the gate at a knee of the spring on one flank. Its value is the force of `line` minus the
+   force of the previous line, times `sign`. */
 static gate knee_gate(const dynamics_oscillator *o, double t, const double *y, int flank, int line,
                       double sign)
 {
@@ -297,7 +299,7 @@ static gate knee_gate(const dynamics_oscillator *o, double t, const double *y, i
                   .band = flank * (sign > 0 ? line - 1 : line)};
 }
 
-/* Lists the gates of the present regime. Returns their number. */
+/* Lists the gates of the current regime. Returns their number. */
 static int find_gates(const dynamics_oscillator *o, double t, const double *y, gate g[MOST_GATES])
 {
     int count = find_contact_gates(o, t, y, g);
@@ -312,8 +314,8 @@ static int find_gates(const dynamics_oscillator *o, double t, const double *y, g
     return count;
 }
 
-/* Tries a step from the present state. `error` gets GSL's estimate for the motion alone: the
- * variation obeys the same equation and may grow to any size. */
+/* Tries a step from the current state. `error` is GSL's error estimate for the motion alone: the
+   variation obeys the same equation and may grow to any size. */
 static void attempt(dynamics_oscillator *o, double h, double *y, double *error)
 {
     memcpy(y, o->y, sizeof o->y);
@@ -333,8 +335,8 @@ static double gate_after_step(dynamics_oscillator *o, int i, int rate, double h)
     return rate ? g[i].rate : g[i].value;
 }
 
-/* Most probes; bisection takes over from the secant after MAX_SECANTS of them. Some 52 halvings of
- * a step reach round-off. */
+/* MAX_PROBES: most evaluations; after MAX_SECANTS of them bisection replaces the secant method.
+   About 52 halvings of a step reach round-off. */
 enum { MAX_PROBES = 100, MAX_SECANTS = 50 };
 
 /* Returns the step at which gate i, or its rate, changes sign between 0 and h. */
@@ -355,22 +357,23 @@ static double find_change(dynamics_oscillator *o, int i, int rate, double at_0, 
     return b.high;
 }
 
-/* Returns whether the cubic through two values and rates stays clear of 0 in between. */
+/* Returns whether the cubic through two values and rates stays above 0 between them. */
 static int stays_clear(const gate *a, const gate *z, double h)
 {
     double slope = (z->value - a->value) / h;
     double c2 = (3 * slope - 2 * a->rate - z->rate) / h;
     double c3 = (a->rate + z->rate - 2 * slope) / (h * h);
     double root = sqrt(fmax(c2 * c2 - 3 * c3 * a->rate, 0));
-    double x = -a->rate / (c2 + root); /* the minimum, where the rate rises through 0 */
+    double x = -a->rate / (c2 + root); /* position of the minimum, where the rate changes sign to
+                                          positive */
     if (!(x > 0 && x < h))
         return 0;
     double lowest = a->value + x * (a->rate + x * (c2 + x * c3));
     return lowest > 0.1 * (fmin(a->value, z->value) - lowest);
 }
 
-/* Returns the first instant in the step of h at which gate i closes, or -1. A gate without a change
- * of sign may still touch 0 in between; its lowest point is then checked. */
+/* Returns the first instant in the step of h at which the value of gate i falls to 0, or -1. A gate
+   without a change of sign may still touch 0 in between, so its lowest point is then checked. */
 static double find_closing(dynamics_oscillator *o, int i, const gate *a, const gate *z, double h)
 {
     double tiny = 100 * DBL_EPSILON * (1 + o->excitation->half_gap);
@@ -386,9 +389,9 @@ static double find_closing(dynamics_oscillator *o, int i, const gate *a, const g
     return value < -tiny ? find_change(o, i, 0, start, lowest, value) : -1;
 }
 
-/* Multiplies the variation by the saltation matrix 1 + [0 0; jump/rate 0] where flanks meet or part
- * at the edge of the gap and the force jumps (Leine & Nijmeijer 2004, Dynamics and Bifurcations of
- * Non-Smooth Mechanical Systems). */
+/* Multiplies the variation by the saltation matrix 1 + [0 0; jump/rate 0]. It applies where flanks
+   meet or separate at the edge of the gap and the force jumps (Leine & Nijmeijer 2004, Dynamics and
+   Bifurcations of Non-Smooth Mechanical Systems). */
 static void cross_edge(dynamics_oscillator *o, const gate *g)
 {
     double before[DYNAMICS_STATE_SIZE], after[DYNAMICS_STATE_SIZE], rate = o->y[DYNAMICS_RATE];
@@ -403,9 +406,9 @@ static void cross_edge(dynamics_oscillator *o, const gate *g)
     o->y[DYNAMICS_M22] += salt * o->y[DYNAMICS_M12];
 }
 
-/* Books energy at a change of regime. When a flank begins to lag behind the teeth, the damper takes
- * the energy of the spring. A jump of e across the edge of the gap brings energy in or takes it
- * out. */
+/* Changes the regime and adds the change of stored energy to the energy balance. When a flank
+   begins to lag behind the teeth, the damper takes the energy of the spring. When e jumps across
+   the edge of the gap, the excitation supplies or takes energy. */
 static void change_regime(dynamics_oscillator *o, const gate *g)
 {
     if (g->knee) {
@@ -440,7 +443,8 @@ static void accept_step(dynamics_oscillator *o, double h, const double *y)
     o->clocks.damped += damper_acts(o) ? h : 0;
 }
 
-/* Finds the first event in the step of h to y: its instant and its gate. 0: there is none. */
+/* Finds the first event in the step of h to y: its instant and its gate. Returns 0 if there is
+   none. */
 static int find_event(dynamics_oscillator *o, double h, const double *y, double *at, gate *which)
 {
     gate a[MOST_GATES], z[MOST_GATES];
@@ -457,7 +461,7 @@ static int find_event(dynamics_oscillator *o, double h, const double *y, double 
     return found;
 }
 
-/* Integrates to the instant `end` of the piece. 0: too many steps. */
+/* Integrates to the instant `end` of the piece. Returns 0 if there are too many steps. */
 static int advance_to(dynamics_oscillator *o, double end)
 {
     static const double no_slope[DYNAMICS_STATE_SIZE] = {0};

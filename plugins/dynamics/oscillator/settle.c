@@ -9,17 +9,17 @@
 
 const double dynamics_longest_cycle = 1e6;
 
-/* Branches that lose contact are found as in an experiment, by a slow sweep of the speed. A falling
- * sweep starts above resonance, where contact is never lost, and follows the bent resonance. A
- * rising sweep stays on the branch below. The sweep starts at `top` times the natural frequency, or
- * at `bottom` times the mesh frequency. */
+/* Branches with contact loss are found as in an experiment, by a slow sweep of the speed. A falling
+   sweep starts above resonance, where contact is never lost, and follows the bent resonance curve.
+   A rising sweep stays on the lower branch. The falling sweep starts at `top` times the natural
+   frequency, the rising one at `bottom` times the mesh frequency. */
 static const double top = 1.4, bottom = 0.7;
-/* Counts of mesh cycles: at the start of a sweep, the most to settle with and without damping, and
- * kept in memory. */
+/* Numbers of mesh cycles: at the start of a sweep, the most to settle with and without damping, and
+   those kept in memory. */
 enum { START_CYCLES = 50, DAMPED_LIMIT = 20000, UNDAMPED_LIMIT = 1000, HISTORY = 32 };
 
-/* A motion that has not settled is called periodic if its distance to a periodic motion is below
- * this. */
+/* A motion that has not settled is called periodic if its estimated distance to a periodic motion
+   is below this value. */
 static const double nearly_periodic = 1e-3;
 
 static void start_at_rest(const dynamics_follower *follower, const dynamics_excitation *excitation,
@@ -29,9 +29,10 @@ static void start_at_rest(const dynamics_follower *follower, const dynamics_exci
 }
 
 /* Keeps the relative change of the mesh frequency per cycle well below the damping, so that the
- * motion follows. Below a tenth of the natural frequency the resonances are of high order and weak;
- * there the change per time is kept instead. */
-/* Mesh cycles in one cycle of the excitation, in which a frequency counts. */
+   motion can follow. Below a tenth of the natural frequency the resonances are of high order and
+   weak; there the change per time is kept instead. */
+/* Returns the mesh cycles in one cycle of the excitation. The sweep counts in cycles of the
+   excitation. */
 static double span_of(const dynamics_excitation *excitation)
 {
     return fmax(excitation->span, 1);
@@ -55,8 +56,7 @@ static int is_unbounded(const dynamics_follower *follower, const dynamics_excita
     return dynamics_is_unbounded(excitation, x[0], x[1]);
 }
 
-/* Gives the start of the sweep five times the time 1/zeta in which a disturbance decays by a factor
- * e. */
+/* The sweep starts with five times the time 1/zeta in which a disturbance decays by a factor e. */
 size_t dynamics_sweep_start_cycles(const dynamics_excitation *excitation, double T)
 {
     double decay = excitation->zeta * T;
@@ -122,9 +122,10 @@ static double change_over(const history *h, int period, int ago)
     return fmax(fabs(h->delta[now] - h->delta[then]), fabs(h->rate[now] - h->rate[then]));
 }
 
-/* Estimates the distance to a motion of that period. A disturbance that shrinks by mu in one period
- * changes by 1 - mu of the distance. mu is exp(-zeta p T), as in contact, or the ratio of the last
- * two changes if that is larger. A change at round-off of the state says nothing about mu. */
+/* Estimates the distance to a motion of that period. A disturbance that shrinks by the factor mu in
+   one period changes by 1 - mu times the distance. mu is exp(-zeta p T), as in contact, or the
+   ratio of the last two changes if that is larger. A change of the size of round-off contains no
+   information about mu. */
 static double distance_to(const history *h, const dynamics_excitation *excitation, double T,
                           int period)
 {
@@ -139,9 +140,9 @@ static double distance_to(const history *h, const dynamics_excitation *excitatio
     return change == 0 ? 0 : change / fmax(1 - mu, DBL_EPSILON);
 }
 
-/* Finds the shortest period within the tolerance, or else the one that fits best. A decaying
- * disturbance may nearly repeat after some cycles, so a period counts only if the change over every
- * shorter one is far larger. */
+/* Finds the shortest period within the tolerance, or else the period that fits best. A decaying
+   disturbance may nearly repeat after some cycles, so a period counts only if the change over every
+   shorter one is far larger. */
 static void find_period(const history *h, const dynamics_excitation *excitation,
                         const dynamics_settling *how, dynamics_settled *result)
 {
@@ -229,7 +230,7 @@ void dynamics_chaos_line(double growth, const ff_host *host)
     char text[160];
     snprintf(text, sizeof text,
              "aperiodic: a small disturbance grows by a factor of %.3g per mesh cycle, so the "
-             "motion never repeats itself",
+             "motion never repeats",
              growth);
     host->quality(host->ctx, "stability", growth, 1, FF_DOUBTFUL, text);
 }
@@ -239,13 +240,13 @@ void dynamics_periodicity_line(const dynamics_settled *settled, double tolerance
 {
     int32_t verdict = settled->within ? FF_GOOD : FF_DOUBTFUL;
     const char *text =
-        settled->within ? NULL : "the motion repeats itself nearly, but has not settled yet";
+        settled->within ? NULL : "the motion is nearly periodic but has not settled yet";
     if (settled->period == DYNAMICS_APERIODIC)
         text = aperiodic;
     if (settled->period == DYNAMICS_UNBOUNDED) {
         verdict = FF_BAD;
-        text = "the motion grows without bound; what is shown is the mesh cycle before it passed "
-               "1000 times half backlash and static deflection";
+        text = "the motion grows without bound; shown is the mesh cycle before it exceeded 1000 "
+               "times the sum of half backlash and static deflection";
     }
     host->quality(host->ctx, "periodicity", fmin(settled->distance, 1e300), tolerance, verdict,
                   text);

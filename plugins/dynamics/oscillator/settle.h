@@ -8,9 +8,9 @@
 
 #include <flankfilm/plugin.h>
 
-/* Special periods of a motion, else counts of mesh cycles. */
+/* Special values of a period, and numbers of mesh cycles. */
 enum {
-    DYNAMICS_LONGEST_PERIOD = 8, /* the longest that is told apart from an aperiodic motion */
+    DYNAMICS_LONGEST_PERIOD = 8, /* longest period that is distinguished from an aperiodic motion */
     DYNAMICS_APERIODIC = 0,
     DYNAMICS_UNBOUNDED = -1
 };
@@ -27,61 +27,61 @@ typedef enum dynamics_branch { DYNAMICS_BRANCH_LOWER, DYNAMICS_BRANCH_UPPER } dy
 typedef struct dynamics_settling {
     dynamics_branch branch;
     double T;              /* duration of a mesh cycle */
-    size_t cycles;         /* most mesh cycles; 0: as many as the damping needs */
-    double tolerance;      /* of the distance to the periodic motion */
+    size_t cycles;         /* most mesh cycles; 0: as many as the damping requires */
+    double tolerance;      /* tolerance of the distance to the periodic motion */
     double step_tolerance; /* error of one integration step */
     double from;     /* frequency of a motion to start from, over the natural frequency; 0: none */
-    double start[2]; /* state of that motion */
+    double start[2]; /* state of the motion to start from */
     const ff_host *host;
 } dynamics_settling;
 
 typedef struct dynamics_settled {
-    int period;      /* mesh cycles, DYNAMICS_APERIODIC or DYNAMICS_UNBOUNDED */
+    int period;      /* in mesh cycles, or DYNAMICS_APERIODIC or DYNAMICS_UNBOUNDED */
     int within;      /* 1: the tolerance was met */
-    size_t cycles;   /* cycles that it took, without the sweep */
-    size_t limit;    /* cycles that were allowed */
+    size_t cycles;   /* cycles needed, without the sweep */
+    size_t limit;    /* cycles allowed */
     double distance; /* estimated distance to the periodic motion, in units of excitation->length */
     double delta, rate; /* state at phase 0, before the node */
 } dynamics_settled;
 
-/* The integrator that follows the motion: oscillator.h, or flow.h with oil between parted flanks.
- */
+/* The integrator that follows the motion: oscillator.h, or flow.h if there is oil between separated
+   flanks. */
 typedef struct dynamics_follower {
     void *self;
-    void (*start)(void *self, double T, double delta, double rate); /* at phase 0 */
+    void (*start)(void *self, double T, double delta, double rate); /* starts at phase 0 */
     int (*cycle)(void *self, double T);                             /* 0: too many steps */
-    void (*state)(const void *self, double x[2]);                   /* delta, rate */
+    void (*state)(const void *self, double x[2]);                   /* sets x to (delta, rate) */
 } dynamics_follower;
 
-/* The sweep that leads to a branch, for models that integrate in another way. The three functions
- * give its start frequency for a mesh frequency (both relative to the natural frequency), the
- * relative change of the frequency per cycle, and the cycles at the start. */
+/* The sweep to a branch, for models with another integrator. The functions return its start
+   frequency for a mesh frequency (both relative to the natural frequency), the relative change of
+   the frequency per cycle, and the number of cycles at the start. */
 double dynamics_sweep_from(dynamics_branch branch, const dynamics_excitation *excitation,
                            double frequency);
 double dynamics_sweep_rate(const dynamics_excitation *excitation, double frequency);
 size_t dynamics_sweep_start_cycles(const dynamics_excitation *excitation, double T);
 
-/* Relative change of a state over a period that round-off makes, without any disturbance. */
+/* Relative change of a state over one period that round-off alone may cause. */
 extern const double dynamics_state_round_off;
 
 /* Returns the most cycles that a motion may take to settle to a tolerance. */
 size_t dynamics_settle_limit(const dynamics_excitation *excitation, double T, double tolerance);
 
-/* Writes the quality line `periodicity`; `aperiodic` says why a motion did not repeat itself. */
+/* Writes the quality line `periodicity`. `aperiodic` is the reason why a motion did not repeat. */
 void dynamics_periodicity_line(const dynamics_settled *settled, double tolerance,
                                const char *aperiodic, const ff_host *host);
 
-/* Writes the quality line `stability` of a chaotic motion in place of `periodicity`, since it will
- * not settle in any number of cycles. `growth` is the growth of a small disturbance per mesh cycle.
- */
+/* Writes the quality line `stability` of a chaotic motion in place of `periodicity`, since no
+   number of cycles would make it settle. `growth` is the growth of a small disturbance per mesh
+   cycle. */
 void dynamics_chaos_line(double growth, const ff_host *host);
 
-/* Growth of a disturbance over some 64 mesh cycles that proves chaos. A motion that is still
- * settling does not reach it, nor does the shear between neighbouring motions. */
+/* Growth of a disturbance over about 64 mesh cycles that proves chaos. Neither a settling motion
+   nor the shear between neighbouring motions reaches it. */
 extern const double dynamics_chaotic_disturbance;
 
-/* Returns FF_OK, FF_STOPPED, or FF_NOCONV for too many steps. The follower is left at the settled
- * state. */
+/* Follows the motion until it has settled. Returns FF_OK, FF_STOPPED, or FF_NOCONV for too many
+   steps. The follower is left at the settled state. */
 ff_status dynamics_settle(const dynamics_follower *follower, const dynamics_excitation *excitation,
                           const dynamics_settling *how, dynamics_settled *result);
 

@@ -4,7 +4,8 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Straight lines between levels: the number of the lower one, and the share of the upper one. */
+/* A force between two levels: the index of the lower level, and the weight of the upper level in
+   linear interpolation. */
 typedef struct place {
     size_t low;
     double share;
@@ -47,15 +48,15 @@ static double force_of(const dynamics_spring_nodes *nodes, size_t i, double g)
     return force;
 }
 
-/* The spring of all levels, of every second one, and of the others. */
+/* Springs made of all levels, of every second level, and of the other levels. */
 enum { SPRINGS = 3 };
 typedef struct springs {
     dynamics_spring_nodes of[SPRINGS];
     size_t kept[SPRINGS][DYNAMICS_LINES], count[SPRINGS];
 } springs;
 
-/* The largest change by either half: a motion that stays near one level sees nothing of the half
-   that keeps it. */
+/* Returns the largest change that either half of the levels causes. Both halves are needed: near a
+   level the half that contains it shows no change. */
 static double largest_change(const dynamics_force_levels *l, const springs *s, double force)
 {
     const dynamics_chosen_levels all = {l, s->kept[0], s->count[0]};
@@ -73,7 +74,7 @@ static double largest_change(const dynamics_force_levels *l, const springs *s, d
     return worst;
 }
 
-/* The force of a level beside that of the mean force. */
+/* Returns the force of a level next to that of the mean force. */
 static double neighbour_of(const dynamics_force_levels *l, double mean)
 {
     size_t i = 0;
@@ -82,9 +83,9 @@ static double neighbour_of(const dynamics_force_levels *l, double mean)
     return i + 1 < l->count ? l->force[i + 1] : l->force[i - 1];
 }
 
-/* How much mesh and tooth forces at a force beyond the last level change, N, where that level is
-   left out, too: the line of the last one goes on straight, and its shares stay. -1: out of memory.
- */
+/* Returns by how much mesh and tooth forces at a force beyond the last level change (N) if that
+   level is left out too. The last line is extended, and the last load shares are kept. Returns -1
+   if out of memory. */
 static double change_beyond(const dynamics_inputs *inputs, double force)
 {
     const dynamics_force_levels *l = &inputs->levels;
@@ -136,7 +137,7 @@ double dynamics_level_error(const dynamics_inputs *inputs, double least, double 
     return worst < 0 ? -1 : fmax(worst, beyond) / inputs->reference;
 }
 
-/* The load at which the curves of the stiffness were taken. */
+/* Names the load at which the curves of the stiffness were computed. */
 static const char *load_of(const dynamics_inputs *inputs)
 {
     return inputs->reference == inputs->line_force ? "mean" : "reference";
@@ -149,16 +150,16 @@ static void report_levels(const dynamics_inputs *inputs, double least, double la
     const dynamics_force_levels *l = &inputs->levels;
     double mean = inputs->reference, error = dynamics_level_error(inputs, least, largest);
     int known = largest <= l->force[l->count - 1];
-    char text[320];
+    char text[400];
     snprintf(text, sizeof text,
-             "change of mesh and tooth forces, over the %s load, when every second of the %zu "
+             "change of mesh and tooth forces, over the %s load, if every second of the %zu "
              "forces of the stiffness is left out; the motion reaches %.3g to %.3g times that "
              "load%s%s",
              load_of(inputs), l->count, least / mean, largest / mean,
-             known ? "" : ", beyond the largest, which is left out there, too",
+             known ? "" : ", beyond the largest of these forces, which is then left out too",
              l->tooth_force ? ""
-                            : "; tooth forces at these are not known, those of the mean load "
-                              "are split in proportion");
+                            : "; the stiffness gives no tooth forces at these, so those of the "
+                              "mean load are scaled in proportion");
     host->quality(host->ctx, "force_levels", fmax(error, 0), limit,
                   error >= 0 && error <= limit && known && l->tooth_force ? FF_GOOD : FF_DOUBTFUL,
                   text);
@@ -183,7 +184,7 @@ dynamics_sharing_change dynamics_sharing_change_at(const dynamics_force_levels *
     return found;
 }
 
-/* The force of a frozen spring at node i and deflection g, N. */
+/* Returns the force of a frozen spring at node i and deflection g, N. */
 static double frozen_force(const dynamics_mesh_curves *curves, const dynamics_spring_nodes *nodes,
                            size_t i, double g)
 {
@@ -191,7 +192,7 @@ static double frozen_force(const dynamics_mesh_curves *curves, const dynamics_sp
     return nodes->lines ? force_of(nodes, i, g) : k[i] * g;
 }
 
-/* Whether a spring can be made of the levels: dynamics_spring_nodes_share relies on it. */
+/* Returns whether the levels meet the preconditions of dynamics_spring_nodes_share. */
 static int make_a_spring(const dynamics_force_levels *l)
 {
     int made = l->count >= 2 && l->count <= DYNAMICS_LINES && l->error;
@@ -230,14 +231,14 @@ static void report_slope(const dynamics_inputs *inputs, int on_chord, double lea
     static const double limit = 0.02;
     double change = dynamics_slope_change(inputs, on_chord, least, largest);
     int known = largest <= inputs->levels.force[inputs->levels.count - 1];
-    char text[320];
+    char text[400];
     snprintf(text, sizeof text,
-             "between the least and the largest mesh force of the motion the mesh is on the mean "
-             "%.3g %% %s than the spring of the %s load that the motion takes, so that its "
-             "resonances lie some %.2g %% %s%s",
+             "between the smallest and the largest mesh force of the motion the mesh is on "
+             "average %.3g %% %s than the spring of the %s load that the motion uses, so that "
+             "its resonances lie about %.2g %% %s%s",
              100 * fabs(change), change < 0 ? "softer" : "steeper", load_of(inputs),
              50 * fabs(change), change < 0 ? "lower" : "higher",
-             known ? "" : "; larger forces are not known");
+             known ? "" : "; the stiffness gives no larger forces");
     host->quality(host->ctx, "slope_change", fabs(change), limit,
                   fabs(change) <= limit && known ? FF_GOOD : FF_RANGE, text);
 }
@@ -248,7 +249,7 @@ void dynamics_sharing_report(const dynamics_inputs *inputs, int on_chord, double
     static const double limit = 0.02;
     const dynamics_force_levels *l = &inputs->levels;
     double mean = inputs->reference;
-    char text[320];
+    char text[400];
     if (inputs->shared) {
         report_levels(inputs, least, largest, host);
         return;
@@ -264,12 +265,12 @@ void dynamics_sharing_report(const dynamics_inputs *inputs, int on_chord, double
     double share = fmax(low.share, high.share), slope = fmax(low.slope, high.slope);
     int known = largest <= l->force[l->count - 1];
     snprintf(text, sizeof text,
-             "largest change of the share of a pair between the %s load, whose sharing and slope "
-             "the motion takes, and its mesh forces, %.3g to %.3g times that load; the slope of "
-             "the mesh changes by up to %.3g %%%s",
+             "largest change of a pair's load share between the %s load, whose load sharing and "
+             "slope the motion uses, and the mesh forces of the motion, %.3g to %.3g times that "
+             "load; the slope of the mesh changes by up to %.3g %%%s",
              load_of(inputs), fmax(least, l->force[1]) / mean,
              fmin(largest, l->force[l->count - 1]) / mean, 100 * slope,
-             known ? "" : "; larger forces are not known");
+             known ? "" : "; the stiffness gives no larger forces");
     host->quality(host->ctx, "sharing_change", share, limit,
                   share <= limit && known ? FF_GOOD : FF_RANGE, text);
 }
