@@ -13,15 +13,14 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-/* State of the child process, which only the redirected functions touch. */
-enum { ZONE = 256, FILLING = 0xA5 };
+enum { ZONE = 256, FILLING = 0xA5 }; /* bytes behind each block, and what fills them */
 
 typedef struct block {
     unsigned char *first;
-    size_t size; /* the last ones; a freed block may be among them */
+    size_t size; /* without the zone */
 } block;
 
-/* Writes an address into the table, which full RELRO leaves read-only. */
+/* State of the child process. A model may allocate in several threads at once. */
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static size_t made, failing;
 static block *blocks; /* in use, in the order of their making but for gaps that were filled */
@@ -159,7 +158,7 @@ static uintptr_t replacement(const char *name)
     return 0;
 }
 
-/* Full RELRO leaves the table read-only. */
+/* Writes an address into the table, which full RELRO leaves read-only. */
 static void put(uintptr_t *slot, uintptr_t address)
 {
     uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE);

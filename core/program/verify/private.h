@@ -85,77 +85,74 @@ typedef struct verify_context {
     const void **laws;     /* a plain law for each service input; NULL: none */
     verify_random random;
     FILE *table;                /* in memory, for a model that reads a table; NULL: none yet */
-    ff_run *user;               /* the user's pipeline; the next two come from it */
+    ff_run *user;               /* the user's pipeline; the next member comes from it */
     struct verify_setup *given; /* NULL: there is none */
     verify_outcome *outcome;
     ff_report *messages; /* about the parameter that was read last */
-    bool redirected;     /* since verify_watch the model may change nothing of the process */
-    bool watching;       /* the environment to be kept; NULL: nothing is watched yet */
+    bool redirected;     /* its calls of malloc are redirected */
+    bool watching;       /* the model may change nothing of the process */
     pid_t pid;
-    ff_environment *environment; /* Begins a test; `loaded` and `outcome` are set. */
+    ff_environment *environment; /* to be kept; NULL: nothing is watched yet */
     verify_process process;
 } verify_context;
 
-/* Fails if the process has changed, which is then blamed on the current step. */
+/* Begins a test; `loaded` and `outcome` are set. */
 void verify_context_begin(verify_context *context, ff_engine *engine);
 void verify_watch(verify_context *context);
-/* Names the next call, for findings such as a crash, a hang or a change of the process. */
+/* Fails if the process has changed or the model has written past its memory; the current step is
+ * blamed. */
 void verify_check_process(verify_context *context);
 
-/* Record a finding; only the first one is kept. Both return false. */
+/* Names the next call, for findings such as a crash, a hang or a change of the process. */
 void verify_step(verify_context *context, const char *format, ...) FF_PRINTF(2, 3);
-/* Reads a parameter from text as a user writes it; NULL: from its preset. False if it is
- * refused. *message: the first error or warning, valid until the next call, or NULL. */
+/* Record a finding; only the first one is kept. Both return false. */
 bool verify_fail(verify_context *context, const char *format, ...) FF_PRINTF(2, 3);
 bool verify_skip(verify_context *context, const char *format, ...) FF_PRINTF(2, 3);
 
-/* Reads a parameter from text as a user writes it; NULL: from its preset. False when it is refused.
- *message: the first error or warning, until the next call, or NULL. */
+/* Reads a parameter from text as a user writes it; NULL: from its preset. False if it is
+ * refused. *message: the first error or warning, valid until the next call, or NULL. */
 bool verify_read_param(verify_context *context, size_t param, const char *text, ff_value *value,
                        const char **message);
 
-double verify_now(void); /* s */
-/* setup.c: the parameters, services and inputs of an instance. */
-uint64_t verify_data_outputs(const ff_model *model);
+double verify_now(void);                             /* s */
+uint64_t verify_data_outputs(const ff_model *model); /* one bit for each of the first 64 */
 
 /* setup.c: what an instance is made of and fed with. */
 typedef struct verify_setup {
     verify_context *context;
     ff_value *values;      /* of each parameter; size 0: not set */
     ff_array *inputs;      /* of each input row */
-    const void **services; /* a required file for which no contents could be drawn; NULL: none */
+    const void **services; /* tables of the service inputs; NULL: not connected */
     size_t (*shapes)[FF_MAX_RANK];
-    const char *lacks; /* Parameters in their calibrated range; within and at their physical limits;
-                          or only the required ones, in their calibrated range. */
+    const char *lacks; /* a required file for which no contents could be drawn; NULL: none */
 } verify_setup;
 
-/* with the plain laws and nothing else */
+/* Parameters in their calibrated range; within and at their physical limits; or only the required
+ * ones, in their calibrated range. */
 typedef enum verify_range { VERIFY_CALIBRATED, VERIFY_PHYSICAL, VERIFY_REQUIRED } verify_range;
 
+verify_setup *verify_setup_new(verify_context *context); /* with the plain laws and nothing else */
 /* random.c: draws a value of a parameter, in the row's unit. */
-verify_setup *verify_setup_new(verify_context *context);
+double verify_draw_number(const ff_param *row, verify_random *random, verify_range range);
 /* table.c: returns the path of a file with the columns of the model, with different numbers at
  * each call. It lasts as long as the process. NULL: the model states no columns. */
-double verify_draw_number(const ff_param *row, verify_random *random, verify_range range);
-/* Whether everything required could be drawn. If not, the test is skipped, unless `quietly`. */
 const char *verify_make_table(verify_context *context);
-/* Whether a service that is connected replaces the parameter. */
+/* Whether everything required could be drawn. If not, the test is skipped, unless `quietly`. */
 bool verify_setup_can_be_used(const verify_setup *setup, bool quietly);
-/* A service that is there takes the place of the parameter. */
+/* Whether a service that is connected replaces the parameter. */
 bool verify_setup_is_replaced(const verify_setup *setup, const ff_param *row);
 void verify_setup_draw_params(verify_setup *setup, verify_random *random, verify_range range);
 void verify_setup_draw_inputs(verify_setup *setup, verify_random *random);
 void verify_setup_give(verify_setup *setup, size_t input, const double *data, uint32_t rank,
                        const size_t *shape);
-/* user-run.c: takes the parameters of the stage of the user's pipeline that uses the model, and,
- * if `run`, the arrays that other stages feed it. False with errors in the report. */
-bool verify_setup_is_complete(const verify_setup *setup);
+bool verify_setup_is_complete(const verify_setup *setup); /* every required input is there */
 
-/* instance.c: one instance of the model, which the engine makes and runs under watch. */
+/* user-run.c: takes the parameters of the stage of the user's pipeline that uses the model, and,
+ * if `runs`, the arrays that other stages feed it. False with errors in the report. */
 bool verify_take_user_run(verify_context *context, const verify_request *request, ff_engine *engine,
                           bool runs);
 
-/* as loaded by the engine of the instance */
+/* instance.c: one instance of the model, which the engine makes and runs under watch. */
 typedef struct verify_instance {
     verify_context *context;
     ff_instance *made;
@@ -163,70 +160,68 @@ typedef struct verify_instance {
     ff_hooks hooks;
     bool bare, created;
     void *self;
-    size_t room;      /* why the last call failed, or "" */
-    char text[700];   /* how the model broke the interface, to complete 'it ...' */
-    char breach[400]; /* from this time on, progress asks the model to stop */
-    double stop_at; /* Makes an instance with the parameters, laws and inputs of the setup, without
-                       calling the model yet. It must be closed whatever the status; so must those
-                       of the next two functions. */
+    size_t room;      /* bytes allocated for `self`; 0: not known */
+    char text[700];   /* why the last call failed, or "" */
+    char breach[400]; /* how the model broke the interface, to complete 'it ...' */
+    double stop_at;   /* from this time on, progress asks the model to stop */
     bool asked_to_stop;
 } verify_instance;
 
-/* Calls create alone, for an instance without parameters. False after a failure. */
+/* Makes an instance with the parameters, laws and inputs of the setup, without calling the model
+ * yet. It must be closed whatever the status; so must those of the next two functions. */
 ff_status verify_instance_new(verify_instance *instance, const verify_setup *setup);
-/* Calls create, set, wire and ready. */
+/* Calls create alone, for an instance without parameters. False after a failure. */
 bool verify_instance_create(verify_instance *instance, verify_context *context);
+/* Calls create, set, wire and ready. */
+ff_status verify_instance_open(verify_instance *instance, const verify_setup *setup);
 /* Evaluates the named outputs with the inputs of the setup; NULL: all outputs that the model
  * does not refuse. */
-ff_status verify_instance_open(verify_instance *instance, const verify_setup *setup);
-/* Calls work(ctx), which calls that function of the model. */
 ff_status verify_instance_run(verify_instance *instance, const char *outputs,
                               const verify_setup *setup);
-/* Fails if a call that gave this status broke the interface, reported a fault of the plugin, or
- * wrote outside its memory. */
+/* Calls work(ctx), which calls that function of the model. */
 ff_status verify_instance_call(verify_instance *instance, const char *function,
                                ff_status (*work)(void *ctx), void *ctx);
-/* search.c: finds parameters and inputs that the model works with. */
+/* Fails if a call that gave this status broke the interface, reported a fault of the plugin, or
+ * wrote outside its memory. */
 bool verify_instance_is_sound(const verify_instance *instance, ff_status status);
 void verify_instance_close(verify_instance *instance);
 
-/* Opens an instance with inputs and with parameters that the model accepts: the user's, or
- * random ones. NULL if none were found, which skips the test unless `quietly`. */
+/* search.c: finds parameters and inputs that the model works with. */
 
 static inline bool verify_is_good(ff_status status)
 {
     return status == FF_OK || status == FF_DOMAIN;
 }
 
-/* Opens an instance and finds inputs that it can work with. *served: the names of the outputs
- * that it then gives. NULL if there are none. */
+/* Opens an instance with inputs and with parameters that the model accepts: the user's, or
+ * random ones. NULL if none were found, which skips the test unless `quietly`. */
 verify_setup *verify_open_accepted(verify_context *context, verify_instance *instance,
                                    bool quietly);
-/* The same, trying the outputs one by one until the time is up; false after a failure. */
+/* Opens an instance and finds inputs that it can work with. *served: the names of the outputs
+ * that it then gives. NULL if there are none. */
 verify_setup *verify_find_work(verify_context *context, verify_instance *instance, char **served);
-/* Fails unless both have the same outputs to the bit. */
+/* The same, trying the outputs one by one until the time is up; false after a failure. */
 bool verify_find_served(verify_context *context, verify_instance *instance,
                         const verify_setup *setup, char **served, double end);
 /* Fails unless the outputs of both are the same to the bit. */
 bool verify_outputs_agree(verify_context *context, const verify_instance *a,
                           const verify_instance *b, const char *when);
 
-/* allocation.c: makes the n-th allocation of the plugin fail (0: none), and counts them. False
- * if the plugin's calls cannot be redirected. */
+/* fixture.c: runs a check of the model's kind. */
 void verify_run_check(verify_context *context, const ff_check *check);
 
-/* Returns the bytes from the address to the end of the block of the plugin that holds it; 0: no
- * such block. */
+/* allocation.c: the plugin's own calls of malloc. False when they cannot be redirected. */
 bool verify_allocations_redirect(const ff_model *model);
-/* test-life.c, test-outputs.c: requirements on any model. False after a failure. */
+/* Makes the n-th allocation from now on fail (0: none), and counts allocations. */
 void verify_allocations_fail(size_t nth);
 size_t verify_allocations_made(void);
-/* Bytes from there to the end of the block that the plugin allocated; 0: it is in none. */
+/* Returns the bytes from the address to the end of the block of the plugin that holds it; 0: no
+ * such block. */
 size_t verify_allocation_room(const void *memory);
 /* The size of a block past whose end the plugin wrote since the last call; 0: it did not. */
 size_t verify_allocation_breached(void);
 
-/* test-life.c, test-outputs.c: what any model owes. False after a failure. */
+/* test-life.c, test-outputs.c: requirements on any model. False after a failure. */
 bool verify_test_references(verify_context *context);
 bool verify_test_presets(verify_context *context);
 bool verify_test_places(verify_context *context);
