@@ -32,14 +32,14 @@ reference() { # STUDY
     echo
 }
 
-# Candidates by rising cost; an error on the front in bold. MEASURE: error, or rms, which has no front.
-table() { # STUDY MEASURE
-    { head -1 "$work/$1.csv" && tail -n +2 "$work/$1.csv" | sort -t, -k3,3g; } | awk -F, -v measure="${2:-error}" '
+# Candidates by rising cost; an error on the front in bold.
+table() { # STUDY
+    { head -1 "$work/$1.csv" && tail -n +2 "$work/$1.csv" | sort -t, -k3,3g; } | awk -F, '
         function percent(x) { return x == "" ? "" : sprintf("%.3g", 100 * x) }
         NR == 1 {
             head = "| candidate | cost ms | spread % |"
             for (i = 7; i <= NF; i++) {
-                if ($i ~ / error$/) { errors[++outputs] = i; sub(/error$/, measure, $i); head = head " " $i " % |" }
+                if ($i ~ / error$/) { errors[++outputs] = i; head = head " " $i " % |" }
                 else if (!outputs) { counts[++work] = i; head = head " " $i " |" }
             }
             print head
@@ -54,8 +54,8 @@ table() { # STUDY MEASURE
             for (k = 1; k <= work; k++) row = row " " $(counts[k]) " |"
             for (k = 1; k <= outputs; k++) {
                 i = errors[k]
-                mark = $(i + 2) == 1 && measure == "error" ? "**" : ""
-                row = row " " mark percent($(measure == "rms" ? i + 1 : i)) mark " |"
+                mark = $(i + 3) == 1 ? "**" : ""
+                row = row " " mark percent($i) mark " |"
             }
             print row
         }' | drop_empty | keep "$1"
@@ -125,9 +125,8 @@ Written by \`docs/tradeoff.sh\` on $(field date). Processor: $(field processor),
 machine at the beginning and at the end: $load and $(cut -d' ' -f1 /proc/loadavg).
 
 Cost is the processor time of the stages that the candidates change, the median of the repeats.
-*Error* is the largest relative difference from the reference
-along the mesh cycle, **bold** on the front: nothing cheaper is as good; the front of what crosses
-zero, as friction does at the pitch point, is that of the rms error. The files of all
+*Error* is the relative difference from the reference that
+95 % of the mesh cycle stays below, **bold** on the front: nothing cheaper is as good. The files of all
 candidates have the spread of the cost, too, from the least to the most. What a step along a front costs the run prints;
 how to measure a trade-off of your own stands in the [guide](guide/accuracy.md#speed-against-accuracy).
 
@@ -183,11 +182,9 @@ TEXT
 
 ## Smooth or rough flanks
 
-\`configs/studies/tradeoff-rough.yaml\`: ground flanks. Asperities pass in some steps of the time, so
-that the largest difference is one of an instant, and does not settle; the table has the rms along the
-mesh cycle, from which nothing is told apart that the reference is not known to.
+\`configs/studies/tradeoff-rough.yaml\`: ground flanks. Asperities pass in some steps of the time.
 TEXT
     reference rough
-    table rough rms
+    table rough
 } >"$work/tradeoff.md"
 mv "$work/tradeoff.md" "$here/tradeoff.md"

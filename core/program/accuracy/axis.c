@@ -91,7 +91,7 @@ const double *accuracy_numbers_like(const ff_pipeline *pipeline, const ff_stage 
                              : own->count != result->count))
         return NULL;
     const accuracy_series series = {own->rank, own->count, placed ? along_other->data : NULL,
-                                    own->data, 0};
+                                    own->data, 0,          false};
     double *numbers = memory_arena_alloc(arena, result->count * sizeof *numbers);
     for (size_t i = 0; i < result->count; i++) {
         bool right = along && i > 0 && along->data[i] == along->data[i - 1];

@@ -45,7 +45,7 @@ static double distance(trial *t, const accuracy_error *e, const ff_pipeline *nex
     const double *after = accuracy_numbers_like(t->now, stage, before, next, &t->choice->arena);
     const ff_result *along = accuracy_axis_of(t->now, stage, before);
     const accuracy_series series = {before->rank, before->count, along ? along->data : NULL,
-                                    before->data, e->zero};
+                                    before->data, e->zero,       e->absolute};
     double largest;
     if (output < 0 || !after)
         return NAN;
@@ -87,7 +87,7 @@ static const char *object_to(trial *t, size_t stage, const accuracy_twin *next, 
     for (size_t i = 0; i < t->measured->count; i++) {
         const accuracy_error *e = &t->measured->errors[i];
         double moved = distance(t, e, next->pipeline), most = share_of_models * e->goal;
-        moves[i] = moved + (t->choice->differs ? 0 : e->relative);
+        moves[i] = moved + (t->choice->differs ? 0 : e->reached);
         if (isnan(e->goal) || t->moved[i] + moves[i] <= most)
             continue;
         if (isnan(moves[i]))

@@ -20,7 +20,7 @@ typedef struct accuracy_change {
     size_t stage;       /* whose model it is */
     size_t of;          /* the stage of the output */
     const char *output; /* "h_min" */
-    double error;       /* relative */
+    double error;       /* relative, or in SI if the goal is */
 } accuracy_change;
 
 /* Starts zeroed. */

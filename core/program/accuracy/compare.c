@@ -8,31 +8,27 @@
 #include <math.h>
 #include <stdlib.h>
 
-double accuracy_largest_magnitude(const double *values, size_t count, double zero)
-{
-    double most = 0;
-    for (size_t i = 0; i < count; i++)
-        most = fmax(most, fabs(values[i] - zero));
-    return most;
-}
-
 /* Errors of a series are relative to its value, or to a tenth of its largest value where the value
    is smaller: at a zero, such as that of a friction which changes its sign, a relative error has no
    meaning. */
-double accuracy_error_scale(double value, double most, size_t rank)
+void accuracy_error_scales(const accuracy_series *answer, double *scales)
 {
-    return fmax(rank ? fmax(fabs(value), 0.1 * most) : fabs(value), 1e-300);
+    double most = 0;
+    for (size_t i = 0; i < answer->count; i++)
+        most = fmax(most, fabs(answer->value[i] - answer->zero));
+    for (size_t i = 0; i < answer->count; i++) {
+        const double own = fabs(answer->value[i] - answer->zero);
+        scales[i] = answer->absolute ? 1 : fmax(answer->rank ? fmax(own, 0.1 * most) : own, 1e-300);
+    }
 }
 
 double accuracy_relative(const double *off, const accuracy_series *answer, double *largest)
 {
     double *shares = memory_alloc(answer->count * sizeof *shares);
-    double most = accuracy_largest_magnitude(answer->value, answer->count, answer->zero);
+    accuracy_error_scales(answer, shares);
     *largest = 0;
     for (size_t i = 0; i < answer->count; i++) {
-        if (off[i] > 0)
-            shares[i] =
-                off[i] / accuracy_error_scale(answer->value[i] - answer->zero, most, answer->rank);
+        shares[i] = off[i] > 0 ? off[i] / shares[i] : 0;
         *largest = fmax(*largest, shares[i]);
     }
     double typical = accuracy_typical(shares, answer->at, answer->count);
@@ -63,15 +59,6 @@ double accuracy_interpolate(const accuracy_series *s, double x, bool right)
     return s->value[low - 1] + share * (s->value[low] - s->value[low - 1]);
 }
 
-/* Weight of point i in a mean over the length of the axis. */
-static double weight(const accuracy_series *s, size_t i)
-{
-    size_t last = s->count - 1;
-    if (!s->at || last == 0)
-        return 1;
-    return (s->at[i < last ? i + 1 : last] - s->at[i > 0 ? i - 1 : 0]) / 2;
-}
-
 static bool same_form(const accuracy_series *a, const accuracy_series *b)
 {
     return a->rank == b->rank && a->count > 0 && b->count > 0 &&
@@ -89,21 +76,19 @@ static double value_at(const accuracy_series *s, const accuracy_series *points, 
 bool accuracy_compare(const accuracy_series *answer, const accuracy_series *reference,
                       accuracy_difference *d)
 {
-    double most = accuracy_largest_magnitude(reference->value, reference->count, 0);
-    double squares = 0, length = 0;
+    accuracy_series scaled = *reference;
+    bool finite = true, zero = true;
     *d = (accuracy_difference){.largest = 0};
     if (!same_form(answer, reference))
         return false;
+    double *off = memory_alloc(reference->count * sizeof *off);
     for (size_t i = 0; i < reference->count; i++) {
-        double off = fabs(value_at(answer, reference, i) - reference->value[i]);
-        off =
-            off > 0 ? off / accuracy_error_scale(reference->value[i], most, reference->rank) : off;
-        d->largest = fmax(d->largest, off);
-        if (!isfinite(off))
-            return false;
-        squares += weight(reference, i) * off * off;
-        length += weight(reference, i);
+        off[i] = fabs(value_at(answer, reference, i) - reference->value[i]);
+        finite = finite && isfinite(off[i]);
+        zero = zero && reference->value[i] == reference->zero;
     }
-    d->rms = length > 0 ? sqrt(squares / length) : d->largest;
-    return true;
+    scaled.absolute = d->absolute = reference->absolute || zero;
+    d->typical = accuracy_relative(off, &scaled, &d->largest);
+    free(off);
+    return finite;
 }

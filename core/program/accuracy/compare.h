@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Relative difference of two answers at the points of the reference. */
+/* Difference of two answers at the points of the reference: the one measure of an error. */
 #ifndef ACCURACY_COMPARE_H
 #define ACCURACY_COMPARE_H
 
@@ -11,17 +11,17 @@ typedef struct accuracy_series {
     size_t rank, count;
     const double *at; /* the axis, which never falls; NULL if it is the index */
     const double *value;
-    double zero; /* the value from which shares are counted, such as the oil's temperature */
+    double zero;   /* the value from which shares are counted, such as the oil's temperature */
+    bool absolute; /* errors are in the unit of the values, not relative to them */
 } accuracy_series;
 
 typedef struct accuracy_difference {
-    double largest, rms; /* relative */
-    double judged;       /* the one of them that the study judges */
+    double typical, largest; /* along a series: at 95 of 100 points, and at the worst one */
+    bool absolute; /* they are in the unit of the values, since the reference is 0 or says so */
 } accuracy_difference;
 
-double accuracy_largest_magnitude(const double *values, size_t count, double zero);
-/* Scale of the relative error of a value, in a series whose largest magnitude is `most`. */
-double accuracy_error_scale(double value, double most, size_t rank);
+/* Writes for each value the size over which its error is stated. */
+void accuracy_error_scales(const accuracy_series *answer, double *scales);
 /* Errors `off` of an answer, each relative to its value: returns the typical one (estimate.h) and
    writes the largest. */
 double accuracy_relative(const double *off, const accuracy_series *answer, double *largest);

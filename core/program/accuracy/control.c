@@ -136,7 +136,7 @@ static void attempt_free(attempt *a)
 
 static bool is_missed(const control *c, const accuracy_error *e)
 {
-    return !isnan(e->goal) && !(e->relative <= goal_of(c, e));
+    return !isnan(e->goal) && !(e->reached <= goal_of(c, e));
 }
 
 /* Order at which an error falls; 0 if it grows. */
@@ -155,7 +155,7 @@ static bool predict(const control *c, const accuracy_error *e, double *finer)
     const bool two = c->best->record.two_levels && !e->by_stage;
     const double goal = goal_of(c, e) * (*c->open.given ? aim_beside_fixed : aim);
     const double order = e->by_stage ? 1 : two ? 2 : order_of(e);
-    const double error = e->relative / (two ? less_by_third_level : 1);
+    const double error = e->reached / (two ? less_by_third_level : 1);
     if (e->by_stage && !accuracy_open_has(&c->open, stage))
         return false;
     *finer = fmax(1, ceil(log2(error / goal) / order));

@@ -45,32 +45,54 @@ ff_place accuracy_place(const ff_run *run)
     return node ? node->place : FF_NOWHERE;
 }
 
-/* Reads "2 %" as a share of 1; NaN for `measured`, and after an error. */
-static double read_goal(const ff_node *node, const char *name, ff_report *report)
+/* True for a goal such as "0.5 K", in the unit of the output; "2 %" is a share of it. */
+static bool is_absolute(const ff_node *node, const ff_port *of)
+{
+    const char *end;
+    double number;
+    return of && strcmp(of->unit, "1") != 0 && node->kind == FF_SCALAR &&
+           ff_number_parse(node->text, &number, &end) && *end && !strchr(end, '%');
+}
+
+/* Reads "2 %" as a share of 1, or "0.5 K" in SI; NaN for `measured`, and after an error. */
+static double read_goal(const ff_node *node, const ff_port *of, const char *name, ff_report *report)
 {
     ff_unit unit;
     ff_value value;
     char why[64];
     double goal = NAN;
-    if (is_measured(node) || !ff_unit_parse(row.unit, &unit, why, sizeof why))
+    ff_param own = row;
+    if (is_absolute(node, of)) {
+        own.unit = of->unit;
+        own.max = INFINITY;
+    }
+    if (is_measured(node) || !ff_unit_parse(own.unit, &unit, why, sizeof why))
         return NAN;
-    if (ff_param_read(&row, &unit, name, node, &value, report)) {
+    if (!strcmp(own.unit, "K") && strstr(node->text, "deg")) /* would be read as a temperature */
+        ff_error(report, FF_FAULT_INPUT, node->place, "write it in K",
+                 "%s: \"%.40s\" is a temperature, and an error is a difference of two", name,
+                 node->text);
+    else if (ff_param_read(&own, &unit, name, node, &value, report)) {
         goal = value.real;
         ff_value_clear(&value);
     }
     return goal;
 }
 
-double accuracy_goal(const ff_run *run, const ff_stage *stage, const ff_result *result)
+double accuracy_goal(const ff_run *run, const ff_stage *stage, const ff_result *result,
+                     bool *absolute)
 {
     const ff_node *node = node_of(run);
+    const ff_port *of = NULL;
     if (node && node->kind == FF_MAP) {
         char *path = memory_print_text("%s.%s", stage->name, result->row->name);
         node = ff_node_get(node, path);
+        of = result->row;
         free(path);
     }
     ff_report *unused = ff_report_new();
-    double goal = node ? read_goal(node, row.name, unused) : NAN;
+    double goal = node ? read_goal(node, of, row.name, unused) : NAN;
+    *absolute = node && is_absolute(node, of);
     ff_report_free(unused);
     return goal;
 }
@@ -148,6 +170,15 @@ static bool check_name(const ff_node *map, size_t item, char *const *names, size
     return false;
 }
 
+/* The output's row; it exists. */
+static const ff_port *port_of(const ff_pipeline *pipeline, const char *path)
+{
+    const char *name;
+    const ff_stage *stage = ff_stage_of(pipeline, path, &name);
+    return ff_model_output(stage->loaded->model,
+                           (size_t)ff_model_find_output(stage->loaded->model, name));
+}
+
 bool accuracy_check(ff_run *run)
 {
     const ff_pipeline *pipeline = ff_run_pipeline(run);
@@ -158,10 +189,10 @@ bool accuracy_check(ff_run *run)
         return true;
     char **names = list_names(pipeline, &count);
     if (node->kind != FF_MAP)
-        read_goal(node, row.name, report);
+        read_goal(node, NULL, row.name, report);
     for (size_t i = 0; node->kind == FF_MAP && i < node->count; i++)
         if (check_name(node, i, names, count, report))
-            read_goal(node->items[i], node->keys[i], report);
+            read_goal(node->items[i], port_of(pipeline, node->keys[i]), node->keys[i], report);
     if (count == 0 && ff_report_errors(report) == errors)
         ff_warn(report, node->place,
                 "accuracy: no scalar or series is asked for, so that it changes nothing");

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The errors that a file asks for: `accuracy: measured`, one goal for all outputs as in `accuracy:
- * 2 %`, or one goal each as in `accuracy: {film.h_min: 2 %, motion.dte_rms: 1 %}`.
+ * 2 %`, or one goal each as in `accuracy: {film.h_min: 2 %, scuffing.flash_temperature: 0.5 K}`.
  */
 #ifndef ACCURACY_GOALS_H
 #define ACCURACY_GOALS_H
@@ -14,8 +14,9 @@ bool accuracy_is_asked(const ff_run *run);
 bool accuracy_has_goals(const ff_run *run);
 /* True if a scalar or a series is asked for; the errors of other outputs cannot be measured. */
 bool accuracy_has_outputs(const ff_pipeline *pipeline);
-/* Goal for the relative error of an output; NaN if the file states none. */
-double accuracy_goal(const ff_run *run, const ff_stage *stage, const ff_result *result);
+/* Goal for the error of an output, in SI if it is absolute; NaN if the file states none. */
+double accuracy_goal(const ff_run *run, const ff_stage *stage, const ff_result *result,
+                     bool *absolute);
 /* Place of the request in the file; FF_NOWHERE if there is none. */
 ff_place accuracy_place(const ff_run *run);
 /* Prints the goals, such as "film.h_min: 2 %", for the key of a case; to be freed. */

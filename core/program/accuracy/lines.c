@@ -163,19 +163,30 @@ char *accuracy_describe(const accuracy_error *e)
     return text;
 }
 
-char *accuracy_print_relative(const accuracy_error *e)
+/* Prints an error as the goal is stated. */
+static char *print_error(const accuracy_error *e, double error, int digits)
 {
-    return e->bar ? memory_print_text("%.2g %%", 100 * e->relative)
-                  : memory_print_text("not known");
+    return e->absolute ? memory_print_text("%.*g %s", digits, error, e->result->row->unit)
+                       : memory_print_text("%.*g %%", digits, 100 * error);
+}
+
+char *accuracy_print_reached(const accuracy_error *e)
+{
+    return e->bar ? print_error(e, e->reached, 2) : memory_print_text("not known");
+}
+
+char *accuracy_print_goal(const accuracy_error *e)
+{
+    return isnan(e->goal) ? memory_print_text("%s", "") : print_error(e, e->goal, 3);
 }
 
 static void add_line(const accuracy_error *e, ff_stage *stage)
 {
     double limit = isnan(e->goal) ? doubtful_above : e->goal;
     char *name = memory_print_text("%s_error", e->result->row->name);
-    char *error = accuracy_print_relative(e), *rest = accuracy_describe(e);
+    char *error = accuracy_print_reached(e), *rest = accuracy_describe(e);
     char *text = memory_print_text("measured: %s%s%s", error, *rest ? "; " : "", rest);
-    ff_add_quality(stage, name, e->relative, limit, e->relative <= limit ? FF_GOOD : FF_DOUBTFUL,
+    ff_add_quality(stage, name, e->reached, limit, e->reached <= limit ? FF_GOOD : FF_DOUBTFUL,
                    text);
     free(text);
     free(rest);

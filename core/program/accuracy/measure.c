@@ -62,11 +62,12 @@ static void list_outputs(accuracy_twins *t)
             accuracy_error *e = &record->errors[record->count++];
             *e = (accuracy_error){.stage = stage,
                                   .result = &stage->results[i],
-                                  .goal = accuracy_goal(t->scene.file, stage, &stage->results[i]),
                                   .zero = zero_of(answer, stage, &stage->results[i]),
                                   .relative = NAN,
+                                  .reached = NAN,
                                   .largest = NAN,
                                   .order = NAN};
+            e->goal = accuracy_goal(t->scene.file, stage, e->result, &e->absolute);
             fprintf(out, "%s%s.%s", record->count > 1 ? ", " : "", stage->name,
                     e->result->row->name);
         }
@@ -80,8 +81,11 @@ static void list_outputs(accuracy_twins *t)
 /* Computes the relative error of an output: typical along a series, and largest. */
 static void find_relative(const double *at, accuracy_error *e)
 {
-    const accuracy_series answer = {e->result->rank, e->result->count, at, e->result->data,
-                                    e->zero};
+    accuracy_series answer = {e->result->rank, e->result->count, at,
+                              e->result->data, e->zero,          e->absolute};
+    double largest;
+    e->reached = accuracy_relative(e->bar, &answer, &largest);
+    answer.absolute = false;
     e->relative = accuracy_relative(e->bar, &answer, &e->largest);
 }
 
@@ -115,24 +119,24 @@ static void add_parts(const accuracy_twins *t, const double *shares, accuracy_er
     qsort(e->parts, e->part_count, sizeof *e->parts, by_error);
 }
 
-/* Adds the changes by the accepted models. */
-static void add_changes(const accuracy_twins *t, accuracy_error *e)
+/* Adds the changes by the accepted models, which are stated as the goal is. */
+static void add_changes(const accuracy_twins *t, const accuracy_ladder *levels, accuracy_error *e)
 {
     const accuracy_choice *choice = t->record->choice;
     const ff_result *result = e->result;
-    double most = accuracy_largest_magnitude(result->data, result->count, e->zero);
+    const double share = e->absolute ? e->relative / e->reached : 1;
     for (size_t i = 0; choice && i < choice->change_count; i++) {
         const accuracy_change *c = &choice->changes[i];
         if (c->of != (size_t)(e->stage - t->answer->stages) ||
             strcmp(c->output, result->row->name) != 0)
             continue;
         for (size_t k = 0; k < result->count; k++) /* naN: the two could not be compared */
-            e->bar[k] +=
-                c->error * accuracy_error_scale(result->data[k] - e->zero, most, result->rank);
-        e->relative += c->error;
-        e->largest += c->error;
+            e->bar[k] += c->error * levels->scale[k];
+        e->reached += c->error;
+        e->relative += share * c->error;
+        e->largest += share * c->error;
         e->parts[e->part_count++] = (accuracy_part){
-            .stage = &t->answer->stages[c->stage], .setting = "use", .error = c->error};
+            .stage = &t->answer->stages[c->stage], .setting = "use", .error = share * c->error};
     }
     qsort(e->parts, e->part_count, sizeof *e->parts, by_error);
 }
@@ -141,9 +145,9 @@ static accuracy_ladder ladder_of(const accuracy_twins *t, const accuracy_error *
 {
     const ff_result *result = e->result, *along = accuracy_axis_of(t->answer, e->stage, result);
     double *scale = take(t, result->count, sizeof *scale);
-    double most = accuracy_largest_magnitude(result->data, result->count, e->zero);
-    for (size_t i = 0; i < result->count; i++)
-        scale[i] = accuracy_error_scale(result->data[i] - e->zero, most, result->rank);
+    accuracy_error_scales(
+        &(accuracy_series){result->rank, result->count, NULL, result->data, e->zero, e->absolute},
+        scale);
     return (accuracy_ladder){.count = result->count,
                              .at = along ? along->data : NULL,
                              .scale = scale,
@@ -185,7 +189,7 @@ static void measure_output(const accuracy_twins *t, accuracy_error *e)
     find_relative(levels.at, e);
     add_parts(t, shares, e);
     hold_to_estimate(levels.at, e);
-    add_changes(t, e);
+    add_changes(t, &levels, e);
 }
 
 /* Widens the bar of a number to the bar of the series from which it is picked; the settings keep
@@ -244,7 +248,7 @@ static bool misses(const accuracy_record *record, double share)
 {
     bool missed = false;
     for (size_t i = 0; i < record->count; i++)
-        missed = missed || record->errors[i].relative > share * record->errors[i].goal;
+        missed = missed || record->errors[i].reached > share * record->errors[i].goal;
     return missed;
 }
 

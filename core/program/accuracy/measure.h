@@ -35,7 +35,9 @@ enum { ACCURACY_OWN = 3 };
 typedef struct accuracy_error {
     const ff_stage *stage;
     const ff_result *result;
-    double goal;          /* the file's goal, relative; NaN if it states none */
+    double goal;          /* the file's goal; NaN if it states none */
+    bool absolute;        /* the goal is in the unit of the output, SI, and no share of it */
+    double reached;       /* what is held against the goal: `relative`, or the same in SI */
     double zero;          /* SI: the value from which shares are counted */
     double *bar;          /* of each number, SI, at least 0; NULL if it is not known */
     double relative;      /* relative to the number; for a series at 95 of 100 points; NaN if it

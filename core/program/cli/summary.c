@@ -277,18 +277,16 @@ static void print_log(paper *page, const json_t *log)
 
 static bool is_missed(const accuracy_error *e)
 {
-    return !isnan(e->goal) && !(e->relative <= e->goal);
+    return !isnan(e->goal) && !(e->reached <= e->goal);
 }
 
 /* Prints for one output: the error, the error that the file allows, and what the error comes
  * from. */
 static void print_error_row(const paper *page, const accuracy_error *e, int width)
 {
-    char *error = accuracy_print_relative(e), *rest = accuracy_describe(e);
+    char *error = accuracy_print_reached(e), *rest = accuracy_describe(e);
+    char *goal = accuracy_print_goal(e);
     char *name = memory_print_text("%s.%s", e->stage->name, e->result->row->name);
-    char goal[32] = "";
-    if (!isnan(e->goal))
-        snprintf(goal, sizeof goal, "%.3g %%", 100 * e->goal);
     int column = printf("  %-*s  %-*s ", width, name, ERROR - 1, error);
     if (page->errors->attempts > 0)
         column += printf("%-*s", ERROR, goal);
@@ -298,6 +296,7 @@ static void print_error_row(const paper *page, const accuracy_error *e, int widt
         column += (int)strlen("not reached") + printf("%s", *rest ? "; " : "");
     }
     terminal_print_wrapped(rest, column, start);
+    free(goal);
     free(name);
     free(rest);
     free(error);

@@ -65,7 +65,8 @@ bool results_find_extremes(const ff_pipeline *pipeline, const ff_stage *stage,
         return search(result, NULL, NULL, 0, out);
     for (size_t i = 0; i < whole->count; i++)
         most = fmax(most, fabs(whole->data[i]));
-    const accuracy_series series = {1, whole->count, placed ? there->data : NULL, whole->data, 0};
+    const accuracy_series series = {1, whole->count, placed ? there->data : NULL, whole->data,
+                                    0, false};
     return search(result, &series, placed ? along->data : NULL, vanishing * most, out) ||
            search(result, NULL, NULL, 0, out);
 }

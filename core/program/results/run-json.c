@@ -94,6 +94,8 @@ static json_t *describe_error(const accuracy_error *e, results_arrays arrays)
     json_t *entry =
         json_pack("{s:o, s:o, s:o, s:o}", "relative", study_json_real(e->relative), "goal",
                   study_json_real(e->goal), "order", study_json_real(e->order), "parts", parts);
+    if (e->absolute)
+        json_object_set_new(entry, "absolute", study_json_real(e->reached));
     if (e->bar && e->result->rank && is_elsewhere(e->result, arrays))
         json_object_set_new(entry, "file", name_file(e->stage, e->result, ACCURACY_BAR, arrays));
     else if (e->bar)

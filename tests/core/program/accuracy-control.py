@@ -238,6 +238,33 @@ class Control(lab.Lab):
         answer = self.ask(text=text.replace("first.value: 5 %, ", ""))
         self.assertIsNone(answer["outputs"]["first.value"]["error"]["goal"])
 
+    def test_a_goal_in_the_unit_of_the_output(self):
+        """The value is 2 m: 2 mm of it are 0.1 %."""
+        share = self.ask("accuracy={last.value: 0.1 %}")
+        answer = self.ask("accuracy={last.value: 2 mm}")
+        error = answer["outputs"]["last.value"]["error"]
+        self.assertEqual(answer["accuracy"]["settings"], share["accuracy"]["settings"])
+        self.assertAlmostEqual(error["absolute"], error["value"], delta=1e-15)
+        self.assertLessEqual(error["absolute"], 0.002)
+        self.assertEqual(error["goal"], 0.002)
+        self.assertAlmostEqual(error["relative"], share["outputs"]["last.value"]["error"]["relative"], delta=1e-12)
+        self.write("unit.yaml", FILE)
+        self.assertRegex(self.call("run", "unit.yaml", "-o", "unit", "--set", "accuracy={last.value: 2 mm}"), r"last.value  \S+ m +0.002 m ")
+
+    def test_a_goal_for_a_temperature(self):
+        """In kelvin, or a share of the rise over the oil, which has 90 degC."""
+        root = os.path.realpath(os.path.join(os.path.dirname(__file__), "../../.."))
+        with open(f"{root}/configs/fzg-a-scuffing.yaml", encoding="utf-8") as file:
+            text = file.read().split("outputs:")[0].replace("gears/", f"{root}/configs/gears/").replace("lubricants/", f"{root}/configs/lubricants/")
+        name = "scuffing.contact_temperature_max"
+        text += f"outputs: [{name}]\n"
+        kelvin, share = (self.ask(f"accuracy={{{name}: {goal}}}", text=text)["outputs"][name] for goal in ("0.5 K", "2 %"))
+        self.assertLessEqual(kelvin["error"]["absolute"], 0.5)
+        self.assertNotIn("absolute", share["error"])
+        self.assertAlmostEqual(share["error"]["relative"] * (share["value"] - 363.15), share["error"]["value"], delta=1e-9)
+        self.write("hot.yaml", text)
+        self.assertIn("an error is a difference", self.call("check", "hot.yaml", "--set", f"accuracy={{{name}: 0.5 degC}}", code=2))
+
     def test_coarse_settings_that_fail(self):
         """Its twins have fewer; with 70 cells at least the presets fail, too."""
         for least in (20, 60, 70):

@@ -6,7 +6,7 @@
 #include <time.h>
 
 enum { N, BLIND };
-enum { VALUE, CURVE, PLACE, ROUNDS, FIELD };
+enum { VALUE, CURVE, PLACE, ROUNDS, FIELD, TRACE };
 
 typedef struct root {
     const ff_host *host;
@@ -25,6 +25,7 @@ static const ff_port outputs[] = {
     {.name = "place", .unit = "rad", .doc = "where the curve is known", .dims = "t"},
     {.name = "rounds", .unit = "1", .doc = "n", .dims = ""},
     {.name = "field", .unit = "m", .doc = "a field", .dims = "t x"},
+    {.name = "trace", .unit = "1", .doc = "0 from 100 rounds on", .dims = ""},
 };
 
 static ff_status create(const ff_host *host, void **self)
@@ -82,6 +83,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         return ff_failf(r->host, FF_NOCONV, "n", "nothing was found");
     ff_put_scalar(r->host, VALUE, 7 * (1 + off));
     ff_put_scalar(r->host, ROUNDS, r->n);
+    ff_put_scalar(r->host, TRACE, r->n < 100 ? off : 0);
     return wanted & (1 << CURVE | 1 << PLACE) ? draw(r, off) : FF_OK;
 }
 

@@ -89,7 +89,7 @@ done
 "$flankfilm" run study.yaml -o killed >killed.txt || true
 grep -q '^23 of 23 cases done' killed.txt || fail "resume"
 errors() {
-    sed -n 's/.*"\(largest\|rms\)": \([^,}]*\).*/\1 \2/p' "$1/tradeoff.json"
+    sed -n 's/.*"\(largest\|reference_error\)": \([^,}]*\).*/\1 \2/p' "$1/tradeoff.json"
 }
 errors out >out.errors
 errors killed >killed.errors
@@ -149,20 +149,22 @@ cat blind.txt
 grep -q 'blind.yaml:11:16: error: tradeoff: the reference failed (n 64): .*nothing was found' blind.txt ||
     fail "a reference that fails: why"
 
-# By its rms a series may stand where by its largest error it does not.
-sed 's/    repeats: 3/    repeats: 1\n    judge: rms/' study.yaml >rms.yaml
-"$flankfilm" run rms.yaml -o rms >rms.txt || true
-grep -q '^root.curve, known to .*, judged by rms' rms.txt || fail "the way of judging is not told"
-awk -F'[:,]' '/"rms"/ { rms = $2 } /"judged"/ { if ($2 != rms) bad = 1; n++ } END { exit bad || n < 3 }' \
-    rms/tradeoff.json || fail "rms does not decide"
-
-# What changes its sign is judged by its rms, unless the file says otherwise; all else by its largest.
-sed 's/    repeats: 3/    repeats: 1/; s/outputs: \[root.value, root.curve, slow.total\]/outputs: [root.value, root.curve, slow.height]/; s/root.n: \[2, 4, 8, 16, 64\]/root.n: [2, 8]/' study.yaml >sign.yaml
+# What is 0 in the reference has no shares: its errors are absolute. A name of the file stands before the rest.
+sed 's/    repeats: 3/    repeats: 1/; s/outputs: \[root.value, root.curve, slow.total\]/outputs: [root.value, root.curve, slow.height]/; s/- {root.n: \[2, 4, 8, 16, 64\]/- {name: quick, root.n: [2, 8]/; s/{root.n: 8, root.blind/{name: slow, root.n: 8, root.blind/' study.yaml >sign.yaml
 "$flankfilm" run sign.yaml -o sign >sign.txt || true
-grep -q '^slow.height, known to .*, judged by rms' sign.txt || fail "a change of sign is not seen"
-grep -q '^root.curve, known to [^,]*$' sign.txt || fail "without a change of sign the largest error counts"
-"$flankfilm" run sign.yaml -o largest --set study.tradeoff.judge=largest >largest.txt || true
-grep -q 'judged by rms' largest.txt && fail "the file has the last word"
+grep -q '^slow.height, known to .* %$' sign.txt || fail "one measure of all series"
+grep -q 'slow, n 8, blind 100' sign.txt || fail "the name of the file"
+"$flankfilm" run sign.yaml -o sign1 --set 'study.tradeoff.candidates=[{name: alone, root.n: 4}]' >sign1.txt
+grep -q ' alone *$' sign1.txt || fail "a name stands alone for one point"
+"$flankfilm" run sign.yaml -o none --set 'study.tradeoff.outputs=[root.value, root.trace]' >none.txt || true
+grep -q '^root.trace, 0 in the reference: errors in SI, known to 0$' none.txt || fail "0 in the reference"
+grep -q '^ *0.0156 *0.0156 .* quick, n 8$' none.txt || fail "0 in the reference: 1/64 itself"
+
+# A change that falls no more ends the refinement, and the output that keeps it is named.
+sed 's/n: 100, refine: \[root.n\]/n: 100, refine: {root.n: 0.5}/' study.yaml >stall.yaml
+"$flankfilm" run stall.yaml -o stall >stall.txt || true
+grep -q '^reference 2' stall.txt && ! grep -q '^reference 3' stall.txt || fail "it was refined in vain"
+grep -q '0.1 %: root.value, root.curve; finer' stall.txt || fail "it does not say what keeps it"
 
 # The figure names the points of the front, and shows how well each number is known.
 python3 - <<'END' || fail "the figure"
@@ -172,7 +174,7 @@ candidates, front = figure["tables"]
 rows = front["rows"]
 assert len(candidates["rows"]) == 4, candidates
 named = [row[1] for row in rows]  # the front by its names, cheapest first
-assert named and set(named) <= {"n 2", "n 8", "n 8, blind 1", "n 8, blind 100"}, rows
+assert named and set(named) <= {"quick, n 2", "quick, n 8", "slow, n 8, blind 1", "slow, n 8, blind 100"}, rows
 assert [row[0] for row in rows] == list(range(1, len(rows) + 1)), rows
 assert [row[2] for row in rows] == sorted(row[2] for row in rows), rows
 dots = [curve for curve in figure["curves"] if curve["style"] == "dots"]

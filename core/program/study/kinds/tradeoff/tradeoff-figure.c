@@ -58,6 +58,12 @@ static size_t rank_in_front(const json_t *output, size_t candidate)
     return 0;
 }
 
+/* Errors are percentages; those of an output that is 0 in the reference are in SI. */
+static double factor_of(const json_t *output)
+{
+    return json_is_true(json_object_get(output, "absolute")) ? 1 : 100;
+}
+
 /* Adds the point of a candidate. An error below the uncertainty of the reference is drawn at that
  * uncertainty. */
 static void add_candidate(groups *g, const json_t *candidate, const json_t *error,
@@ -67,7 +73,8 @@ static void add_candidate(groups *g, const json_t *candidate, const json_t *erro
     const char *label = study_text_of(candidate, "label");
     double cost = study_number_of(seconds, "median"),
            known = study_number_of(output, "reference_error");
-    double judged = fmax(study_number_of(error, "judged"), known);
+    const double factor = factor_of(output);
+    double judged = fmax(study_number_of(error, "error"), known);
     char tag[24] = "";
     if (!(cost > 0 && judged > 0))
         return;
@@ -75,8 +82,8 @@ static void add_candidate(groups *g, const json_t *candidate, const json_t *erro
         snprintf(tag, sizeof tag, "%zu", rank);
     json_t *curve = curve_of(g, label);
     append(curve, "x", json_real(cost));
-    append(curve, "y", json_real(100 * judged));
-    append(curve, "bar", json_real(100 * known));
+    append(curve, "y", json_real(factor * judged));
+    append(curve, "bar", json_real(factor * known));
     append(curve, "from", json_real(study_number_of(seconds, "min")));
     append(curve, "to", json_real(study_number_of(seconds, "max")));
     append(curve, "names", json_string(label));
@@ -92,7 +99,7 @@ static json_t *front_of(const json_t *output)
     json_array_foreach(json_object_get(output, "front"), i, one)
     {
         append(curve, "x", json_real(study_number_of(one, "seconds")));
-        append(curve, "y", json_real(100 * study_number_of(one, "error")));
+        append(curve, "y", json_real(factor_of(output) * study_number_of(one, "error")));
     }
     return curve;
 }
@@ -112,8 +119,9 @@ json_t *study_tradeoff_figure(const json_t *result, const char *name, const json
     for (i = 0; i < g.count; i++)
         json_array_append_new(curves, g.curves[i]);
     json_array_append_new(curves, front_of(output));
-    snprintf(label, sizeof label, "%.40s error (%%), known to %.2g %%",
-             study_text_of(output, "judge"), 100 * study_number_of(output, "reference_error"));
+    const bool share = factor_of(output) > 1;
+    snprintf(label, sizeof label, "error%s, known to %.2g%s", share ? " (%)" : " (SI)",
+             factor_of(output) * study_number_of(output, "reference_error"), share ? " %" : "");
     return json_pack("{s:s, s:s+, s:i, s:i, s:{s:s, s:i}, s:{s:s, s:i}, s:[], s:o}", "sort",
                      "curves", "title", name, ": error against cost", "height", 340, "room", 1, "x",
                      "label", "cost (s on one core)", "log", 1, "y", "label", label, "log", 1,

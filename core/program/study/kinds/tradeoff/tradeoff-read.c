@@ -50,7 +50,8 @@ static bool assign_knob(study_tradeoff *t, study_point *p, const char *path, con
 
 static bool is_knob(const char *key)
 {
-    return strcmp(key, "refine") != 0 && strcmp(key, "refinements") != 0;
+    return strcmp(key, "refine") != 0 && strcmp(key, "refinements") != 0 &&
+           strcmp(key, "name") != 0;
 }
 
 /* Returns the map without the keys that are not knobs. */
@@ -76,15 +77,22 @@ static const ff_node *knobs_of(study_context *context, const ff_node *map)
  */
 static bool add_block(study_tradeoff *t, const ff_node *map)
 {
-    const ff_node *knobs = knobs_of(t->context, map);
-    if (knobs->count == 0)
-        return add_point(t, map);
+    const ff_node *knobs = knobs_of(t->context, map), *name = ff_node_get(map, "name");
+    const char *named = study_word(name);
+    if (name && !named)
+        return refuse(t, name, NULL, "\"name\" is what the points of a candidate are called");
+    if (knobs->count == 0) {
+        add_point(t, map)->name = named;
+        return true;
+    }
     const study_definition *block = study_context_expand(t->context, knobs);
     if (block && t->count + block->count > MOST_POINTS)
         return refuse(t, map, NULL, "more than 10000 candidates");
     bool good = block != NULL;
     for (size_t i = 0; good && i < block->count; i++) {
         study_point *p = add_point(t, map);
+        p->name = named;
+        p->alone = block->count == 1;
         for (size_t k = 0; good && k < block->varied_count; k++)
             good = assign_knob(t, p, block->varied[k].path, study_assignment(block, k, i),
                                study_value(block, k, i));
@@ -188,8 +196,6 @@ static bool read_measure(study_tradeoff *t, const study_key_value *values)
 {
     study_context *context = t->context;
     t->counts = names_of(t, values[TRADEOFF_COUNTS].node, "counts", &t->count_count);
-    context->extras = t->counts;
-    context->extra_count = t->count_count;
     const ff_node *list = values[TRADEOFF_STAGES].node;
     const ff_node *const *items = list ? study_items(&list, &context->stage_count) : NULL;
     const char **stages =
@@ -198,7 +204,18 @@ static bool read_measure(study_tradeoff *t, const study_key_value *values)
         if (!(stages[i] = study_word(items[i])))
             return refuse(t, list, NULL, "\"stages\" is a list of stages");
     context->stages = stages;
-    return t->counts && study_read_outputs(context, values[TRADEOFF_OUTPUTS].node);
+    if (!t->counts || !study_read_outputs(context, values[TRADEOFF_OUTPUTS].node))
+        return false;
+    context->extra_count = t->count_count + context->output_count;
+    const char **extras =
+        memory_arena_alloc(&context->arena, (context->extra_count + 1) * sizeof *extras);
+    for (size_t i = 0; i < context->extra_count; i++)
+        extras[i] = i < t->count_count
+                        ? t->counts[i]
+                        : study_context_format(context, "%s_error",
+                                               context->outputs[i - t->count_count]->text);
+    context->extras = extras;
+    return true;
 }
 
 /* Reads the keys that have a type. */
@@ -207,7 +224,6 @@ static void read_values(study_tradeoff *t, const study_key_value *values)
     const char *along = values[TRADEOFF_ALONG].value.text;
     t->repeats = (size_t)values[TRADEOFF_REPEATS].value.integer;
     t->accuracy = values[TRADEOFF_ACCURACY].value.real;
-    t->judge = (study_tradeoff_judge)values[TRADEOFF_JUDGE].value.integer;
     t->context->along = along ? study_context_format(t->context, "%s", along) : NULL;
 }
 
@@ -224,14 +240,17 @@ static bool assigns_whole_files(const study_tradeoff *t)
     return false;
 }
 
-/* Returns "name, cells 512" for "film.use=kind/name, film.cells=512". */
+/* Returns "model, cells 512" for "film.use=kind/model, film.cells=512", behind the name that the
+   file gives; such a name stands alone for a single point. */
 static const char *label_of(const study_tradeoff *t, const study_point *p, bool whole)
 {
     study_line line = {0};
+    if (p->name)
+        study_line_add(&line, "%s", p->name);
     for (size_t k = 0; k < t->knob_count; k++) {
         const char *dot = strrchr(t->knobs[k], '.'), *word = dot ? dot + 1 : t->knobs[k];
         const char *value = p->values[k];
-        if (!value)
+        if (!value || (p->name && p->alone))
             continue;
         const char *slash = strchr(value, '/');
         bool use = dot && !strcmp(word, "use") && slash;

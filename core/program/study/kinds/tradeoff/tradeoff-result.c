@@ -15,20 +15,7 @@ const study_outcome *study_tradeoff_outcome(const study_tradeoff *t, size_t poin
 
 static accuracy_series series_of(const study_output *output)
 {
-    return (accuracy_series){output->rank, output->count, output->at, output->values, 0};
-}
-
-/* True if an output is judged by its rms error: if the reference passes through 0, the largest
-   relative error only tells how far the zero has moved. */
-static bool by_rms(const study_tradeoff *t, size_t output)
-{
-    const study_output *reference = &study_tradeoff_outcome(t, 0)->outputs[output];
-    bool above = false, below = false;
-    for (size_t i = 0; reference->values && i < reference->count; i++) {
-        above = above || reference->values[i] > 0;
-        below = below || reference->values[i] < 0;
-    }
-    return t->judge == TRADEOFF_BY_RMS || (t->judge == TRADEOFF_BY_SIGN && above && below);
+    return (accuracy_series){output->rank, output->count, output->at, output->values, 0, false};
 }
 
 bool study_tradeoff_compare(const study_tradeoff *t, size_t a, size_t b, size_t output,
@@ -36,12 +23,10 @@ bool study_tradeoff_compare(const study_tradeoff *t, size_t a, size_t b, size_t 
 {
     const study_output *answer = &study_tradeoff_outcome(t, a)->outputs[output];
     const study_output *reference = &study_tradeoff_outcome(t, b)->outputs[output];
+    if (!answer->values || !reference->values || strcmp(answer->along, reference->along) != 0)
+        return false;
     accuracy_series one = series_of(answer), other = series_of(reference);
-    bool good = answer->values && reference->values && !strcmp(answer->along, reference->along) &&
-                accuracy_compare(&one, &other, d);
-    if (good)
-        d->judged = by_rms(t, output) ? d->rms : d->largest;
-    return good;
+    return accuracy_compare(&one, &other, d);
 }
 
 static json_t *processor(void)
@@ -70,12 +55,20 @@ static json_t *today(void)
     return json_string(text);
 }
 
-static json_t *cost_of(const study_tradeoff *t, size_t point, double *median)
+/* Processor time of a case: of the stages that the knobs touch, or of the whole run; NaN if it
+   failed. */
+static double work_of(const study_outcome *answer, bool whole)
+{
+    return whole && isfinite(answer->work) ? answer->processor + answer->saved : answer->work;
+}
+
+static json_t *cost_of(const study_tradeoff *t, size_t point, bool whole, double *median)
 {
     double *all = memory_arena_alloc(&t->context->arena, t->repeats * sizeof *all);
     size_t count = 0;
     for (size_t i = 0; i < t->repeats; i++) {
-        double work = study_outcome_of(t->context, study_tradeoff_case(t, point, i))->work;
+        double work =
+            work_of(study_outcome_of(t->context, study_tradeoff_case(t, point, i)), whole);
         if (isfinite(work))
             all[count++] = work;
     }
@@ -93,40 +86,68 @@ static double floor_of(const study_tradeoff *t, size_t levels, size_t output)
 {
     accuracy_difference d;
     bool known = levels > 1 && study_tradeoff_compare(t, levels - 2, levels - 1, output, &d);
-    return known ? d.judged : 0;
+    return known ? d.typical : 0;
+}
+
+/* The error that the answer states for itself: its output "film.h_min_error", else the quality line
+   of that name, which is relative; NaN if it has neither. */
+static double stated_error(const study_tradeoff *t, size_t point, size_t output, bool absolute)
+{
+    const study_outcome *answer = study_tradeoff_outcome(t, point);
+    const study_context *context = t->context;
+    const size_t extra = t->count_count + output;
+    const study_output *estimate = &answer->outputs[context->output_count + extra];
+    accuracy_series own = series_of(&answer->outputs[output]);
+    double largest;
+    own.absolute = absolute;
+    if (estimate->values && estimate->count == own.count)
+        return accuracy_relative(estimate->values, &own, &largest);
+    for (size_t i = 0; i < answer->quality_count && !absolute; i++)
+        if (!strcmp(answer->quality[i].name, context->extras[extra]))
+            return answer->quality[i].value;
+    return NAN;
 }
 
 static json_t *error_of(const study_tradeoff *t, size_t point, size_t reference, size_t output,
-                        double *judged)
+                        double *error)
 {
     accuracy_difference d;
-    *judged = NAN;
+    *error = NAN;
     if (!study_tradeoff_compare(t, point, reference, output, &d))
         return json_null();
-    *judged = d.judged;
-    return json_pack("{s:f, s:f, s:f}", "largest", d.largest, "rms", d.rms, "judged", d.judged);
+    *error = d.typical;
+    return json_pack("{s:f, s:f, s:o}", "error", d.typical, "largest", d.largest, "stated",
+                     study_json_real(stated_error(t, point, output, d.absolute)));
+}
+
+bool study_tradeoff_has_settled(const study_tradeoff *t, size_t level, size_t output)
+{
+    accuracy_difference d;
+    return study_tradeoff_compare(t, level - 1, level, output, &d) &&
+           (d.absolute || d.typical <= t->accuracy / 10);
 }
 
 static json_t *describe_reference(const study_tradeoff *t, size_t levels)
 {
-    json_t *list = json_array();
-    bool reached = levels > 1;
+    json_t *list = json_array(), *kept = json_array();
     for (size_t level = 0; level < levels; level++) {
         json_t *changes = json_object();
         for (size_t i = 0; level > 0 && i < t->context->output_count; i++) {
+            const char *name = t->context->outputs[i]->text;
             accuracy_difference d;
             bool good = study_tradeoff_compare(t, level - 1, level, i, &d);
-            json_object_set_new(changes, t->context->outputs[i]->text,
-                                study_json_real(good ? d.judged : (double)NAN));
-            if (level == levels - 1)
-                reached = reached && good && d.judged <= t->accuracy / 10;
+            json_object_set_new(changes, name, study_json_real(good ? d.typical : (double)NAN));
+            if (level == levels - 1 && !study_tradeoff_has_settled(t, level, i))
+                json_array_append_new(kept, json_string(name));
         }
         json_array_append_new(
             list,
             json_pack("{s:s, s:o, s:o}", "label", t->points[level].label, "seconds",
                       study_json_real(study_tradeoff_outcome(t, level)->work), "change", changes));
     }
-    return json_pack("{s:b, s:o}", "reached", (int)reached, "levels", list);
+    const bool reached = levels > 1 && json_array_size(kept) == 0;
+    return json_pack("{s:b, s:b, s:o, s:o}", "reached", (int)reached, "stalled", (int)t->stalled,
+                     "unsettled", kept, "levels", list);
 }
 
 /* Describes the front and what each step along it costs and gains; marks each error that is on the
@@ -193,7 +214,9 @@ static json_t *describe_candidate(const study_tradeoff *t, size_t point, double 
     json_object_set_new(record, "status", json_string(answer->status));
     if (*answer->reason)
         json_object_set_new(record, "reason", json_string(answer->reason));
-    json_object_set_new(record, "seconds", cost_of(t, point, cost));
+    double whole;
+    json_object_set_new(record, "seconds", cost_of(t, point, false, cost));
+    json_object_set_new(record, "whole", cost_of(t, point, true, &whole));
     json_object_set_new(record, "shared_seconds", json_real(answer->shared));
     json_object_set_new(record, "counts", counts);
     json_object_set_new(record, "errors", json_object());
@@ -220,8 +243,10 @@ static json_t *describe_output(const study_tradeoff *t, size_t levels, size_t ou
         if (json_is_object(errors[c]))
             json_object_set_new(errors[c], "over_front",
                                 study_json_real(study_front_excess(cost, error, t->candidates, c)));
-    return json_pack("{s:s, s:f, s:o}", "judge", by_rms(t, output) ? "rms" : "largest",
-                     "reference_error", floor, "front", front);
+    accuracy_difference d;
+    bool absolute = study_tradeoff_compare(t, levels - 1, levels - 1, output, &d) && d.absolute;
+    return json_pack("{s:b, s:f, s:o}", "absolute", (int)absolute, "reference_error", floor,
+                     "front", front);
 }
 
 json_t *study_tradeoff_result(const study_tradeoff *t, size_t levels)

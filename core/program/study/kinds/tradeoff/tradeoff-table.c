@@ -58,7 +58,7 @@ static void add_file(study_answer *answer, const json_t *result)
     json_t *candidates = json_object_get(result, "candidates"), *one;
     json_t *outputs = json_object_get(result, "outputs"), *names = names_of_counts(candidates);
     study_context *context = answer->context;
-    columns c = new_columns(context, 7 + json_object_size(names) + 4 * json_object_size(outputs));
+    columns c = new_columns(context, 8 + json_object_size(names) + 5 * json_object_size(outputs));
     const char *name;
     add(&c, (study_column){.of = {"label"}, .name = "candidate", .quoted = true});
     add(&c, (study_column){.of = {"status"}, .name = "status"});
@@ -66,6 +66,7 @@ static void add_file(study_answer *answer, const json_t *result)
     add(&c, (study_column){.of = {"seconds", "min"}, .name = "cost_min [s]"});
     add(&c, (study_column){.of = {"seconds", "max"}, .name = "cost_max [s]"});
     add(&c, (study_column){.of = {"seconds", "repeats"}, .name = "repeats"});
+    add(&c, (study_column){.of = {"whole", "median"}, .name = "whole run [s]"});
     json_object_foreach(names, name, one)
     {
         const char *kept = study_context_format(context, "%s", name);
@@ -73,11 +74,12 @@ static void add_file(study_answer *answer, const json_t *result)
     }
     json_object_foreach(outputs, name, one)
     {
-        static const char *const members[][2] = {{"largest", "%s error"},
-                                                 {"rms", "%s rms"},
+        static const char *const members[][2] = {{"error", "%s error"},
+                                                 {"largest", "%s largest"},
+                                                 {"stated", "%s stated"},
                                                  {"front", "%s front"},
                                                  {"over_front", "%s cost_over_front"}};
-        for (size_t k = 0; k < 4; k++)
+        for (size_t k = 0; k < 5; k++)
             add(&c, (study_column){.of = {"errors", name, members[k][0]},
                                    .name = study_context_format(context, members[k][1], name)});
     }
@@ -94,21 +96,28 @@ static void add_candidates(study_answer *answer, const char *output, const json_
                            json_t *candidates, const char *count, json_t *figure)
 {
     study_context *context = answer->context;
-    columns c = new_columns(context, 10);
+    columns c = new_columns(context, 11);
     const char *dot = count ? strrchr(count, '.') : NULL;
-    bool rms = !strcmp(study_text_of(of, "judge"), "rms");
+    const bool absolute = json_is_true(json_object_get(of, "absolute"));
+    static const char *const errors[] = {"error", "largest", "stated"};
     add(&c, (study_column){
                 .of = {"errors", output, "front"}, .head = "", .words = {"", "*"}, .width = 1});
-    for (int k = 0; k < 2; k++)
-        add(&c, (study_column){.of = {"errors", output, k ? "rms" : "largest"},
-                               .head = k ? "rms" : "error",
-                               .unit = "%",
-                               .factor = 100,
+    for (int k = 0; k < 3; k++)
+        add(&c, (study_column){.of = {"errors", output, errors[k]},
+                               .head = errors[k],
+                               .unit = absolute ? "" : "%",
+                               .factor = absolute ? 1 : 100,
                                .width = 8,
                                .digits = 3,
                                .missing = "-"});
     add(&c, (study_column){.of = {"seconds", "median"},
                            .head = "cost",
+                           .unit = "s",
+                           .width = 9,
+                           .digits = 3,
+                           .missing = "-"});
+    add(&c, (study_column){.of = {"whole", "median"},
+                           .head = "run",
                            .unit = "s",
                            .width = 9,
                            .digits = 3,
@@ -131,9 +140,12 @@ static void add_candidates(study_answer *answer, const char *output, const json_
                            .head = "",
                            .words = {"", "<- knee"},
                            .before = "  "});
-    const char *title = study_context_format(context, "%s, known to %.2g %%%s", output,
-                                             100 * study_number_of(of, "reference_error"),
-                                             rms ? ", judged by rms" : "");
+    const double known = study_number_of(of, "reference_error");
+    const char *title =
+        absolute
+            ? study_context_format(context, "%s, 0 in the reference: errors in SI, known to %.2g",
+                                   output, known)
+            : study_context_format(context, "%s, known to %.2g %%", output, 100 * known);
     study_answer_add(answer, &(study_table){.title = title,
                                             .summary = "all candidates",
                                             .columns = c.all,
@@ -144,18 +156,24 @@ static void add_candidates(study_answer *answer, const char *output, const json_
                                             .forms = SHOWN});
 }
 
-static const study_column front_columns[] = {
-    {.of = {"rank"}, .head = "", .width = 3},
-    {.of = {"label"}, .head = "on the front", .width = -12},
-    {.of = {"seconds"}, .head = "cost", .unit = "s", .width = 9, .digits = 3},
-    {.of = {"error"}, .head = "error", .unit = "%", .factor = 100, .width = 8, .digits = 3},
-    {.of = {"bought"}, .head = "against the one above", .before = "  "},
-    {.of = {"knee"}, .head = "", .words = {"", "knee"}, .before = "  "},
-};
-
-static void add_front(study_answer *answer, const json_t *candidates, const json_t *front,
+static void add_front(study_answer *answer, const json_t *candidates, const json_t *of,
                       json_t *figure)
 {
+    const bool absolute = json_is_true(json_object_get(of, "absolute"));
+    const json_t *front = json_object_get(of, "front");
+    columns c = new_columns(answer->context, 6);
+    add(&c, (study_column){.of = {"rank"}, .head = "", .width = 3});
+    add(&c, (study_column){.of = {"label"}, .head = "on the front", .width = -12});
+    add(&c,
+        (study_column){.of = {"seconds"}, .head = "cost", .unit = "s", .width = 9, .digits = 3});
+    add(&c, (study_column){.of = {"error"},
+                           .head = "error",
+                           .unit = absolute ? "" : "%",
+                           .factor = absolute ? 1 : 100,
+                           .width = 8,
+                           .digits = 3});
+    add(&c, (study_column){.of = {"bought"}, .head = "against the one above", .before = "  "});
+    add(&c, (study_column){.of = {"knee"}, .head = "", .words = {"", "knee"}, .before = "  "});
     json_t *rows = json_array(), *one;
     size_t i;
     json_array_foreach(front, i, one)
@@ -172,14 +190,13 @@ static void add_front(study_answer *answer, const json_t *candidates, const json
                                              1 / study_number_of(one, "part_of_the_error")));
         json_array_append_new(rows, row);
     }
-    study_answer_add(answer,
-                     &(study_table){.title = "the front",
-                                    .whole = true,
-                                    .columns = front_columns,
-                                    .column_count = sizeof front_columns / sizeof *front_columns,
-                                    .rows = rows,
-                                    .figure = figure,
-                                    .forms = SHOWN});
+    study_answer_add(answer, &(study_table){.title = "the front",
+                                            .whole = true,
+                                            .columns = c.all,
+                                            .column_count = c.count,
+                                            .rows = rows,
+                                            .figure = figure,
+                                            .forms = SHOWN});
 }
 
 static void tell_reference(study_answer *answer, const json_t *result)
@@ -197,10 +214,18 @@ static void tell_reference(study_answer *answer, const json_t *result)
             &line, "; %s changed by %.2g %%", output, 100 * json_number_value(change));
         study_answer_say(answer, SHOWN, -1, "%s", line.text);
     }
+    study_line kept = {0};
+    json_array_foreach(json_object_get(reference, "unsettled"), i, level)
+        study_line_add(&kept, "%s%s", i ? ", " : "", json_string_value(level));
     if (!json_is_true(json_object_get(reference, "reached")))
-        study_answer_say(answer, SHOWN, 2,
-                         "it changes by more than a tenth of the smallest error sought, %.3g %%",
-                         100 * study_number_of(result, "accuracy"));
+        study_answer_say(
+            answer, SHOWN, 2,
+            "it changes by more than a tenth of the smallest error sought, %.3g %%%s%s%s",
+            100 * study_number_of(result, "accuracy"), kept.used ? ": " : "",
+            kept.used ? kept.text : "",
+            json_is_true(json_object_get(reference, "stalled"))
+                ? "; finer levels change it no less, so that none follows"
+                : "");
 }
 
 void study_tradeoff_tell(study_answer *answer)
@@ -215,7 +240,7 @@ void study_tradeoff_tell(study_answer *answer)
         json_t *figure = study_answer_draw(answer, study_tradeoff_figure(result, output, of));
         study_context_print_line(answer->context, 0, "");
         add_candidates(answer, output, of, sorted, count, figure);
-        add_front(answer, candidates, json_object_get(of, "front"), figure);
+        add_front(answer, candidates, of, figure);
     }
     add_file(answer, result);
     study_context_print_line(answer->context, 0, "");

@@ -44,28 +44,27 @@ static const ff_param keys[STUDY_TRADEOFF_KEYS] = {
                         .doc = "the series that others are compared along; else one is found"},
     [TRADEOFF_STAGES] = {.name = "stages",
                          .doc = "list of stages whose work counts although candidates share them"},
-    [TRADEOFF_JUDGE] =
-        {.name = "judge",
-         .unit = "",
-         .type = FF_CHOICE,
-         .preset = "auto",
-         .choices = "auto|largest|rms",
-         .doc = "which error of a series makes fronts: the largest, or the rms along it; auto: "
-                "the rms of what changes its sign, else the largest"},
 };
 
-/* True if every output differs from the previous level by at most a tenth of the smallest error
-   sought. */
-static bool level_has_settled(const study_tradeoff *t, size_t level)
+/* True if every output has settled. Otherwise notes whether the change of one that has not still
+   falls. */
+static bool level_has_settled(study_tradeoff *t, size_t level)
 {
-    accuracy_difference d;
-    for (size_t i = 0; i < t->context->output_count; i++)
-        if (!study_tradeoff_compare(t, level - 1, level, i, &d) || d.judged > t->accuracy / 10)
-            return false;
-    return true;
+    bool settled = true, falls = level < 2;
+    for (size_t i = 0; i < t->context->output_count; i++) {
+        accuracy_difference before, now;
+        if (study_tradeoff_has_settled(t, level, i))
+            continue;
+        settled = false;
+        falls = falls || (study_tradeoff_compare(t, level - 2, level - 1, i, &before) &&
+                          study_tradeoff_compare(t, level - 1, level, i, &now) &&
+                          now.typical < before.typical);
+    }
+    t->stalled = !settled && !falls;
+    return settled;
 }
 
-/* Runs the levels of the reference until one has settled. */
+/* Runs the levels of the reference until one has settled, or until finer ones change it no less. */
 static bool run_reference(study_tradeoff *t)
 {
     study_context *context = t->context;
@@ -81,7 +80,7 @@ static bool run_reference(study_tradeoff *t)
                 "a coarser reference, or fewer refinements, may do",
                 "%s: the reference failed (%s): %s", context->name, t->points[level].label,
                 lost ? "what it gave is lost; --rerun all computes it anew" : outcome->reason);
-        if (level > 0 && level_has_settled(t, level))
+        if (level > 0 && (level_has_settled(t, level) || t->stalled))
             return true;
     }
     return true;

@@ -14,6 +14,8 @@ enum { STUDY_MOST_KNOBS = 64 };
 /* A level or a candidate: what it assigns to each knob; NULL when the file's value stays. */
 typedef struct study_point {
     const char **assignments, **values;
+    const char *name; /* as the file gives it, or NULL */
+    bool alone;       /* no other point has that name */
     const char *label;
     const ff_node *place;
 } study_point;
@@ -27,18 +29,13 @@ enum {
     TRADEOFF_COUNTS,
     TRADEOFF_ALONG,
     TRADEOFF_STAGES,
-    TRADEOFF_JUDGE,
     STUDY_TRADEOFF_KEYS
 };
-
-/* By which error of a series fronts are made, in the order of the words of `judge`. */
-typedef enum { TRADEOFF_BY_SIGN, TRADEOFF_BY_LARGEST, TRADEOFF_BY_RMS } study_tradeoff_judge;
 
 typedef struct study_tradeoff {
     study_context *context;
     size_t repeats;
-    double accuracy; /* the smallest relative error sought */
-    study_tradeoff_judge judge;
+    double accuracy;     /* the smallest relative error sought */
     const char **counts; /* "film.steps": results or lines of quality that count work */
     size_t count_count;
     const char
@@ -46,7 +43,8 @@ typedef struct study_tradeoff {
     size_t knob_count;
     study_point *points; /* the levels, then the candidates */
     size_t count, levels, candidates;
-    size_t ran; /* of the levels */
+    size_t ran;   /* of the levels */
+    bool stalled; /* the change of the reference fell no more */
 } study_tradeoff;
 
 /* tradeoff-read.c: reads the keys and submits all cases; NULL after an error. */
@@ -61,6 +59,9 @@ const study_outcome *study_tradeoff_outcome(const study_tradeoff *t, size_t poin
    compared. */
 bool study_tradeoff_compare(const study_tradeoff *t, size_t a, size_t b, size_t output,
                             accuracy_difference *d);
+/* True if the output changed by at most a tenth of the smallest error sought from the level before;
+   one that is 0 has no share and always did. */
+bool study_tradeoff_has_settled(const study_tradeoff *t, size_t level, size_t output);
 /* Returns the whole result; `levels` of the reference ran. */
 json_t *study_tradeoff_result(const study_tradeoff *t, size_t levels);
 
