@@ -11,7 +11,7 @@
 #include <string.h>
 
 /* Number of arrays with a value for each node and place across, and with one for each node. */
-enum { FIELDS = 19, OWN = 9 };
+enum { FIELDS = 19, OWN = 10 };
 
 /* Numbers in e->memory. */
 static size_t room_of(size_t nodes, size_t across)
@@ -34,8 +34,8 @@ ff_status ehl_energy_create(ehl_energy *e, size_t nodes, size_t across)
                               &e->called_rho, &e->bend,      &e->before};
     for (size_t k = 0; k < FIELDS; k++, next += all)
         *field[k] = next;
-    double **own[OWN] = {&e->tau_m,   &e->p_x,     &e->mobility, &e->mass,   &e->carried,
-                         &e->flux[0], &e->flux[1], &e->base[0],  &e->base[1]};
+    double **own[OWN] = {&e->tau_m,   &e->p_x,     &e->mobility, &e->mass,    &e->carried,
+                         &e->flux[0], &e->flux[1], &e->base[0],  &e->base[1], &e->excess};
     e->inverted = next;
     e->inverse = next + 3 * all;
     next += (3 + across) * all;
@@ -350,6 +350,29 @@ static void find_stress(ehl_energy *e, const ehl_energy_film *film, const double
     }
 }
 
+/* Sets the part of each tau_m beyond the limiting stress, which is the stress that the law gives a
+ * liquid that is nearly solid. If the Eyring stress is auto, the rates of rheology/2 know no limit:
+ * it acts on the traction and its heat, but not on the flow. */
+static void find_excess(ehl_energy *e, const ehl_energy_film *film, const double *T)
+{
+    const ff_rheology_3 *law = e->laws.rheology;
+    const double nearly_solid = 230; /* ln(eta/1 Pa s) */
+    size_t n = film->count, across = e->across.count;
+    double *ln_eta = e->mass, *middle = e->carried, *limit = e->excess;
+    if (!law || !e->flow)
+        return;
+    for (size_t i = 0; i < n; i++) {
+        ln_eta[i] = nearly_solid;
+        middle[i] = T[i * across + across / 2];
+    }
+    ff_status status = law->shear(law->self, n, film->p, middle, ln_eta, film->h, 1, limit);
+    note(e, status == FF_DOMAIN ? FF_OK : status);
+    for (size_t i = 0; i < n; i++) {
+        double beyond = fabs(e->tau_m[i]) - limit[i];
+        e->excess[i] = beyond > 0 ? copysign(beyond, e->tau_m[i]) : 0;
+    }
+}
+
 /* Returns int u rho dz with u(0) = u_1, of the rates in `gamma`, over h. */
 FF_SIMD_INLINE double flow_of(const ehl_across *a, size_t n, const double *rho, double u_1,
                               double h, const double *gamma, double *u)
@@ -411,7 +434,7 @@ FF_SIMD_INLINE void flow_across(ehl_energy *e, const ehl_energy_film *film, size
     FF_SIMD_LOOP
     for (size_t k = 0; k < n; k++) {
         double more = left + (a->z[k] - 0.5 - tilt) * h * p_x;
-        tau[k] += more;
+        tau[k] += more - e->excess[i];
         gamma[k] = flows ? gamma[k] + more * slope[k] : slip / h;
         gamma_eta[k] -= more * slope[k];
         per_p_x[k] = h * slope[k] * (a->z[k] - 0.5 - tilt);
@@ -464,6 +487,7 @@ void ehl_energy_flow(ehl_energy *e, const ehl_energy_film *film, const double *T
         for (size_t i = 0; i < film->count; i++)
             expect_stress_at(e, film, i);
     find_stress(e, film, T);
+    find_excess(e, film, T);
     for (size_t i = 0; i < film->count; i++)
         flow_at(e, film, i);
 }

@@ -170,12 +170,13 @@ FF_SIMD_INLINE void renew(const sweep *s, size_t i, size_t n)
     const double *tau = e->tau + i * n, *gamma = e->gamma + i * n, *slope = e->gamma_tau + i * n,
                  *by_eta = e->gamma_eta + i * n, *ln_eta_T = e->ln_eta_T + i * n;
     double *to = e->inverse + i * n * n, by_stress[EHL_ACROSS_MOST], moved[EHL_ACROSS_MOST];
-    /* tau_m depends on the temperatures of the whole column */
+    /* tau_m depends on the temperatures of the whole column, but not at the limiting stress */
+    double moves = fabs(e->excess[i]) > 0 ? 0 : 1;
     double per = ehl_energy_touches(s->film, i) ? 0 : s->film->h[i] * per_mean_slope(e, i, n);
     ehl_across_matrix m;
     for (size_t k = 0; k < n; k++) {
         moved[k] = a->weight[k] * by_eta[k] * ln_eta_T[k];
-        by_stress[k] = a->weight[k] * (tau[k] * slope[k] + gamma[k]) * per;
+        by_stress[k] = a->weight[k] * (tau[k] * slope[k] + moves * gamma[k]) * per;
     }
     for (size_t l = 0; l < n; l++) {
         memset(m[l], 0, sizeof m[l]);

@@ -3,7 +3,7 @@
  * Temperature and flow across a film, for a film whose pressure and gap are held:
  *
  *   rho c (dT/dt + u dT/dx + w dT/dz) = k d2T/dz2 - (T/rho)(d rho/dT)(dp/dt + u dp/dx) + tau du/dz
- *   tau = tau_m + (z - h/2) dp/dx,  u = u_1 at z = 0 and u_2 at z = h
+ *   tau = tau_m + (z - h/2) dp/dx,  u = u_1 at z = 0 and u_2 at z = h,  |tau_m| <= limiting stress
  *   du/dz = rate(tau_s) + (d rate/d tau)(tau_s) (tau - tau_s),  int rate(tau_s) dz = u_2 - u_1
  *
  * with k(p), in zeta = z/h at the nodes of across.h, in weak form, so that the flux into the flanks
@@ -90,7 +90,8 @@ typedef struct ehl_energy {
     double *before; /* ln(eta) of the last flow */
     /* nodes */
     int guessed;            /* tau_m has been computed before; 0: guess it first */
-    double *tau_m;          /* tau_s, Pa, the stress without dp/dx */
+    double *tau_m;          /* tau_s, Pa, the stress without dp/dx, whose rates are the flow */
+    double *excess;         /* part of tau_m beyond the limiting stress: tau lacks it, Pa */
     double *p_x;            /* Pa/m, of the flow */
     double *mobility;       /* -d(flow of mass)/d(dp/dx), kg s/m2 m: f of the tangent */
     double *mass;           /* rho h, kg/m2 */

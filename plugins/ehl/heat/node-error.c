@@ -32,8 +32,9 @@ static double change_of_film(const ehl_energy *now, const ehl_energy *then,
         film += (left - next) * fabs(log(now->mobility[i] / then->mobility[i]));
         carried =
             fmax(carried, (1 - next) * fabs(now->carried[i] - then->carried[i]) / then->mass[i]);
-        drag += now->tau_m[i] - then->tau_m[i];
-        whole += then->tau_m[i];
+        const double stress = then->tau_m[i] - then->excess[i];
+        drag += now->tau_m[i] - now->excess[i] - stress;
+        whole += stress;
         left = next;
     }
     drag = f->speed[0] > f->speed[1] || f->speed[0] < f->speed[1] ? fabs(drag / whole) : 0;

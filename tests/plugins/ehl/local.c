@@ -277,6 +277,31 @@ static void test_pressures(const char *model)
     }
 }
 
+/* A slow film with heat, whose friction by the Eyring stress alone would be 1.1 times Lambda: the
+   limiting stress bounds the traction as it does without heat. */
+static void test_limit_with_heat(void)
+{
+    static const char *const thermal[] = {"none", "full"};
+    double mu[2];
+    for (int k = 0; k < 2; k++) {
+        line c;
+        open_oil(&c, "ehl/finite-volume", plain);
+        stage_set_text(c.film, "thermal", thermal[k]);
+        c.load[0] = 6.4e5;
+        c.u1[0] = 0.1;
+        c.u2[0] = 0.05;
+        check_true("found", line_run(&c, "friction_coefficient sliding_loss") == FF_OK);
+        mu[k] = line_value(&c, "friction_coefficient", 0);
+        check_below("Lambda", mu[k], 0.047);
+        check_near("its loss", line_value(&c, "sliding_loss", 0), mu[k] * c.load[0] * 0.05, 1e-9);
+        if (k == 1)
+            check_below("heat that is out of balance", fabs(stage_quality(c.film, "heat_balance")),
+                        1e-3);
+        line_close(&c);
+    }
+    check_near("at the limit with heat as without", mu[1], mu[0], 0.01);
+}
+
 /* About the pitch point. */
 static void test_sliding(const char *model)
 {
@@ -359,6 +384,7 @@ int main(void)
 {
     test_pressures("ehl/film-formula");
     test_pressures("ehl/finite-volume");
+    test_limit_with_heat();
     test_sliding("ehl/film-formula");
     test_sliding("ehl/finite-volume");
     test_sensitivities("ehl/film-formula", 0.01);
