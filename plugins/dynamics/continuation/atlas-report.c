@@ -61,8 +61,8 @@ static ff_status put_points(const dynamics_atlas *atlas, const dynamics_excitati
     return FF_OK;
 }
 
-/* Gives the folds or the doublings. A fold ends one branch and begins the next; it is listed with
- * the first. */
+/* Writes the outputs of the folds or of the period doublings. A fold ends one branch and begins the
+   next one. It is listed with the first of the two. */
 static ff_status put_events(const dynamics_atlas *atlas, double frequency, int kind, uint32_t at,
                             uint32_t branch, const ff_host *host)
 {
@@ -117,26 +117,28 @@ static void report_curves(const dynamics_atlas *atlas, const ff_host *host)
     size_t lost = ends[DYNAMICS_END_STUCK] + ends[DYNAMICS_END_LOOP] + ends[DYNAMICS_END_CROWDED];
     snprintf(
         text, sizeof text,
-        "of %zu ends of curves %zu lie at the ends of the range, %zu meet their start, %zu meet "
-        "half their period, %zu stop at 100 times half backlash and static deflection%s",
+        "%zu curve ends: %zu at the ends of the range, %zu where the curve closes, %zu where the "
+        "curve meets half its period, %zu at 100 times the sum of half backlash and static "
+        "deflection%s",
         total, ends[DYNAMICS_END_RANGE], ends[DYNAMICS_END_CLOSED], ends[DYNAMICS_END_HALVED],
-        ends[DYNAMICS_END_CAP], lost ? "; the others were lost" : "");
+        ends[DYNAMICS_END_CAP], lost ? "; the others were not followed further" : "");
     host->quality(host->ctx, "atlas_lost_ends", (double)lost, 0, lost ? FF_DOUBTFUL : FF_GOOD,
                   text);
 }
 
-/* Estimates the share of starts that would lead to motions not met yet by the share of starts whose
- * motion was met once (Good 1953, Biometrika 40, 237-264, eq. 9). Starts that have not settled may
- * lead anywhere. */
+/* Estimates the share of starts that would lead to motions not yet found. It is the share of the
+   starts that led to a motion found only once (Good 1953, Biometrika 40, 237-264, eq. 9). Starts
+   that have not settled may lead to any motion. */
 static void report_unseen(const dynamics_atlas *atlas, const ff_host *host)
 {
     char text[320];
     size_t open = atlas->starts - atlas->settled - atlas->unbounded;
     double unseen = atlas->settled ? (double)atlas->met_once / (double)atlas->settled : 1;
     snprintf(text, sizeof text,
-             "the search found %zu curves, %zu of them from one start alone, so that some %.2g %% "
-             "of all starts lead to curves that are not in the atlas; %zu starts of %zu, which had "
-             "not settled, may do so, too; more search_starts and search_speeds find more",
+             "the search found %zu curves, %zu of them from one start only, so that about %.2g "
+             "%% of all starts lead to curves that are not in the atlas; this may also hold for "
+             "the %zu starts of %zu that had not settled; more search_starts and search_speeds "
+             "find more",
              atlas->searched, atlas->met_once, 100 * unseen, open, atlas->starts);
     host->quality(host->ctx, "atlas_unseen", unseen, 1, FF_GOOD, text);
 }
@@ -148,8 +150,8 @@ static void report_search(const dynamics_atlas *atlas, const ff_host *host)
         return;
     snprintf(
         text, sizeof text,
-        "%zu of %zu starts of the search came to a periodic motion, %zu grew without bound, the "
-        "others had not settled after %d mesh cycles",
+        "%zu of %zu starts of the search led to a periodic motion, %zu grew without bound, and "
+        "the others had not settled after %d mesh cycles",
         atlas->settled, atlas->starts, atlas->unbounded, DYNAMICS_SEARCH_CYCLES);
     host->quality(host->ctx, "atlas_settled_starts", (double)atlas->settled / (double)atlas->starts,
                   1, FF_GOOD, text);
@@ -164,7 +166,9 @@ static void report_branches(const dynamics_flow *flow, const dynamics_atlas *atl
     dynamics_atlas_list(flow, atlas, lambda, names, sizeof names);
     snprintf(text, sizeof text, "motions at this speed: %s", names);
     if (b)
-        snprintf(text, sizeof text, "this motion is p%d-%d; at this speed there are: %s",
+        snprintf(text, sizeof text,
+                 "this motion is on branch p%d-%d; the motions at this speed "
+                 "are: %s",
                  b->name.period, b->name.number, names);
     host->quality(host->ctx, "atlas_branch", b ? 1000.0 * b->name.period + b->name.number : 0, 0,
                   FF_GOOD, text);

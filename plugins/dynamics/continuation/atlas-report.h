@@ -6,21 +6,22 @@
 #include "../oscillator/motion.h"
 #include "atlas.h"
 
-/* Reads a branch name such as "p2-1". 0: it is not one. */
+/* Reads a branch name such as "p2-1". Returns 0 if the text is not a branch name. */
 int dynamics_branch_parse(const char *text, dynamics_branch_name *name);
 
-/* Lists the branches that have a motion at a speed, with "unstable" after the unstable ones. */
+/* Lists the branches that have a motion at a speed. The word "unstable" follows each unstable
+   one. */
 void dynamics_atlas_list(const dynamics_flow *flow, const dynamics_atlas *atlas, double lambda,
                          char *text, size_t size);
 
-/* Gives the outputs from DYNAMICS_OUT_ATLAS_FREQUENCY on; `frequency` is the natural frequency in
- * Hz. */
+/* Writes the outputs from DYNAMICS_OUT_ATLAS_FREQUENCY on; `frequency` is the natural frequency,
+   Hz. */
 ff_status dynamics_atlas_put(const dynamics_atlas *atlas, const dynamics_excitation *excitation,
                              double frequency, const ff_host *host);
 
 /* Writes the quality lines: how the curves end, what the search found, and which branches exist at
- * a speed. `orbit` is the motion shown at that speed; NULL: there is none, or it is not periodic.
- */
+   a speed. `orbit` is the motion shown at that speed; it is NULL if there is none or it is not
+   periodic. */
 void dynamics_atlas_report(const dynamics_flow *flow, const dynamics_atlas *atlas, double lambda,
                            const dynamics_orbit *orbit, const ff_host *host);
 

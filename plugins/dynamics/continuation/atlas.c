@@ -6,8 +6,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Limits: most curves of an atlas, and the number of intervals of the speed range at whose ends a
- * motion is started from rest. */
+/* Limits. MOST_CURVES: most curves of an atlas. RESTS: number of intervals of the speed range; a
+   motion is started from rest at each end of an interval. */
 enum { MOST_CURVES = 400, RESTS = 12 };
 
 typedef struct builder {
@@ -15,14 +15,14 @@ typedef struct builder {
     const dynamics_atlas_request *request;
     dynamics_continuation_range tracing;
     dynamics_atlas *atlas;
-    size_t met[MOST_CURVES]; /* starts of the search that led to each curve */
+    size_t met[MOST_CURVES]; /* number of starts of the search that led to each curve */
 } builder;
 
 /* Returns whether the orbit lies on the stretch of a curve between two points. */
 static int lies_between(const dynamics_flow *flow, const dynamics_point *a, const dynamics_point *z,
                         const dynamics_orbit *orbit)
 {
-    static const double far = 1, same = 1e-6; /* in units of dynamics_state_unit */
+    static const double far = 1, same = 1e-6; /* both in units of dynamics_state_unit */
     double lambda = orbit->lambda, distance;
     if (!(lambda >= fmin(a->lambda, z->lambda) && lambda <= fmax(a->lambda, z->lambda)))
         return 0;
@@ -34,7 +34,8 @@ static int lies_between(const dynamics_flow *flow, const dynamics_point *a, cons
            dynamics_orbit_distance(flow, orbit, near.x, &distance) && distance < same;
 }
 
-/* Returns the number of the curve that the orbit lies on; curve_count if it lies on none. */
+/* Returns the index of the curve that contains the orbit, or curve_count if no curve contains
+   it. */
 static size_t curve_of(const dynamics_flow *flow, const dynamics_atlas *atlas,
                        const dynamics_orbit *orbit)
 {
@@ -67,7 +68,8 @@ static ff_status add_if_new(builder *b, const dynamics_orbit *orbit)
     return known ? FF_OK : add_curve(b, orbit);
 }
 
-/* Adds the curve of an orbit unless it is known, and counts the start that led to the orbit. */
+/* Adds the curve of an orbit unless the atlas contains it, and counts the start that led to the
+   orbit. */
 static ff_status add_met(builder *b, const dynamics_orbit *orbit)
 {
     size_t curve = curve_of(b->flow, b->atlas, orbit);
@@ -78,7 +80,7 @@ static ff_status add_met(builder *b, const dynamics_orbit *orbit)
 }
 
 /* Adds the curve of the motion that starts from rest. If that motion does not repeat after one mesh
- * cycle, Newton's method may find an unstable one from there that does. */
+   cycle, Newton's method may still find an unstable motion of one mesh cycle near it. */
 static ff_status add_from_rest(builder *b, double lambda)
 {
     const dynamics_excitation *excitation = b->flow->excitation;
@@ -97,10 +99,11 @@ static ff_status add_from_rest(builder *b, double lambda)
     return dynamics_orbit_solve(b->flow, 1e-12, &o) ? add_if_new(b, &o) : FF_OK;
 }
 
-/* Returns whether a curve of twice the period already ends in this doubling. */
+/* Returns whether a curve of twice the period already ends at this period doubling. */
 static int is_joined(const builder *b, const dynamics_point *p, int period)
 {
-    static const double near = 3e-2, near_speed = 3e-3; /* of the state unit; of lambda */
+    /* near: in state units; near_speed: difference of lambda */
+    static const double near = 3e-2, near_speed = 3e-3;
     for (size_t i = 0; i < b->atlas->curve_count; i++) {
         const dynamics_curve *c = &b->atlas->curves[i];
         for (int k = 0; k < 2 && c->period == 2 * period; k++) {
@@ -135,8 +138,8 @@ static ff_status add_doublings(builder *b, size_t c)
 }
 
 /* Returns point i of a sequence that fills a square evenly: the fractional parts of i g and i g^2,
- * where 1/g = 1.3247... is the root of x^3 = x + 1 (Roberts 2018, The unreasonable effectiveness of
- * quasirandom sequences). */
+   where 1/g = 1.3247... is the real root of x^3 = x + 1 (Roberts 2018, The unreasonable
+   effectiveness of quasirandom sequences). */
 static double evenly_spread(size_t i, double ratio)
 {
     double x = 0.5 + ratio * (double)i;
@@ -168,8 +171,8 @@ static ff_status search_at(builder *b, double lambda, size_t *serial)
     return status;
 }
 
-/* Starts from rest at both ends of the range, which yields the first names, then at speeds in
- * between. */
+/* Starts from rest at both ends of the range first, since their curves get the first names, and
+   then at speeds in between. */
 static ff_status start_from_rest(builder *b)
 {
     double low = b->request->low, high = b->request->high;
@@ -216,7 +219,7 @@ static void add_branch(dynamics_atlas *atlas, size_t curve, size_t first, size_t
     atlas->branches[atlas->branch_count++] = b;
 }
 
-/* Cuts the curves at their folds into branches and numbers them. */
+/* Cuts the curves at their folds into branches, and numbers the branches. */
 static ff_status name_branches(dynamics_atlas *atlas)
 {
     size_t folds = 0;

@@ -1,27 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* All periodic motions over a range of mesh frequencies. The curves of curve.h are cut at their
- * folds into branches, so that a branch has at most one motion at a speed. A branch is named
- * p<period>-<n>. Numbers follow the order of discovery: from the low end of the range, from its
- * high end, at period doublings, and by the search from scattered starts. */
+   folds into branches, so that a branch has at most one motion at a speed. A branch is named
+   p<period>-<n>. Numbers follow the order of discovery: first from the low end of the range, then
+   from its high end, then at period doublings, then by the search from scattered starts. */
 #ifndef DYNAMICS_ATLAS_H
 #define DYNAMICS_ATLAS_H
 
 #include "curve.h"
 
-/* Mesh cycles in which a start of the search may settle. */
+/* Most mesh cycles in which a start of the search may settle. */
 enum { DYNAMICS_SEARCH_CYCLES = 80 };
 
-/* Gives start number `serial` of a sequence that fills evenly the region of states that motions
- * visit. */
+/* Computes start number `serial` of a sequence that evenly fills the region of states that motions
+   visit. */
 void dynamics_search_start(const dynamics_excitation *excitation, size_t serial, double x[2]);
 
 typedef struct dynamics_atlas_request {
-    double low, high; /* lambda */
+    double low, high; /* range of lambda */
     double step;      /* as dynamics_continuation_range.step */
     int max_period;
-    size_t speeds,
-        starts;  /* starts of the search and the speeds that they are spread over; 0: no search */
-    int moments; /* 1: each point gets its rms */
+    size_t speeds, starts; /* number of starts of the search, and of the speeds at which they start;
+                              0: no search */
+    int moments;           /* 1: each point gets the rms of its motion */
 } dynamics_atlas_request;
 
 typedef struct dynamics_branch_name {
@@ -30,10 +30,10 @@ typedef struct dynamics_branch_name {
 
 typedef struct dynamics_atlas_branch {
     dynamics_branch_name name;
-    size_t curve, first, last; /* first and last point, both included; the point of a fold belongs
-                                  to both branches */
-    double low, high;          /* lambda */
-    int stable;                /* 0: stable at no point, 1: at some, 2: at all */
+    size_t curve, first, last; /* index of the curve, and of the first and the last point of the
+                                  branch on it; the point of a fold belongs to both branches */
+    double low, high;          /* range of lambda */
+    int stable;                /* 0: stable at no point, 1: at some points, 2: at all points */
 } dynamics_atlas_branch;
 
 typedef struct dynamics_atlas {
@@ -41,9 +41,9 @@ typedef struct dynamics_atlas {
     size_t curve_count;
     dynamics_atlas_branch *branches;
     size_t branch_count;
-    size_t starts, settled, unbounded; /* of the search */
-    size_t searched,
-        met_once; /* curves that the search added, and those of them that a single start met */
+    size_t starts, settled, unbounded; /* numbers of starts of the search */
+    size_t searched, met_once; /* numbers of curves that the search added, and of those that only
+                                  one start led to */
 } dynamics_atlas;
 
 ff_status dynamics_atlas_build(const dynamics_flow *flow, const dynamics_atlas_request *request,
@@ -54,11 +54,11 @@ void dynamics_atlas_free(dynamics_atlas *atlas);
 const dynamics_atlas_branch *dynamics_atlas_find(const dynamics_atlas *atlas,
                                                  dynamics_branch_name name);
 
-/* Finds the motion of a branch at a speed. 0: there is none. */
+/* Finds the motion of a branch at a speed. Returns 0 if there is none. */
 int dynamics_atlas_orbit(const dynamics_flow *flow, const dynamics_atlas *atlas,
                          const dynamics_atlas_branch *branch, double lambda, dynamics_orbit *orbit);
 
-/* Returns the branch that an orbit lies on, or NULL. */
+/* Returns the branch that contains an orbit, or NULL. */
 const dynamics_atlas_branch *dynamics_atlas_locate(const dynamics_flow *flow,
                                                    const dynamics_atlas *atlas,
                                                    const dynamics_orbit *orbit);

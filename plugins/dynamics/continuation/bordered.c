@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-/* Most corrections; after them a guess has failed. */
+/* Most Newton corrections. A guess that needs more has failed. */
 enum { CORRECTIONS = 7 };
 
 double dynamics_dot(const double a[3], const double b[3])
@@ -34,7 +34,7 @@ void dynamics_scaled_tangent(const dynamics_frame *f, const dynamics_point *p, d
 void dynamics_point_of_cubic(const dynamics_frame *f, const double border[3],
                              const dynamics_point *other, double s, double z[3])
 {
-    static const double straight = 0.5; /* least cosine of the turn */
+    static const double straight = 0.5; /* least cosine of the angle between the tangents */
     double place[3] = {(other->x[0] - f->origin[0]) / f->unit,
                        (other->x[1] - f->origin[1]) / f->unit, other->lambda - f->origin[2]};
     double tangent[3], length = dynamics_dot(place, border), x = s / length;
@@ -64,9 +64,9 @@ static void set_orbit(const dynamics_frame *f, const double z[3], dynamics_orbit
     o->lambda = f->origin[2] + z[2];
 }
 
-/* Returns the one row that carries information if both rows are parallel to within the accuracy of
- * a point, else -1. Parallel rows mean a whole line of motions at one speed: undamped flanks that
- * touch where the stiffness is constant can do so at any time. */
+/* Returns the index of the longer row if both rows are parallel to within the accuracy of a point,
+   else -1. Parallel rows occur if a whole line of motions exists at one speed: undamped flanks in
+   contact, with a constant stiffness, may vibrate at any phase. */
 static int only_row(double rows[2][3])
 {
     static const double parallel = 1e-6;
@@ -75,7 +75,7 @@ static int only_row(double rows[2][3])
     return sqrt(dynamics_dot(c, c)) > parallel * (first + second) ? -1 : first < second;
 }
 
-/* Gives the part of a direction perpendicular to the row. */
+/* Computes the part of a direction that is perpendicular to the row. */
 static void part_across(const double row[3], const double along[3], double part[3])
 {
     double share = dynamics_dot(along, row) / dynamics_dot(row, row);
@@ -83,8 +83,8 @@ static void part_across(const double row[3], const double along[3], double part[
         part[i] = along[i] - share * row[i];
 }
 
-/* Solves rows . u = r with `border` as the third row, by Cramer's rule. If a single row carries
- * information, u is the shortest solution. 0: singular. */
+/* Solves rows . u = r with `border` as the third row, by Cramer's rule. If both rows are parallel,
+   u is the shortest solution of one row. Returns 0 if the system is singular. */
 static int solve_bordered(double rows[2][3], const double border[3], const double r[3], double u[3])
 {
     double a[3], b[3], c[3];
@@ -108,9 +108,10 @@ int dynamics_bordered_newton(const dynamics_flow *flow, const dynamics_frame *f,
                              const double border[3], double tolerance, double z[3],
                              dynamics_orbit *o)
 {
-    static const double far = 2; /* in the frame's unit; farther away lies another motion */
+    static const double far = 2; /* in the unit of the frame; a solution farther away is another
+                                    motion */
     static const double promising =
-        1e-4; /* one more correction mostly suffices below this residual */
+        1e-4; /* below this residual one more correction is usually enough */
     double last = INFINITY;
     for (int i = 0; i < CORRECTIONS; i++) {
         set_orbit(f, z, o);

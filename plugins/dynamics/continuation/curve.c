@@ -10,12 +10,13 @@
 
 enum { MOST_POINTS = 20000, FIRST_MARK = 64, MAX_SECANTS = 40 };
 
-/* Tolerances of the residual, in the state's unit: of a motion, and of a point on the way. */
+/* Tolerances of the residual, in state units: of a motion, and of a point of the curve. */
 static const double tolerance = 1e-10, of_point = 1e-8;
 static const double noise = 1e-6;                           /* noise of the test functions */
 static const double first_step = 0.1, shortest_step = 1e-7; /* relative to the longest step */
-static const double predicted = 2e-3; /* error of the prediction that the step aims at */
-static const double most_turn = 0.35; /* largest turn of the tangent in a step, rad */
+static const double predicted = 2e-3; /* error of the predictor at which the step length aims */
+static const double most_turn = 0.35; /* largest angle between the tangents at both ends of a
+                                         step, rad */
 static const double cap =
     100; /* bound on the amplitude, relative to half backlash plus static deflection */
 
@@ -49,16 +50,16 @@ static int append(dynamics_curve *c, const dynamics_point *p)
     return 1;
 }
 
-/* A step of the continuation from `from` by `ds` to `to`. */
+/* A step of the continuation, of arclength `ds`, from the point `from` to the point `to`. */
 typedef struct stride {
     dynamics_point back, from,
-        to;               /* `back` is the point before `from`; there is none if `before` is 0 */
-    double ds, before;    /* this step, and the one that led to `from` */
-    dynamics_orbit orbit; /* at `to` */
-    double half[2];       /* half[] of the orbit at `from` */
+        to;               /* `back` is the point before `from`; if `before` is 0 there is none */
+    double ds, before;    /* length of this step, and of the previous one */
+    dynamics_orbit orbit; /* orbit at `to` */
+    double half[2];       /* state of the orbit at `from` after half its period */
 } stride;
 
-/* Solves for the point at arclength s of a stride whose end is known. */
+/* Solves for the point at arclength s inside a step whose end is already known. */
 static int solve_in_stride(const dynamics_continuation_range *t, const stride *w, double s,
                            dynamics_orbit *o)
 {
@@ -77,14 +78,15 @@ static double arclength(const dynamics_continuation_range *t, const stride *w)
            (w->to.lambda - w->from.lambda) * w->from.tangent[2];
 }
 
-/* Finds the root of a test function along the stride, over the arclength. 0: it was not found. */
+/* Finds the root of a test function over the arclength of the step. Returns 0 if it was not
+   found. */
 static int find_root_of_test(const dynamics_continuation_range *t, const stride *w,
                              double (*test)(const dynamics_orbit *), double at_start, double at_end,
                              dynamics_orbit *o)
 {
     numerics_bracket b = {0, at_start, arclength(t, w), at_end, 0};
     double whole = b.high;
-    stride near = *w; /* a copy whose end follows the root */
+    stride near = *w; /* a copy of the step; its end moves to the root */
     int found = 0;
     for (int i = 0; i < MAX_SECANTS && b.high - b.low > 1e-10 * whole; i++) {
         double s = numerics_bracket_secant(&b);
@@ -103,7 +105,7 @@ static int find_root_of_test(const dynamics_continuation_range *t, const stride 
     return found;
 }
 
-/* Gives the eigenvector of the multiplier -1. */
+/* Computes the eigenvector of the multiplier -1. */
 static void doubling_direction(const dynamics_orbit *o, double v[2])
 {
     double a[2] = {o->m[0] + 1, o->m[1]}, b[2] = {o->m[2], o->m[3] + 1};
@@ -113,17 +115,17 @@ static void doubling_direction(const dynamics_orbit *o, double v[2])
     v[1] = size > 0 ? row[0] / size : 0;
 }
 
-/* Returns whether a motion of even period has become one of half the period. Its curve turns back
- * there and runs along the same motions, shifted by a cycle; that is no fold. */
+/* Returns whether a motion of even period has become a motion of half the period. The curve turns
+   back there and follows the same motions, shifted by half the period. That point is not a fold. */
 static int is_halved(const dynamics_excitation *excitation, const dynamics_orbit *o)
 {
     return o->period % 2 == 0 && hypot(o->half[0] - o->x[0], o->half[1] - o->x[1]) <
                                      1e-3 * dynamics_state_unit(excitation, o->x);
 }
 
-/* Appends the folds and doublings of the stride in their order along the curve. The test function
- * can be noise: a motion in full contact belongs to a linear pair, so that its doubling is a whole
- * line of motions at one speed. */
+/* Appends the folds and period doublings of the step in their order along the curve. A test
+   function below `noise` is ignored. Without contact loss the pair is linear, and a doubling is
+   then a whole line of motions at one speed. */
 static int add_events(const dynamics_continuation_range *t, const stride *w, dynamics_curve *c)
 {
     dynamics_point found[2];
@@ -132,7 +134,7 @@ static int add_events(const dynamics_continuation_range *t, const stride *w, dyn
     for (int kind = DYNAMICS_POINT_FOLD; kind <= DYNAMICS_POINT_DOUBLING; kind++) {
         int fold = kind == DYNAMICS_POINT_FOLD;
         double a = fold ? w->from.fold : w->from.doubling, z = fold ? w->to.fold : w->to.doubling;
-        /* the curve turns at a fold; if it does not turn, two curves cross */
+        /* at a fold lambda turns back along the curve; if it does not, two curves cross there */
         int turns = w->from.tangent[2] * w->to.tangent[2] < 0;
         dynamics_orbit o = w->orbit;
         if (a * z >= 0 || fmin(fabs(a), fabs(z)) < noise || (fold && !turns) ||
@@ -158,8 +160,8 @@ static int add_events(const dynamics_continuation_range *t, const stride *w, dyn
     return 1;
 }
 
-/* Returns whether two folds may hide in a step: the slopes of lambda at both ends have one sign,
- * but the cubic through them nearly turns in between. */
+/* Returns whether a step may miss two folds. That may happen if the slopes of lambda at both ends
+   have the same sign, but the cubic through both ends nearly turns between them. */
 static int hides_folds(double slope, double end_slope, double mean)
 {
     double middle = 1.5 * mean - 0.25 * (slope + end_slope);
@@ -167,7 +169,8 @@ static int hides_folds(double slope, double end_slope, double mean)
     return slope * end_slope > 0 && (slope < 0 ? -middle : middle) < 0.5 * least;
 }
 
-/* Returns the same for doublings, by the parabola through the last three values of the test. */
+/* Returns whether a step may miss two period doublings, judged by the parabola through the last
+   three values of the test function. */
 static int hides_doublings(const stride *w)
 {
     double back = w->before, a = w->back.doubling, b = w->from.doubling;
@@ -180,8 +183,8 @@ static int hides_doublings(const stride *w)
     return lowest > 0 && lowest < w->ds && value / b < 0.3 * fmin(1, c / b);
 }
 
-/* Tries a step of w->ds: predicts, corrects, and checks how far the tangent turned. `error` is the
- * error of the prediction and `turn` the angle. 0: the step is too long. */
+/* Tries a step of length w->ds: predictor, corrector, and the angle between the tangents. `error`
+   is the error of the predictor and `turn` the angle. Returns 0 if the step is too long. */
 static int try_stride(const dynamics_continuation_range *t, stride *w, double *error, double *turn)
 {
     dynamics_frame f = dynamics_frame_at(t->flow->excitation, &w->from);
@@ -204,7 +207,7 @@ static int try_stride(const dynamics_continuation_range *t, stride *w, double *e
     dynamics_scaled_tangent(&f, &w->to, tangent);
     double size = sqrt(dynamics_dot(tangent, tangent));
     double cosine = dynamics_dot(tangent, border) / (size * sqrt(dynamics_dot(border, border)));
-    int kink = ds < 1e-3 * t->step; /* grazing contact bends the curve sharply */
+    int kink = ds < 1e-3 * t->step; /* at a grazing contact the curve has a kink */
     *turn = acos(fmin(fmax(cosine, -1), 1));
     if (*error > 0.5 * ds || (*turn > most_turn && !kink))
         return 0;
@@ -212,7 +215,8 @@ static int try_stride(const dynamics_continuation_range *t, stride *w, double *e
            !(hides_folds(border[2], tangent[2] / size, z[2] / ds) || hides_doublings(w));
 }
 
-/* Ends the stride at the bound of the range that it passes. 0: no motion was found there. */
+/* Ends the step at the bound of the range that it crosses. Returns 0 if no motion was found
+   there. */
 static int cut_at_bound(const dynamics_continuation_range *t, double bound, stride *w)
 {
     if (!dynamics_curve_solve(t->flow, &w->from, &w->to, bound, &w->orbit))
@@ -224,7 +228,7 @@ static int cut_at_bound(const dynamics_continuation_range *t, double bound, stri
     return 1;
 }
 
-/* A motion that the curve may return to: its states at phase 0. */
+/* A motion to which the curve may return: its states at phase 0. */
 typedef struct mark {
     double lambda;
     double x[DYNAMICS_PERIOD_MAX][2];
@@ -243,7 +247,7 @@ static int set_mark(const dynamics_flow *flow, const dynamics_orbit *o, mark *m)
     return 1;
 }
 
-/* Returns whether the stride passes the mark. */
+/* Returns whether the step passes through the marked motion. */
 static int passes_mark(const dynamics_continuation_range *t, const stride *w, const mark *m)
 {
     double u = dynamics_state_unit(t->flow->excitation, w->from.x), whole = arclength(t, w);
@@ -259,7 +263,8 @@ static int passes_mark(const dynamics_continuation_range *t, const stride *w, co
     return 0;
 }
 
-/* Finds the doubling near `o`, the motion of the shorter period, by the secant method in lambda. */
+/* Finds the period doubling near `o`, a motion of the shorter period, by the secant method in
+   lambda. */
 static int find_doubling(const dynamics_continuation_range *t, dynamics_orbit *o)
 {
     static const double first = 1e-4, far = 0.05;
@@ -279,8 +284,8 @@ static int find_doubling(const dynamics_continuation_range *t, dynamics_orbit *o
     return 0;
 }
 
-/* Returns whether a motion of even period meets one of half the period in the stride, or falls on
- * its curve. That motion then becomes the end of the stride. */
+/* Returns whether a motion of even period becomes one of half the period within the step, or
+   converges to a motion of half the period. The step then ends at that motion. */
 static int meets_half_period(const dynamics_continuation_range *t, stride *w)
 {
     const dynamics_orbit *o = &w->orbit;
@@ -311,15 +316,16 @@ static int beyond_cap(const dynamics_excitation *excitation, const dynamics_poin
     return !(fabs(p->x[0]) < limit && fabs(p->x[1]) < limit);
 }
 
-/* Returns the next step. The error of the prediction grows with the fourth power of the step, and
- * on an evenly bent curve the turn of the tangent is proportional to the step. */
+/* Returns the length of the next step. The error of the predictor grows with the fourth power of
+   the step length. The angle between the tangents is proportional to the step length where the
+   curvature is constant. */
 static double next_step(const dynamics_continuation_range *t, double ds, double error, double turn)
 {
     double growth = fmin(error > 0 ? sqrt(sqrt(predicted / error)) : 2, 0.8 * most_turn / turn);
     return fmin(ds * fmin(fmax(growth, 0.5), 1.6), t->step);
 }
 
-/* Returns whether the curve ends with this stride, and why. The stride may be cut short. */
+/* Returns whether the curve ends with this step, and sets the reason. The step may be shortened. */
 static int ends_here(const dynamics_continuation_range *t, stride *w, const mark *start,
                      const mark *recent, const dynamics_curve *c, dynamics_curve_end *why)
 {
@@ -343,7 +349,7 @@ static int ends_here(const dynamics_continuation_range *t, stride *w, const mark
     return 1;
 }
 
-/* Follows the curve one way from the start point and appends the points. */
+/* Follows the curve in one direction from the start point and appends the points. */
 static ff_status follow_one_way(const dynamics_continuation_range *t, const dynamics_orbit *orbit,
                                 const dynamics_point *start, dynamics_curve *c,
                                 dynamics_curve_end *why)
@@ -380,10 +386,12 @@ static ff_status follow_one_way(const dynamics_continuation_range *t, const dyna
             return FF_NOMEM;
         if (last)
             return FF_OK;
-        int power_of_two = (c->count & (c->count - 1)) == 0; /* Brent's way to detect a loop */
+        /* Brent's method to detect a loop: the marked motion is replaced at each power of two */
+        int power_of_two = (c->count & (c->count - 1)) == 0;
         if (c->count >= FIRST_MARK && power_of_two && !set_mark(t->flow, &w.orbit, &recent))
             return FF_OK;
-        w.before = fabs(w.to.fold) < noise ? 0 : w.ds; /* a cubic drifts along a line of motions */
+        /* along a line of motions at one speed the cubic predictor would drift */
+        w.before = fabs(w.to.fold) < noise ? 0 : w.ds;
         w.back = w.from;
         w.from = w.to;
         memcpy(w.half, w.orbit.half, sizeof w.half);
@@ -448,15 +456,15 @@ int dynamics_curve_double(const dynamics_continuation_range *t, const dynamics_p
            orbit->lambda > t->low && orbit->lambda < t->high;
 }
 
-/* Evaluates Hermite's cubic at the share x of the way from a to z; `from` and `to` are the slopes
- * there. */
+/* Evaluates the Hermite cubic at the fraction x of the distance from a to z. `from` and `to` are
+   the slopes at both ends. */
 static double cubic_at(double a, double z, double from, double to, double x)
 {
     return a + x * (from + x * (3 * (z - a) - 2 * from - to + x * (2 * (a - z) + from + to)));
 }
 
-/* Uses a cubic, which follows the curve round a fold at either end. A straight line would lead to
- * the motion on the other side of the fold. */
+/* Interpolates with a cubic, which follows the curve around a fold at either end. Linear
+   interpolation would lead to the motion on the other side of the fold. */
 void dynamics_curve_between(const dynamics_flow *flow, const dynamics_point *a,
                             const dynamics_point *z, double lambda, double state[2])
 {

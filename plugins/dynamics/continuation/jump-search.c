@@ -5,12 +5,12 @@
 
 #include <math.h>
 
-/* Least relative change of the rms that counts as a jump. Over so small a width of speed nothing
- * else changes it as much. */
+/* Smallest relative change of the rms that counts as a jump. In such a narrow range of speeds
+   nothing else changes the rms so much. */
 static const double jumps = 0.2;
 
 /* Keeps the fold if it is the nearest so far, with the rms of the motions at both ends of the
- * curve, which meet in the fold. */
+   curve. These two motions merge at the fold. */
 static void keep_nearest_fold(const dynamics_curve *curve, size_t at, dynamics_jump *jump)
 {
     const dynamics_point *fold = &curve->points[at];
@@ -68,8 +68,8 @@ ff_status dynamics_find_jump(const dynamics_jump_search *n, const dynamics_attra
     return status;
 }
 
-/* Returns the rms of the stable motion that ends in a fold, taken one point away from it. Negative:
- * none ends there. */
+/* Returns the rms of the stable motion that ends at a fold, taken one point before it. Returns a
+   negative number if none ends there. */
 static double rms_of_stable_end(const dynamics_curve *c, size_t fold)
 {
     for (int side = -1; side <= 1; side += 2) {
@@ -80,8 +80,8 @@ static double rms_of_stable_end(const dynamics_curve *c, size_t fold)
     return -1;
 }
 
-/* Searches above the speed: resonances bend towards low speeds, so that motions which end near this
- * one come from above. */
+/* Searches above the speed only: resonance curves bend towards low speeds, so motions that end near
+   this speed are followed from above. */
 ff_status dynamics_find_fold_of_another(const dynamics_jump_search *n, const dynamics_attractor *a,
                                         dynamics_jump *jump)
 {

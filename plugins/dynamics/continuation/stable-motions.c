@@ -13,10 +13,10 @@
 enum { STARTS = 16, LEAST_CYCLES = 32 };
 
 /* Longest mesh cycle, in radians of the natural frequency, for which further starts are tried. In a
- * longer one every vibration dies out before the next cycle begins, so that they would find nothing
- * new. */
+   longer cycle every vibration decays before the next cycle begins, so that further starts would
+   find no other motion. */
 static const double slow_cycle = 2000;
-/* Most time that a start gets to settle, in radians of the natural frequency. */
+/* Longest time that a start gets to settle, in radians of the natural frequency. */
 static const double longest_settling = 3000;
 
 static int is_known(const dynamics_flow *flow, const dynamics_orbit *orbit,
@@ -80,15 +80,15 @@ int dynamics_known_motions_add_atlas(const dynamics_flow *flow, const dynamics_a
     return 1;
 }
 
-/* Collects the motions of both branches and those that evenly spread starts lead to. */
+/* Collects the motions of both branches and the motions to which evenly spread starts lead. */
 static ff_status search(const dynamics_flow *flow, double lambda, const ff_host *host,
                         dynamics_known_motions *f)
 {
     double T = dynamics_cycle_duration(lambda);
     if (T > dynamics_longest_cycle)
         return ff_failf(host, FF_NOCONV, "operating.mesh_frequency",
-                        "so far below the natural frequency no vibration is followed, so that "
-                        "stable_motions cannot be counted");
+                        "the speed is so far below the natural frequency that vibrations are not "
+                        "followed, and stable_motions cannot be counted");
     dynamics_search one = {lambda, DYNAMICS_PERIOD_MAX,
                            dynamics_settle_limit(flow->excitation, T, 1e-4), 0};
     for (int branch = DYNAMICS_BRANCH_LOWER; branch <= DYNAMICS_BRANCH_UPPER; branch++) {
@@ -116,7 +116,7 @@ static ff_status search(const dynamics_flow *flow, double lambda, const ff_host 
 
 static void report(const dynamics_flow *flow, const dynamics_known_motions *f, const ff_host *host)
 {
-    char text[400] = "no periodic motion was found in which disturbances die out";
+    char text[400] = "no stable periodic motion was found";
     size_t used = 0;
     if (f->count > 0)
         used = (size_t)snprintf(

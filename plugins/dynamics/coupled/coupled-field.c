@@ -24,14 +24,15 @@ int dynamics_field_damps(const dynamics_field *field, int flank)
            !r->touches[DYNAMICS_DRIVING] && !r->touches[DYNAMICS_BACK];
 }
 
-/* The mesh spring of a flank at a place. The displacement of the centres changes its stiffness
- * (kept at 0 or above), and the force that the mounted pair would have changes in proportion. */
+/* The mesh spring of a flank at the current position of the centres. A displacement of the centres
+   changes the stiffness, which is kept at 0 or above. The force of the mounted pair is scaled by
+   the same factor. */
 typedef struct mesh_spring {
-    double slope, offset; /* slope and offset of the force over the overlap */
-    double by_stiffness;  /* derivative of the force by the stiffness */
+    double slope, offset; /* slope and offset of the force as a line over the overlap */
+    double by_stiffness;  /* derivative of the force with respect to the stiffness */
 } mesh_spring;
 
-/* Gives the stiffness of the mounted pair at a phase, and that at the present centres. */
+/* Mesh stiffness at a phase: of the mounted pair, and at the current position of the centres. */
 typedef struct mesh_stiffness {
     double since, mounted, now;
 } mesh_stiffness;
@@ -241,7 +242,7 @@ void dynamics_field_find_bands(dynamics_field *field, double t, const double *ov
         field->regime.band[i] = overlap[i] > 0 ? dynamics_spring_band(piece, since, overlap[i]) : 0;
 }
 
-/* Sets the gates at the two knees that bound the band of a flank's spring. */
+/* Sets the gates at the two knees at the ends of the current band of a flank's spring. */
 static void knee_gates(const dynamics_field *field, double t, int flank, double overlap,
                        double gate[DYNAMICS_GATES])
 {
@@ -269,7 +270,7 @@ void dynamics_field_gates(const dynamics_field *field, double t, const double *y
         gate[DYNAMICS_TOUCH + i] = touches ? p.overlap[i].value : -p.overlap[i].value;
         gate[DYNAMICS_PRESS + i] = !clipped ? 1 : r->pressed[i] ? p.normal[i] : -p.normal[i];
         if (clipped && r->pressed[i])
-            gate[DYNAMICS_TOUCH + i] = 1; /* the damper lets go before the flanks part */
+            gate[DYNAMICS_TOUCH + i] = 1; /* the damper stops pulling before the flanks separate */
         knee_gates(field, t, i, p.overlap[i].value, gate);
     }
     gate[DYNAMICS_COMES] = place.entry - (age + r->pairs.youngest - 1);

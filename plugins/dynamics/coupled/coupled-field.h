@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The equations of a gear pair on its bearings within one smooth regime, the events that end the
- * regime, and the derivatives of both by the state. */
+/* The equations of a gear pair on elastic bearings within one smooth regime, the events that end
+   the regime, and the derivatives of both with respect to the state. */
 #ifndef DYNAMICS_COUPLED_FIELD_H
 #define DYNAMICS_COUPLED_FIELD_H
 
 #include "coupled-pair.h"
 
-/* The state: coordinates, their rates, and the energy taken by mesh and bearings. */
+/* The state: coordinates, their rates, and the energy taken by the springs and dampers of mesh and
+   bearings. */
 enum {
     DYNAMICS_RATES = DYNAMICS_COORDINATES,
     DYNAMICS_TAKEN = 2 * DYNAMICS_COORDINATES,
@@ -23,11 +24,11 @@ typedef struct dynamics_stretch {
 
 enum { DYNAMICS_DRIVING, DYNAMICS_BACK, DYNAMICS_FLANKS };
 
-/* A regime in which the equations are smooth. A flank may touch without being pressed: it lags
- * behind the teeth where a clipped damper would have to pull it. */
+/* A regime in which the equations are smooth. A flank may touch without being pressed: with a
+   clipped damper it then lags behind the teeth, since the damper would have to pull it. */
 typedef struct dynamics_regime {
     int touches[DYNAMICS_FLANKS], pressed[DYNAMICS_FLANKS];
-    int band[DYNAMICS_FLANKS]; /* of the spring (spring.h) */
+    int band[DYNAMICS_FLANKS]; /* band of the spring (spring.h) */
     dynamics_pairs pairs;
 } dynamics_regime;
 
@@ -40,13 +41,14 @@ typedef struct dynamics_field {
 
 /* The mesh force and the generalised forces that it exerts on the coordinates. */
 typedef struct dynamics_push {
-    double force; /* on q, positive on the driving flank */
+    double force; /* generalised force on q, positive on the driving flank */
     double on[DYNAMICS_COORDINATES];
     dynamics_overlap overlap[DYNAMICS_FLANKS];
-    double normal[DYNAMICS_FLANKS]; /* of a flank that touches, as if it were pressed; else 0 */
+    double normal[DYNAMICS_FLANKS]; /* force of a flank that touches, as if it were pressed; 0 if
+                                       it does not touch */
 } dynamics_push;
 
-/* Evaluates the mesh force; t is the time since the start of the stretch. */
+/* Evaluates the mesh force. t is the time since the start of the stretch. */
 double dynamics_field_phase(const dynamics_field *field, double t);
 dynamics_push dynamics_field_push(const dynamics_field *field, double t, const double *y,
                                   const dynamics_place *place);
@@ -54,26 +56,27 @@ dynamics_push dynamics_field_push(const dynamics_field *field, double t, const d
 /* Computes the rate of change of the state, in GSL's form; `field` is a dynamics_field. */
 int dynamics_field_slope(double t, const double y[], double dydt[], void *field);
 
-/* Computes the derivatives of the accelerations by coordinates and rates. */
+/* Computes the derivatives of the accelerations with respect to coordinates and rates. */
 void dynamics_field_jacobian(const dynamics_field *field, double t, const double *y,
                              double jacobian[DYNAMICS_COORDINATES][DYNAMICS_TAKEN]);
 
 /* The motion within a step: polynomials of degree 5 that match coordinates, rates and accelerations
  * at both ends. */
 typedef struct dynamics_course {
-    double h, power[6][DYNAMICS_COORDINATES]; /* in the share of the step */
+    double h, power[6][DYNAMICS_COORDINATES]; /* coefficients in powers of the fraction of the
+                                                 step */
 } dynamics_course;
 
-/* Sets it for a step of duration h from time t, between two states. */
+/* Computes the polynomials for a step of duration h from time t, between two states. */
 void dynamics_course_find(const dynamics_field *field, double t, double h, const double *from,
                           const double *to, dynamics_course *course);
-/* Gives the state at a share of the step; the energy taken is set to 0. */
+/* Evaluates the state at a fraction of the step. The energy in it is set to 0. */
 void dynamics_course_state(const dynamics_course *course, double share, double *state);
 
-/* Returns whether the mesh damper acts on a flank (DYNAMICS_FLANKS: on the pair in its gap). */
+/* Returns whether the mesh damper acts on a flank, or in the gap for flank = DYNAMICS_FLANKS. */
 int dynamics_field_damps(const dynamics_field *field, int flank);
 
-/* Gates: the regime lasts while none of these values is below 0. */
+/* Gates. The regime lasts as long as none of these values is below 0. */
 enum {
     DYNAMICS_TOUCH,
     DYNAMICS_PRESS = DYNAMICS_FLANKS,
@@ -89,11 +92,11 @@ void dynamics_field_find_bands(dynamics_field *field, double t, const double *ov
 
 void dynamics_field_gates(const dynamics_field *field, double t, const double *y,
                           double gate[DYNAMICS_GATES]);
-/* Gives the regime after the gate that closed. */
+/* Changes the regime to the one after the gate that closed. */
 void dynamics_field_pass_gate(dynamics_field *field, int gate);
-/* Gives the derivatives of a gate at which flanks touch or a tooth pair enters or leaves: by
- * coordinates and rates, and by time at fixed coordinates. The sign of a flank's gate may differ
- * from that of its value above. */
+/* Computes the derivatives of a gate, at which flanks touch or a tooth pair enters or leaves: with
+   respect to coordinates and rates, and with respect to time at fixed coordinates. The sign for a
+   flank's gate may differ from that of its value above. */
 double dynamics_field_gate_slope(const dynamics_field *field, int gate, double t, const double *y,
                                  double slope[DYNAMICS_TAKEN]);
 

@@ -7,17 +7,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A motion that has not settled is called periodic if its distance to a periodic motion is below
- * this. */
+/* A motion that has not settled is called periodic if its estimated distance to a periodic motion
+   is below this value. */
 static const double nearly_periodic = 1e-3;
 
-/* Least relative change of the frequency per cycle of a glide. A cycle costs more here than with
- * rigid bearings. */
+/* Smallest relative change of the frequency per cycle in a speed sweep. A cycle costs more here
+   than with rigid bearings. */
 static const double slowest = 1e-3;
 
-/* Largest distances, in static deflections, at which a motion is looked for: from the end of a
- * glide, and from a state on the way to it. The second keeps the motion found the one that would be
- * settled to. */
+/* Largest distances, in static deflections, within which Newton's method accepts a motion: from the
+   end of a speed sweep, and from a state that is still settling. The second bound is small, so that
+   the accepted motion is the one to which the state would settle. */
 static const double unsettled = 1, settling = 0.1;
 
 enum { HISTORY = 2 * DYNAMICS_LONGEST_PERIOD + 1 };
@@ -53,9 +53,10 @@ static double size_of(const history *h)
     return size;
 }
 
-/* Finds the shortest period whose motion is near. If the change shrinks by mu per period, all
- * further changes sum to 1/(1 - mu) of the last one. mu is at least the factor of the mesh damping.
- * A change at round-off of the state says nothing about mu. */
+/* Finds the shortest period for which the motion is near a periodic one. If the change shrinks
+   by mu per period, all further changes sum to 1/(1 - mu) times the last one. mu is at least the
+   decay factor of the mesh damping. A change of the size of round-off contains no information
+   about mu. */
 static void find_period(const history *h, const dynamics_excitation *excitation,
                         const dynamics_settling *how, dynamics_settled *settled)
 {
@@ -75,8 +76,8 @@ static void find_period(const history *h, const dynamics_excitation *excitation,
         if (settled->within)
             break;
     }
-    /* a disturbance that oscillates while it decays may hide the shorter period: its change over a
-     * period is at most twice its size */
+    /* a decaying oscillation may hide a shorter period: its change over one period is at most twice
+       its size */
     for (int p = 1; settled->within && p < settled->period; p++)
         if (change_over(h, p, 0) < 4 * how->tolerance)
             settled->period = p;
@@ -94,8 +95,8 @@ static void start_at_rest(dynamics_coupled_run *run, const dynamics_coupled *pai
     dynamics_coupled_start(run, T, rest);
 }
 
-/* Changes the speed slowly from that of the orbit while the motion continues, periodic or not. A
- * motion that grows without bound restarts from rest. */
+/* Sweeps the speed slowly, starting from that of the orbit, while the motion continues, whether
+   periodic or not. A motion that grows without bound restarts from rest. */
 static ff_status glide(dynamics_coupled_run *run, const dynamics_coupled *pair, const ff_host *host,
                        double to, dynamics_coupled_orbit *orbit)
 {
@@ -116,8 +117,8 @@ static ff_status glide(dynamics_coupled_run *run, const dynamics_coupled *pair, 
     return FF_OK;
 }
 
-/* Returns the number of cycles after which a motion is nearest to itself. A larger number is taken
- * only if it brings the motion much nearer. */
+/* Returns the number of cycles after which the motion is closest to its earlier state. A larger
+   number is preferred only if the motion is much closer then. */
 static int likely_period(const history *h)
 {
     int likely = 1;
@@ -155,8 +156,8 @@ static void take_orbit(const dynamics_coupled_orbit *orbit, double tolerance,
     motion->settled.cycles = orbit->cycles;
 }
 
-/* Looks in a run of its own for the periodic motion that this motion approaches. FF_NOCONV: none is
- * near enough. */
+/* Looks, with a separate integrator, for the periodic motion that this motion approaches. Returns
+   FF_NOCONV if none is near enough. */
 static ff_status leap_ahead(dynamics_coupled_run *leaper, const dynamics_settling *how, int period,
                             const double *state, dynamics_coupled_motion *motion)
 {
@@ -171,8 +172,9 @@ static ff_status leap_ahead(dynamics_coupled_run *leaper, const dynamics_settlin
     return status;
 }
 
-/* Continues from the motion's state until it repeats itself. `leaper` (NULL: none) looks ahead now
- * and then. FF_NOCONV: the motion repeats itself, but the look ahead does not find it. */
+/* Continues from the motion's state until the motion repeats. `leaper` (NULL: none) occasionally
+   tries Newton's method from the current state. Returns FF_NOCONV if the motion repeats but
+   Newton's method does not find it. */
 static ff_status settle_here(dynamics_coupled_run *run, dynamics_coupled_run *leaper,
                              const dynamics_coupled *pair, const dynamics_settling *how,
                              dynamics_coupled_motion *motion)
@@ -212,7 +214,7 @@ static ff_status settle_here(dynamics_coupled_run *run, dynamics_coupled_run *le
     return FF_OK;
 }
 
-/* Finds the motion without contact loss. FF_NOCONV: there is no stable one. */
+/* Finds the motion without contact loss. Returns FF_NOCONV if there is no stable one. */
 static ff_status shoot_in_contact(dynamics_coupled_run *run, const dynamics_coupled *pair,
                                   const dynamics_settling *how, dynamics_coupled_orbit *orbit)
 {
@@ -221,8 +223,8 @@ static ff_status shoot_in_contact(dynamics_coupled_run *run, const dynamics_coup
     return status == FF_OK && !orbit->touches ? FF_NOCONV : status;
 }
 
-/* Looks for a periodic motion near the state of the orbit. The state stays as it is if there is
- * none. */
+/* Looks for a periodic motion near the state of the orbit. Leaves the state unchanged if there is
+   none. */
 static ff_status shoot_nearby(dynamics_coupled_run *run, const dynamics_settling *how,
                               dynamics_coupled_orbit *orbit)
 {
@@ -235,14 +237,14 @@ static ff_status shoot_nearby(dynamics_coupled_run *run, const dynamics_settling
     return status;
 }
 
-/* Follows a motion to the frequency of the request. If it ends, or was not periodic (FF_NOCONV
- * before), the speed glides until a periodic motion is near. FF_NOCONV: none is near the state at
- * that frequency. */
+/* Follows a motion to the requested frequency. If its branch ends, or if the motion is not periodic
+   (the status was FF_NOCONV before), the speed is swept until a periodic motion is near. Returns
+   FF_NOCONV if none is near the state at the requested frequency. */
 static ff_status follow_and_glide(dynamics_coupled_run *run, const dynamics_coupled *pair,
                                   const dynamics_settling *how, ff_status before,
                                   dynamics_coupled_orbit *orbit)
 {
-    static const double stretch = 0.03; /* length of one glide, in the logarithm of the frequency */
+    static const double stretch = 0.03; /* length of one sweep, in the logarithm of the frequency */
     double to = 2 * M_PI / how->T;
     ff_status status = before;
     while (status == FF_OK || (status == FF_NOCONV && orbit->frequency != to)) {
@@ -260,7 +262,8 @@ static ff_status follow_and_glide(dynamics_coupled_run *run, const dynamics_coup
     return status;
 }
 
-/* Finds the motion at which a slow change of the speed begins. FF_NOCONV: it is not periodic. */
+/* Finds the motion at which a slow change of the speed begins. Returns FF_NOCONV if it is not
+   periodic. */
 static ff_status begin(dynamics_coupled_run *run, const dynamics_coupled *pair,
                        const dynamics_settling *how, dynamics_coupled_orbit *orbit)
 {
@@ -278,7 +281,7 @@ static ff_status begin(dynamics_coupled_run *run, const dynamics_coupled *pair,
     return shoot_nearby(run, how, orbit);
 }
 
-/* Goes to the end of a slow change of the speed, or near it. */
+/* Follows the motion to the end of a slow change of the speed, or close to it. */
 static ff_status approach(dynamics_coupled_run *run, const dynamics_coupled *pair,
                           const dynamics_settling *how, const dynamics_coupled_motion *motion,
                           dynamics_coupled_orbit *orbit)
@@ -292,7 +295,8 @@ static ff_status approach(dynamics_coupled_run *run, const dynamics_coupled *pai
     return follow_and_glide(run, pair, how, status, orbit);
 }
 
-/* Finds the motion that a slow change of the speed leads to, by the run and by a coarse one. */
+/* Finds the motion to which a slow change of the speed leads. `coarse` is an integrator of low
+   accuracy for the way. */
 static ff_status reach(dynamics_coupled_run *run, dynamics_coupled_run *coarse,
                        const dynamics_coupled *pair, const dynamics_settling *how,
                        dynamics_coupled_motion *motion)
@@ -319,7 +323,7 @@ ff_status dynamics_coupled_settle(dynamics_coupled_run *run, const dynamics_coup
                                   const dynamics_settling *how, dynamics_coupled_motion *motion)
 {
     static const double on_the_way =
-        1e-5; /* error of a step; the end itself is solved more accurately */
+        1e-5; /* error per step on the way; the end itself is solved more accurately */
     dynamics_coupled_orbit orbit = {.frequency = 2 * M_PI / how->T, .period = 1};
     ff_status status = FF_NOCONV;
     motion->settled.limit =
@@ -337,7 +341,7 @@ ff_status dynamics_coupled_settle(dynamics_coupled_run *run, const dynamics_coup
     return status;
 }
 
-/* Computes the monodromy over the shown cycles; overflow is clipped. */
+/* Computes the monodromy over the shown cycles. Overflow is clipped. */
 static ff_status find_monodromy(dynamics_coupled_motion *motion, const dynamics_coupled *pair,
                                 double tolerance)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Outputs of dynamics/coupled. */
+/* The outputs of dynamics/coupled. */
 #include "../oscillator/landings.h"
 #include "../oscillator/motion-view.h"
 #include "coupled-motion.h"
@@ -13,15 +13,15 @@ const ff_port dynamics_coupled_outputs[DYNAMICS_COUPLED_OUTPUT_COUNT] = {
     [DYNAMICS_OUT_PHASE] =
         {.name = "phase",
          .unit = "1",
-         .doc = "mesh cycles since the entering pair was at SAP; twice where the excitation "
-                "jumps",
+         .doc = "mesh cycles since the entering pair was at SAP; a repeated value marks a jump "
+                "of the excitation",
          .dims = "cycle"},
     [DYNAMICS_OUT_DTE] =
         {.name = "dte",
          .unit = "m",
-         .doc = "dynamic transmission error s: of the rotations less that of the turn of the "
-                "line of centres; 0 in the middle of the backlash, so that half of it is in the "
-                "values",
+         .doc = "dynamic transmission error s: from the rotations of the gears minus the "
+                "rotation of the line of centres; zero is the middle of the backlash, so that "
+                "the values in contact include half the backlash",
          .dims = "cycle"},
     [DYNAMICS_OUT_DTE_VELOCITY] = {.name = "dte_velocity",
                                    .unit = "m/s",
@@ -29,18 +29,23 @@ const ff_port dynamics_coupled_outputs[DYNAMICS_COUPLED_OUTPUT_COUNT] = {
                                    .dims = "cycle"},
     [DYNAMICS_OUT_MESH_FORCE] = {.name = "mesh_force",
                                  .unit = "N",
-                                 .doc = "dynamic mesh force DMF of spring and damper, driving "
-                                        "less back flank",
+                                 .doc = "dynamic mesh force DMF of spring and damper: driving "
+                                        "flanks minus back flanks",
                                  .dims = "cycle"},
     [DYNAMICS_OUT_DTE_RMS] = {.name = "dte_rms",
                               .unit = "m",
-                              .doc = "root mean square of the alternating part of s",
+                              .doc = "root mean square of the alternating part of the dynamic "
+                                     "transmission error s",
                               .dims = "",
                               .max = INFINITY},
-    [DYNAMICS_OUT_DTE_MEAN] = {.name = "dte_mean", .unit = "m", .doc = "mean of s", .dims = ""},
+    [DYNAMICS_OUT_DTE_MEAN] = {.name = "dte_mean",
+                               .unit = "m",
+                               .doc = "mean of the dynamic transmission error s",
+                               .dims = ""},
     [DYNAMICS_OUT_DTE_PEAK_TO_PEAK] = {.name = "dte_peak_to_peak",
                                        .unit = "m",
-                                       .doc = "highest less lowest s",
+                                       .doc = "largest minus smallest dynamic transmission error "
+                                              "s",
                                        .dims = "",
                                        .max = INFINITY},
     [DYNAMICS_OUT_TOOTH_FORCE] =
@@ -56,7 +61,7 @@ const ff_port dynamics_coupled_outputs[DYNAMICS_COUPLED_OUTPUT_COUNT] = {
     [DYNAMICS_OUT_DYNAMIC_FACTOR_TOOTH] =
         {.name = "dynamic_factor_tooth",
          .unit = "1",
-         .doc = "largest dynamic over largest quasi-static tooth force",
+         .doc = "largest dynamic tooth force over largest quasi-static tooth force",
          .dims = ""},
     [DYNAMICS_OUT_DYNAMIC_FACTOR_MESH] = {.name = "dynamic_factor_mesh",
                                           .unit = "1",
@@ -64,38 +69,40 @@ const ff_port dynamics_coupled_outputs[DYNAMICS_COUPLED_OUTPUT_COUNT] = {
                                           .dims = ""},
     [DYNAMICS_OUT_CONTACT_LOSS] = {.name = "contact_loss",
                                    .unit = "1",
-                                   .doc = "share of the time without force between flanks",
+                                   .doc = "share of the time without force between the flanks",
                                    .dims = "",
                                    .max = 1},
     [DYNAMICS_OUT_BACK_CONTACT] = {.name = "back_contact",
                                    .unit = "1",
-                                   .doc = "share of the time with contact on the back flank",
+                                   .doc = "share of the time with contact on the back flanks",
                                    .dims = "",
                                    .max = 1},
     [DYNAMICS_OUT_NATURAL_FREQUENCY] = {.name = "natural_frequency",
                                         .unit = "Hz",
-                                        .doc = "of the mesh alone, linear, at the mean stiffness",
+                                        .doc = "natural frequency of the linear mesh alone, at "
+                                               "the mean stiffness",
                                         .dims = "",
                                         .max = INFINITY},
     [DYNAMICS_OUT_PERIOD] =
         {.name = "period",
          .unit = "1",
-         .doc = "of the motion in mesh cycles; 0: aperiodic, -1: grows without bound",
+         .doc = "period of the motion in mesh cycles; 0: aperiodic, -1: grows without bound",
          .dims = ""},
     [DYNAMICS_OUT_FLOQUET_MAX] =
         {.name = "floquet_max",
          .unit = "1",
-         .doc = "largest modulus of the multipliers: below 1 the motion is stable",
+         .doc = "largest modulus of the Floquet multipliers; the motion is stable if it is below "
+                "1",
          .dims = ""},
     [DYNAMICS_OUT_MULTIPLIERS] =
         {.name = "multipliers",
          .unit = "1",
-         .doc = "real and imaginary part of the growth of a disturbance over the motion "
-                "shown",
+         .doc = "Floquet multipliers (real and imaginary part): growth of a disturbance over the "
+                "motion shown",
          .dims = "multiplier part"},
     [DYNAMICS_CO_CENTRE_DISTANCE] = {.name = "centre_distance",
                                      .unit = "m",
-                                     .doc = "distance of the centres",
+                                     .doc = "distance between the centres of the gears",
                                      .dims = "cycle"},
     [DYNAMICS_CO_PRESSURE_ANGLE] = {.name = "pressure_angle",
                                     .unit = "rad",
@@ -113,8 +120,8 @@ const ff_port dynamics_coupled_outputs[DYNAMICS_COUPLED_OUTPUT_COUNT] = {
     [DYNAMICS_CO_DISPLACEMENT] =
         {.name = "displacement",
          .unit = "m",
-         .doc = "of the gears on their bearings: gear 1 along the line of centres "
-                "towards gear 2 and across it, then gear 2",
+         .doc = "displacements of the gears on their bearings: gear 1 along the line of centres "
+                "(towards gear 2) and across it, then gear 2",
          .dims = "direction cycle"},
     [DYNAMICS_CO_BEARING_FORCE] = {.name = "bearing_force",
                                    .unit = "N",
@@ -123,12 +130,13 @@ const ff_port dynamics_coupled_outputs[DYNAMICS_COUPLED_OUTPUT_COUNT] = {
     [DYNAMICS_CO_LANDING_TIME] = {.name = "landing_time",
                                   .unit = "s",
                                   .doc =
-                                      "when the driving flanks meet after they have parted, since "
-                                      "the start of the motion shown; empty: they do not part",
+                                      "times at which the driving flanks meet again after "
+                                      "contact loss, since the start of the motion shown; empty: "
+                                      "no contact loss",
                                   .dims = "landing"},
     [DYNAMICS_CO_LANDING_SPEED] = {.name = "landing_speed",
                                    .unit = "m/s",
-                                   .doc = "how fast they approach each other there",
+                                   .doc = "speeds of approach at these times",
                                    .dims = "landing"},
 };
 
@@ -148,7 +156,7 @@ static dynamics_motion_view view_of(const dynamics_coupled_motion *motion)
                                   .self = motion};
 }
 
-/* Gives the force at a phase, linear between samples, and the gap by Hermite's cubic. */
+/* Computes the force at a phase (linear between samples) and the gap (by a Hermite cubic). */
 static void force_and_gap_at(const void *self, double phase, int left, double *force, double *gap)
 {
     const dynamics_coupled_motion *motion = self;

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Taylor series of atan, for arguments of about 1e-4, as they are unless bearings are soft. */
+/* Taylor series of atan for small arguments. They are about 1e-4 unless the bearings are soft. */
 static double small_atan(double t)
 {
     double squared = t * t;
@@ -14,10 +14,10 @@ static double small_atan(double t)
     return t - t * squared * (1.0 / 3 - squared * (1.0 / 5 - squared / 7));
 }
 
-/* Locates the contact from the position of the centres. With the centre distance C, L = sqrt(C^2 -
- * (rb1 + rb2)^2) and tan alpha = L/(rb1 + rb2). Changes are written free of cancellation. The half
- * gap grows by (rb1 + rb2) times the change of inv alpha = tan alpha - alpha. Contact of a flank of
- * gear 1 moves by the change of alpha, and its begin by that of L. */
+/* Locates the contact from the position of the centres. With the centre distance C: L = sqrt(C^2 -
+   (rb1 + rb2)^2) and tan alpha = L/(rb1 + rb2). Changes are computed without cancellation. The half
+   gap grows by (rb1 + rb2) times the change of inv alpha = tan alpha - alpha. The contact point on
+   a flank of gear 1 moves by the change of alpha, and the start of contact moves by that of L. */
 void dynamics_coupled_locate(const dynamics_coupled *pair, const double *x, dynamics_place *place)
 {
     *place = (dynamics_place){.centre = pair->centre,
@@ -53,8 +53,8 @@ dynamics_pairs dynamics_coupled_mounted_pairs(const dynamics_coupled *pair, doub
     return (dynamics_pairs){(int)ceil(-phase), (int)floor(pair->cycle[pair->nodes - 1] - phase)};
 }
 
-/* Returns the stiffness of a tooth pair, constant beyond the ends. `near` is the piece used last;
- * it is kept if the place lies well inside it. */
+/* Returns the stiffness of a tooth pair; it is constant beyond both ends. `near` is the index of
+   the last piece used. It is kept if the place is well inside that piece. */
 static double pair_stiffness_at(const dynamics_coupled *pair, double cycle,
                                 const dynamics_piece **near)
 {
@@ -70,7 +70,7 @@ static double pair_stiffness_at(const dynamics_coupled *pair, double cycle,
     return dynamics_piece_value((*near)->k, (*near)->degree, phase - (*near)->start);
 }
 
-/* Returns the derivative of that stiffness by the cycle. */
+/* Returns the derivative of that stiffness with respect to the mesh cycle. */
 static double pair_slope_at(const dynamics_coupled *pair, double cycle)
 {
     double from = pair->cycle[0], way = pair->cycle[pair->nodes - 1] - from;
@@ -106,7 +106,7 @@ double dynamics_coupled_stiffness_slope(const dynamics_coupled *pair, const dyna
     return by_shift;
 }
 
-/* From cos alpha = R/C: d alpha/dC = cos alpha/(C sin alpha), dL/dC = 1/sin alpha. */
+/* Uses cos alpha = R/C: d alpha/dC = cos alpha/(C sin alpha), dL/dC = 1/sin alpha. */
 void dynamics_coupled_shift_slope(const dynamics_coupled *pair, const dynamics_place *place,
                                   double *shift, double *entry)
 {
@@ -122,8 +122,8 @@ void dynamics_coupled_shift_slope(const dynamics_coupled *pair, const dynamics_p
     }
 }
 
-/* With u along the line of centres and n across it, C bends by n n/C and psi by -(u n + n u)/C^2;
-   d^2b/dC^2 = cos^2 alpha/(C sin alpha). */
+/* Second derivatives. With u along the line of centres and n across it, that of C is n n/C, that of
+   psi is -(u n + n u)/C^2, and d^2b/dC^2 = cos^2 alpha/(C sin alpha). */
 dynamics_bend dynamics_coupled_bend(const dynamics_place *place, int side)
 {
     double ux = place->cos_turn, uy = place->sin_turn, sign = side < 0 ? -1 : 1;
@@ -170,9 +170,9 @@ dynamics_overlap dynamics_coupled_overlap(const dynamics_coupled *pair, const dy
     return o;
 }
 
-/* Gives the static state: the bearings carry the mesh force, and the driving flank carries the load
- * at the stiffness of the mounted pair. The iteration finds the line of action, which turns little.
- */
+/* Computes the static state: the bearings carry the mesh force, and the driving flank carries the
+   load at the stiffness of the mounted pair. The iteration finds the direction of the line of
+   action, which turns only slightly. */
 void dynamics_coupled_rest(const dynamics_coupled *pair, double *state)
 {
     const dynamics_excitation *excitation = pair->excitation;
@@ -192,7 +192,7 @@ void dynamics_coupled_rest(const dynamics_coupled *pair, double *state)
                         excitation->pieces[0].e[0] + pair->base * place.turn;
 }
 
-/* Returns the mesh stiffness before (`left`) or after a place of contact. */
+/* Returns the mesh stiffness before (`left`) or after a position of contact. */
 static double mesh_stiffness_at(const dynamics_excitation *excitation, double cycle, int left)
 {
     double phase = cycle - floor(cycle + 1e-12);
@@ -207,8 +207,8 @@ static int by_size(const void *a, const void *z)
     return (x > y) - (x < y);
 }
 
-/* Returns whether k jumps or has a corner at the start of a piece. Between smooth pieces it has
- * none. */
+/* Returns whether k jumps or has a corner at the start of a piece. Smooth pieces join without a
+   corner. */
 static int has_corner(const dynamics_excitation *excitation, size_t i)
 {
     const dynamics_piece *p = &excitation->pieces[i];
@@ -216,8 +216,8 @@ static int has_corner(const dynamics_excitation *excitation, size_t i)
     return p->jump || p->degree == 1 || before->degree == 1;
 }
 
-/* Collects the stations and the corners of the mesh between the ends of contact, in order and each
- * once. */
+/* Collects the stations and the corners of the mesh stiffness between the ends of contact, in order
+   and without duplicates. */
 static size_t collect_nodes(const dynamics_excitation *excitation, size_t stations,
                             const double *cycle, double *node)
 {
@@ -236,8 +236,8 @@ static size_t collect_nodes(const dynamics_excitation *excitation, size_t statio
     return kept;
 }
 
-/* Returns the share at a place between stations; where it jumps, the value before (`left`) or after
- * the jump. */
+/* Returns the load share at a position between stations. Where it jumps, returns the value before
+   (`left`) or after the jump. */
 static double share_at(size_t stations, const double *cycle, const double *share, double at,
                        int left)
 {
@@ -247,13 +247,13 @@ static double share_at(size_t stations, const double *cycle, const double *share
     while (high > low + 1 && cycle[high - 1] > at + 1e-9)
         high--;
     double length = cycle[high] - cycle[low];
-    if (high - low > 1) /* several stations lie at this place */
+    if (high - low > 1) /* several stations are at this position */
         return left ? share[low + 1] : share[high - 1];
     return length > 0 ? share[low] + (share[high] - share[low]) * (at - cycle[low]) / length
                       : share[low];
 }
 
-/* Makes pieces of the stiffness of a tooth pair, from its first point to its last. */
+/* Makes the pieces of the stiffness of a tooth pair, from its first to its last contact point. */
 static int build_table(dynamics_coupled *pair)
 {
     double from = pair->cycle[0], way = pair->cycle[pair->nodes - 1] - from;
@@ -279,7 +279,8 @@ int dynamics_coupled_pair_stiffness(dynamics_coupled *pair, size_t stations, con
     pair->nodes = collect_nodes(excitation, stations, cycle, pair->cycle);
     for (size_t i = 0; i < pair->nodes; i++) {
         double at = pair->cycle[i], sum = 0;
-        int first = i + 1 == pair->nodes, last = i > 0; /* inner side at both ends of contact */
+        /* at both ends of contact the value on the inner side is used */
+        int first = i + 1 == pair->nodes, last = i > 0;
         for (int left = first; share && left <= last; left++)
             sum += share_at(stations, cycle, share, at, left) *
                    mesh_stiffness_at(excitation, at, left);

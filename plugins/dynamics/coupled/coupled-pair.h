@@ -1,17 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * A gear pair whose gears turn and move on their bearings. Coordinates are
- *
- *   q        rb1 theta1 + rb2 theta2, the approach of the driving flanks by the rotations,
- *   x1, y1   displacement of gear 1 along the line of centres, towards gear 2, and across it,
- *   x2, y2   the same of gear 2,
- *
+ * A gear pair whose gears rotate and move on elastic bearings. The coordinates are
+ *   q        rb1 theta1 + rb2 theta2, approach of the driving flanks from the rotations
+ *   x1, y1   displacement of gear 1 along the line of centres (towards gear 2) and across it
+ *   x2, y2   displacement of gear 2 along the same directions
  * in the units of excitation.h (Kim, Yoo & Chung 2010, J. Sound Vib. 329, 4409-4421). The rotation
- * of the pair as a rigid body is left out: no spring opposes it. With s = q - (rb1 + rb2) psi,
- * where psi is the turn of the line of centres, the driving flanks overlap by s - e - b and the
- * back flanks by e - s - b. The half backlash b, the pressure angle and the ends of contact follow
- * the distance of the centres. The force of a flank acts along its line of action, so that it is
- * the gradient of the overlap.
+ * of the pair as a rigid body is not a coordinate: no spring opposes it. psi is the rotation of the
+ * line of centres. With s = q - (rb1 + rb2) psi the driving flanks overlap by s - e - b and the
+ * back flanks by e - s - b. The half backlash b, the pressure angle and the ends of contact depend
+ * on the centre distance. The force of a flank acts along its line of action, which is the
+ * direction of the gradient of the overlap.
  */
 #ifndef DYNAMICS_COUPLED_PAIR_H
 #define DYNAMICS_COUPLED_PAIR_H
@@ -22,17 +20,21 @@ enum { DYNAMICS_Q, DYNAMICS_X1, DYNAMICS_Y1, DYNAMICS_X2, DYNAMICS_Y2, DYNAMICS_
 
 typedef struct dynamics_coupled {
     const dynamics_excitation *excitation;
-    double mass[2];                   /* over the equivalent mass */
-    double bearing[2], damper[2];     /* stiffness and damping coefficient of the bearings */
-    double base, centre, line, angle; /* mounted: rb1 + rb2, centre distance, length of the line of
-                                         action between the base circles, pressure angle */
-    double base_1, base_pitch;        /* rb1, base pitch */
-    double *cycle, *pair_stiffness; /* stiffness of one tooth pair at these mesh cycles after SAP */
+    double mass[2];               /* mass of each gear over the equivalent mass */
+    double bearing[2], damper[2]; /* stiffness and damping coefficient of the bearings of
+                                     each gear */
+    /* of the mounted pair: rb1 + rb2, centre distance, length of the line of action between the
+       base circles, pressure angle */
+    double base, centre, line, angle;
+    double base_1, base_pitch;      /* rb1, base pitch */
+    double *cycle, *pair_stiffness; /* mesh cycles after SAP, and the stiffness of one tooth pair
+                                       there */
     size_t nodes;                   /* number of these points */
-    dynamics_excitation table;      /* its k is that stiffness over the range of these points */
+    dynamics_excitation table;      /* excitation whose k is that stiffness over the range of
+                                       these points */
 } dynamics_coupled;
 
-/* The contact as it follows from the position of the centres. */
+/* The contact at the current position of the centres. */
 typedef struct dynamics_place {
     double centre, turn, angle, half_gap;
     double sin_turn, cos_turn, sin_angle, cos_angle;
@@ -44,23 +46,23 @@ typedef struct dynamics_place {
 void dynamics_coupled_locate(const dynamics_coupled *pair, const double *position,
                              dynamics_place *place);
 
-/* Tooth pairs in mesh: pair j has been in mesh for phase + j cycles, and the youngest has the least
- * j. */
+/* Tooth pairs in mesh. Pair j has been in mesh for phase + j cycles; the youngest pair has the
+   smallest j. */
 typedef struct dynamics_pairs {
     int youngest, oldest;
 } dynamics_pairs;
 
-/* Gives the pairs in contact at a phase. */
+/* Returns the pairs in contact at a phase. */
 dynamics_pairs dynamics_coupled_pairs(const dynamics_place *place, double phase);
-/* Gives the pairs in contact of the mounted gears, which make up the mesh stiffness. */
+/* Returns the pairs of the mounted gears in contact. They make up the mesh stiffness. */
 dynamics_pairs dynamics_coupled_mounted_pairs(const dynamics_coupled *pair, double phase);
 
-/* Returns the change of the mesh stiffness by the displacement of the centres. */
+/* Returns the change of the mesh stiffness due to the displacement of the centres. */
 double dynamics_coupled_stiffness_change(const dynamics_coupled *pair, const dynamics_place *place,
                                          double phase, dynamics_pairs now, dynamics_pairs mounted);
 
-/* Gives the overlap of the flanks of one side (1: driving, -1: back) or s - e (0), its rate, and
- * its gradient by the coordinates. */
+/* Overlap of the flanks of one side (1: driving, -1: back), or s - e for side 0, with its rate and
+   its gradient with respect to the coordinates. */
 typedef struct dynamics_overlap {
     double value, rate, gradient[DYNAMICS_COORDINATES];
 } dynamics_overlap;
@@ -69,8 +71,8 @@ dynamics_overlap dynamics_coupled_overlap(const dynamics_coupled *pair, const dy
                                           int side, const double *position, const double *velocity,
                                           double e, double e_rate);
 
-/* Second derivatives of an overlap. It depends on the coordinates of the centres by their
- * difference alone: along the line of centres (x) and across it (y). */
+/* Second derivatives of an overlap. It depends on the centres' coordinates only through their
+   difference: along the line of centres (x) and across it (y). */
 typedef struct dynamics_bend {
     double xx, xy, yy;
 } dynamics_bend;
@@ -79,19 +81,20 @@ dynamics_bend dynamics_coupled_bend(const dynamics_place *place, int side);
 /* Multiplies the matrix of second derivatives by a change of the coordinates. */
 void dynamics_bend_apply(const dynamics_bend *bend, const double *change, double *product);
 
-/* Gives the derivatives of place.shift and place.entry (NULL: not wanted) by the coordinates. */
+/* Computes the derivatives of place.shift and place.entry (NULL: not requested) with respect to the
+   coordinates. */
 void dynamics_coupled_shift_slope(const dynamics_coupled *pair, const dynamics_place *place,
                                   double *shift, double *entry);
-/* Returns the derivative of dynamics_coupled_stiffness_change by place.shift. */
+/* Returns the derivative of dynamics_coupled_stiffness_change with respect to place.shift. */
 double dynamics_coupled_stiffness_slope(const dynamics_coupled *pair, const dynamics_place *place,
                                         double phase, dynamics_pairs now);
 
-/* Gives the static deflection at phase 0: coordinates, and rates of 0. */
+/* Computes the static deflection at phase 0: the coordinates, and rates of 0. */
 void dynamics_coupled_rest(const dynamics_coupled *pair, double *state);
 
-/* Computes the stiffness of one tooth pair from its share of the load at the stations, which lie
- * `cycle` mesh cycles after SAP. Without a share (NULL) the contact ratio changes nothing. 0: out
- * of memory. */
+/* Computes the stiffness of one tooth pair from its load share at the stations, which are at
+   `cycle` mesh cycles after SAP. If `share` is NULL, the contact ratio does not affect the
+   stiffness. Returns 0 if out of memory. */
 int dynamics_coupled_pair_stiffness(dynamics_coupled *pair, size_t stations, const double *cycle,
                                     const double *share);
 void dynamics_coupled_free(dynamics_coupled *pair);

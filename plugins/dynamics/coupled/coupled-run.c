@@ -11,22 +11,23 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Longest step, in radians of the highest frequency. The second one applies if the allowed error is
- * `coarse` or more. */
+/* Longest step, in radians of the highest frequency. longest_coarse applies if the allowed error
+   per step is `coarse` or more. */
 static const double longest_step = 0.5, longest_coarse = 1.5, coarse = 1e-7;
 
-/* A gate counts as closed at this value, some roundings of the numbers whose difference it is. The
- * first attempts aim at a tenth of it. Coarse motions use the second value. */
+/* A gate counts as closed below this value, which is a few round-off errors of the numbers whose
+   difference it is. The first attempts aim at a tenth of it. Coarse integrations use
+   closed_coarse. */
 static const double closed = 1e-13, closed_coarse = 1e-10;
 
-/* The motion is given up after this many steps since the start. */
+/* The integration fails after this many steps since the start. */
 static const size_t step_limit = 10000000;
 
-/* Least error of a step, relative to the motion, that can be asked for. */
+/* Smallest error per step, relative to the motion, that may be requested. */
 static const double round_off = 1e-14;
 
-/* An event that comes less than `slip` (rad) after the one before counts as idle. After MAX_IDLE of
- * them in a row the regime is held for that time. */
+/* An event is idle if it comes less than `slip` (rad) after the previous one. After MAX_IDLE idle
+   events in a row the regime is kept for that time. */
 enum { MAX_IDLE = 6 };
 static const double slip = 1e-6;
 
@@ -36,17 +37,18 @@ struct dynamics_coupled_run {
     gsl_odeiv2_system system;
     double y[DYNAMICS_COUPLED_SIZE];
     dynamics_variation *variation;
-    int varies; /* 1: the derivatives are carried along */
+    int varies; /* 1: the derivatives with respect to the start are integrated too */
     size_t count;
     dynamics_stretch *stretches;
     double t;          /* time since the start of the stretch */
-    double longest, h; /* longest step, next step */
+    double longest, h; /* longest step; length of the next step */
     double closed;     /* value at which a gate counts as closed */
     double parted, back;
     size_t steps;
 };
 
-/* Returns a bound on the highest frequency: mesh and bearing on the lighter gear. */
+/* Returns an upper bound on the highest natural frequency: mesh and bearing springs on the lighter
+   gear. */
 static double highest_frequency(const dynamics_coupled *pair)
 {
     double k = 2 * pair->excitation->k_max, highest = k;
@@ -61,7 +63,8 @@ static int by_start(const void *a, const void *z)
     return (x > y) - (x < y);
 }
 
-/* Splits the pieces of the mesh cycle where a tooth pair of the mounted gears leaves. */
+/* Splits the pieces of the mesh cycle at the phase where a tooth pair of the mounted gears leaves
+   the mesh. */
 static int make_stretches(dynamics_coupled_run *run)
 {
     const dynamics_coupled *pair = run->field.pair;
@@ -83,7 +86,7 @@ static int make_stretches(dynamics_coupled_run *run)
     for (size_t i = 0; i < count; i++) {
         double length = node[i + 1] - node[i];
         if (length < 1e-9 && i + 1 < count && node[i + 1] == leaves)
-            node[i + 1] = node[i], length = 0; /* a node of the mesh itself */
+            node[i + 1] = node[i], length = 0; /* the phase is a node of the mesh already */
         if (length <= 0)
             continue;
         const dynamics_piece *piece =
@@ -128,7 +131,7 @@ void dynamics_coupled_run_free(dynamics_coupled_run *run)
     free(run);
 }
 
-/* Sets the contact of the flanks: they touch where they overlap. */
+/* Sets which flanks touch: those that overlap. */
 static void set_contact(dynamics_coupled_run *run, const dynamics_place *place)
 {
     dynamics_push p = dynamics_field_push(&run->field, run->t, run->y, place);
@@ -140,7 +143,7 @@ static void set_contact(dynamics_coupled_run *run, const dynamics_place *place)
     dynamics_field_find_bands(&run->field, run->t, overlap);
 }
 
-/* Sets the bands of the springs anew at the start of a piece of the mesh cycle. */
+/* Recomputes the bands of the springs at the start of a piece of the mesh cycle. */
 static void set_bands(dynamics_coupled_run *run)
 {
     dynamics_place place;
@@ -166,7 +169,7 @@ void dynamics_coupled_start(dynamics_coupled_run *run, double T, const double *s
     run->parted = run->back = 0;
     dynamics_coupled_locate(run->field.pair, run->y, &place);
     run->field.regime.pairs = dynamics_coupled_pairs(&place, 0);
-    run->field.regime.pairs.youngest--; /* as before the wrap that begins a cycle */
+    run->field.regime.pairs.youngest--; /* the count before the mesh cycle wraps around */
     run->field.regime.pairs.oldest--;
     set_contact(run, &place);
     run->varies = 0;
@@ -214,11 +217,11 @@ static void attempt(dynamics_coupled_run *run, double h, double *y, double *erro
     run->steps++;
 }
 
-/* A step of duration h from the state of the run, and an event in it. */
+/* A step of duration h from the state of the integrator, and an event within the step. */
 typedef struct event {
     double at; /* time since the start of the step */
     int gate;
-    double state[DYNAMICS_COUPLED_SIZE]; /* the state at `at`, if that is above 0 */
+    double state[DYNAMICS_COUPLED_SIZE]; /* state at `at`, if `at` is above 0 */
 } event;
 
 static double gate_on_course(const dynamics_coupled_run *run, const dynamics_course *course, int i,
@@ -230,7 +233,7 @@ static double gate_on_course(const dynamics_coupled_run *run, const dynamics_cou
     return gate[i];
 }
 
-/* Returns the gate of the event after a trial step that ends there. */
+/* Returns the value of the event's gate after a trial step to that time. */
 static double gate_after(dynamics_coupled_run *run, double h, event *e)
 {
     double error[DYNAMICS_COUPLED_SIZE], gate[DYNAMICS_GATES];
@@ -240,10 +243,10 @@ static double gate_after(dynamics_coupled_run *run, double h, event *e)
     return gate[e->gate];
 }
 
-/* Most attempts to meet the instant; bisection takes over after MAX_SECANTS. */
+/* Most attempts to locate the event. Bisection takes over after MAX_SECANTS attempts. */
 enum { MAX_PROBES = 80, MAX_SECANTS = 40, MAX_CORRECTIONS = 4 };
 
-/* Returns the next share of the step to look at. */
+/* Returns the next fraction of the step to try. */
 static double next_probe(const numerics_bracket *b, int n)
 {
     double middle = numerics_bracket_secant(b);
@@ -252,13 +255,13 @@ static double next_probe(const numerics_bracket *b, int n)
                : b->low + 0.5 * (b->high - b->low);
 }
 
-/* Finds where the gate of the event closes, given a bracket in shares of the step. The course of
- * the step gives a first share, which trial steps correct by the slope of the gate. If these do not
- * meet the instant, trial steps narrow the bracket. */
+/* Finds the time at which the event's gate closes, given a bracket in fractions of the step. The
+   polynomials of the step give a first estimate, which trial steps correct with the slope of the
+   gate. If these do not converge, trial steps narrow the bracket. */
 static void find_closing(dynamics_coupled_run *run, const dynamics_course *course,
                          numerics_bracket b, event *e)
 {
-    static const double near = 1e-9, apart = 1e-4; /* shares of the step */
+    static const double near = 1e-9, apart = 1e-4; /* in fractions of the step */
     numerics_bracket wide = b;
     double share = b.high, f = b.f_high;
     for (int n = 0; n < MAX_PROBES && b.high - b.low > near && fabs(f) > closed; n++) {
@@ -285,8 +288,8 @@ static void find_closing(dynamics_coupled_run *run, const dynamics_course *cours
     gate_after(run, wide.high * course->h, e);
 }
 
-/* Finds the first gate that closes in the step of h to y. A gate that may dip below 0 between two
- * open ends is checked in the middle. */
+/* Finds the first gate that closes in the step of h to y. A gate that is open at both ends but may
+   fall below 0 between them is also checked in the middle. */
 static int find_event(dynamics_coupled_run *run, double h, const double *y, event *first)
 {
     double a[DYNAMICS_GATES], z[DYNAMICS_GATES], m[DYNAMICS_GATES], middle[DYNAMICS_COUPLED_SIZE];
@@ -294,7 +297,8 @@ static int find_event(dynamics_coupled_run *run, double h, const double *y, even
     dynamics_course course;
     dynamics_field_gates(&run->field, run->t, run->y, a);
     dynamics_field_gates(&run->field, run->t + h, y, z);
-    for (int i = 0; i < DYNAMICS_COMES; i++) /* near the edge of the gap over a step */
+    for (int i = 0; i < DYNAMICS_COMES; i++) /* for a motion that stays near the edge of the gap
+                                                during the step */
         dips |= z[i] >= 0 &&
                 fmin(a[i], z[i]) < 0.5 * h * h * (1 + fabs(run->field.pair->excitation->load));
     for (int i = 0; i < DYNAMICS_GATES; i++)
@@ -342,7 +346,7 @@ static void pass_gate(dynamics_coupled_run *run, int gate)
         dynamics_field_pass_gate(&run->field, gate);
 }
 
-/* Integrates to the instant `end` of the stretch. 0: too many steps. */
+/* Integrates to the instant `end` of the stretch. Returns 0 if there are too many steps. */
 static int advance_to(dynamics_coupled_run *run, double end)
 {
     static const double no_slope[DYNAMICS_COUPLED_SIZE] = {0};
@@ -382,8 +386,8 @@ static int advance_to(dynamics_coupled_run *run, double end)
     return 1;
 }
 
-/* Enters a stretch. A jump of e gives an impulse of 2 zeta times the jump through each damper that
- * acts. */
+/* Enters a stretch. A jump of e gives an impulse of 2 zeta times the jump through each active
+   damper. */
 static void enter_stretch(dynamics_coupled_run *run, const dynamics_stretch *next)
 {
     const dynamics_coupled *pair = run->field.pair;
@@ -442,7 +446,7 @@ static void add_sample(const dynamics_coupled_run *run, double phase,
     record->samples[record->count++] = sample;
 }
 
-/* Integrates a stretch, from sample to sample if there is a record. */
+/* Integrates over a stretch; with a record, from sample to sample. */
 static int pass_stretch(dynamics_coupled_run *run, size_t *next, dynamics_coupled_record *record)
 {
     const dynamics_stretch *now = run->field.now;

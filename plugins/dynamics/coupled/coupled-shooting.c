@@ -7,22 +7,22 @@
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_linalg.h>
 
-/* Newton's method is given up if a correction exceeds this share of the one before. */
+/* Newton's method fails if a correction exceeds this share of the previous one. */
 static const double contraction = 0.25;
 enum { MAX_CORRECTIONS = 12 };
 
-/* Corrections below this, in static deflections, that no longer shrink are errors of the
- * integration. */
+/* Corrections below this value (in static deflections) that no longer shrink are integration
+   errors. */
 static const double round_off = 1e-5;
 
-/* Largest multiplier at which a disturbance is sure to decay. Multipliers are known to some 1e-7,
- * and without damping all are 1. */
+/* A disturbance certainly decays if the largest multiplier is at most this value. Multipliers are
+   accurate to about 1e-7, and without damping all are 1. */
 static const double surely_stable = 1 - 1e-6;
 
-/* Steps in the logarithm of the frequency. The longest is 3 zeta, the width of a resonance, at the
- * usual damping. A step shorter than `shortest` is left to the glide. A motion on the way is
- * rejected if it lies farther than `near`, in static deflections, from the extrapolation of the
- * last three. */
+/* Step lengths in the logarithm of the frequency. The longest step is 3 zeta, the width of a
+   resonance, at the usual damping. Where a step would have to be shorter than `shortest`, the speed
+   is swept instead. A motion on the way is rejected if it is farther than `near` (in static
+   deflections) from the extrapolation of the last three motions. */
 static const double longest = 0.03, shortest = 4e-3, near = 0.2;
 const double dynamics_coupled_on_the_way = 1e-2;
 
@@ -51,8 +51,8 @@ ff_status dynamics_coupled_multipliers(const double *monodromy, double *multipli
     return status;
 }
 
-/* Turns the miss of a start after a cycle into its correction d by (1 - M) d = miss. 0: 1 - M is
- * singular. */
+/* Converts the residual of a start state after one cycle to its correction d: (1 - M) d = residual.
+   Returns 0 if 1 - M is singular. */
 static int find_correction(const double *monodromy, double *miss)
 {
     double matrix[DYNAMICS_TAKEN * DYNAMICS_TAKEN];
@@ -68,7 +68,7 @@ static int find_correction(const double *monodromy, double *miss)
     return gsl_linalg_HH_svx(&a.matrix, &x.vector) == GSL_SUCCESS;
 }
 
-/* Corrects the start once. FF_NOCONV: there is no correction. */
+/* Corrects the start state once. Returns FF_NOCONV if there is no correction. */
 static ff_status correct(dynamics_coupled_run *run, dynamics_coupled_orbit *orbit)
 {
     double T = 2 * M_PI / orbit->frequency, miss[DYNAMICS_TAKEN], parted, back;
@@ -121,7 +121,7 @@ ff_status dynamics_coupled_shoot(dynamics_coupled_run *run, double far, double t
     return FF_NOCONV;
 }
 
-/* The last three motions of a branch, the newest first. */
+/* The last three motions of a branch, newest first. */
 typedef struct trail {
     double at[3], state[3][DYNAMICS_TAKEN]; /* logarithms of the frequency, and states */
     int count;
@@ -138,7 +138,7 @@ static void add_to_trail(trail *t, const dynamics_coupled_orbit *orbit)
     t->count += t->count < 3;
 }
 
-/* Extrapolates the trail by Lagrange's polynomial. */
+/* Extrapolates the last three motions by Lagrange's polynomial. */
 static void predict(const trail *t, double at, double *state)
 {
     memset(state, 0, sizeof t->state[0]);
@@ -151,12 +151,12 @@ static void predict(const trail *t, double at, double *state)
     }
 }
 
-/* Begins a trail at a motion. A second point beside it follows from the derivative d of the start
- * by the logarithm of the frequency, where (1 - M) d is the derivative of the end at a fixed start.
- * 0: the derivative cannot be computed. */
+/* Begins a trail at a motion. A second point next to it follows from the derivative d of the start
+   state with respect to the logarithm of the frequency: (1 - M) d is the derivative of the end
+   state at a fixed start. Returns 0 if the derivative cannot be computed. */
 static int begin_trail(dynamics_coupled_run *run, dynamics_coupled_orbit *orbit, trail *t)
 {
-    static const double aside = 1e-4; /* in the logarithm of the frequency */
+    static const double aside = 1e-4; /* difference in the logarithm of the frequency */
     dynamics_coupled_orbit moved = *orbit;
     double at_end[DYNAMICS_TAKEN], T = 2 * M_PI / orbit->frequency;
     moved.cycles = 0;

@@ -7,13 +7,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Most order of the Taylor series of a step; rows are padded to whole vectors. */
+/* ORDER: largest order of the Taylor series of a step. WIDE: length of a row, padded to whole SIMD
+   vectors. */
 enum { N = DYNAMICS_TAKEN, ORDER = 20, NODES = 3, WIDE = 12 };
 
 struct dynamics_variation {
     dynamics_field *field;
-    double negligible;   /* largest derivative that a term may have to end the series of a step */
-    double matrix[N][N]; /* derivatives of the components, one row each */
+    double negligible;   /* the series of a step ends at a term whose derivatives are all below
+                            this */
+    double matrix[N][N]; /* derivatives of the state with respect to the start, one row per
+                            component */
 };
 
 dynamics_variation *dynamics_variation_new(dynamics_field *field, double negligible)
@@ -44,17 +47,17 @@ const double *dynamics_variation_matrix(const dynamics_variation *v)
 }
 
 /* The mesh force depends on six numbers of a state: q, the position of gear 2 relative to gear 1
- * along the line of centres and across it, and their rates. The force on gear 1 is the opposite of
- * that on gear 2. */
+   along the line of centres and across it, and their rates. The force on gear 1 is opposite to that
+   on gear 2. */
 enum { SEEN = 3 };
 static const int seen[SEEN] = {DYNAMICS_Q, DYNAMICS_X2, DYNAMICS_Y2},
                  against[SEEN] = {-1, DYNAMICS_X1, DYNAMICS_Y1};
 
-/* Derivatives of the mesh force on q and on gear 2 by these six numbers: polynomials in the share
- * of the step. */
+/* Derivatives of the mesh force on q and on gear 2 with respect to these six numbers: polynomials
+   in the fraction of the step. */
 typedef struct mesh_powers {
     double at[NODES][SEEN][2 * SEEN];
-    int count; /* number of powers; 1: nearly constant */
+    int count; /* number of coefficients; 1: nearly constant */
 } mesh_powers;
 
 /* Extracts the derivatives of the mesh force from those of the accelerations. */
@@ -74,8 +77,8 @@ static void find_mesh(const dynamics_field *field, double t, const double *state
     }
 }
 
-/* Fits polynomials of degree 2 at Gauss's nodes, so that their moments err by the sixth power of h.
- */
+/* Fits polynomials of degree 2 at the Gauss nodes, so that the error of their moments is of order
+   h^6. */
 static void find_powers(const dynamics_field *field, double t, double h, const double *from,
                         const double *to, double negligible, mesh_powers *power)
 {
@@ -100,7 +103,8 @@ static void find_powers(const dynamics_field *field, double t, double h, const d
     power->count = h * varies > negligible ? NODES : 1;
 }
 
-/* The terms of the series of all columns, and the six numbers that the mesh sees of them. */
+/* The terms of the series for all columns, and the six numbers of each term on which the mesh force
+   depends. */
 typedef struct series {
     double term[ORDER + 1][N][WIDE], seen[ORDER + 1][2 * SEEN][WIDE];
 } series;
@@ -118,8 +122,8 @@ FF_SIMD static void see(int n, series *s)
     }
 }
 
-/* Computes term n + 1 of the series from the terms before, per column (x, v): x' = v, and v' is the
- * force of mesh and bearings. Returns its largest size. */
+/* Computes term n + 1 of the series from the previous terms, for each column (x, v): x' = v, and v'
+   is the force of mesh and bearings. Returns the largest absolute value of the term. */
 FF_SIMD static double next_term(int n, double h, const dynamics_coupled *pair,
                                 const mesh_powers *power, series *s)
 {
@@ -175,10 +179,10 @@ void dynamics_variation_step(dynamics_variation *v, double t, double h, const do
 }
 
 /* Multiplies the derivatives by the saltation matrix at a gate (Leine & Nijmeijer 2004, Dynamics
- * and Bifurcations of Non-Smooth Mechanical Systems, ch. 7). A start that reaches the gate later by
- * dt moves for dt at the slope before the gate instead of the slope after it, with dt = -(slope of
- * the gate . column)/(rate of the gate along the motion). Where a clipped damper lets go or takes
- * hold, the flank force is 0 on both sides and nothing changes. */
+   and Bifurcations of Non-Smooth Mechanical Systems, ch. 7). A start state that reaches the gate
+   later by dt moves for dt with the rates before the gate instead of those after it, with dt =
+   -(slope of the gate . column)/(rate of the gate along the motion). Where a clipped damper begins
+   or ends to act, the flank force is 0 on both sides and nothing changes. */
 void dynamics_variation_pass_gate(dynamics_variation *v, int gate, double t, const double *y)
 {
     double before[DYNAMICS_COUPLED_SIZE], behind[DYNAMICS_COUPLED_SIZE], by_state[N];
@@ -204,7 +208,7 @@ void dynamics_variation_pass_gate(dynamics_variation *v, int gate, double t, con
 }
 
 /* Adds the impulse of a jump of e. The impulse 2 zeta leap g_q g acts along the gradient g of the
- * overlap, which turns with the coordinates; g_q is constant. */
+   overlap, whose direction depends on the coordinates; g_q is constant. */
 void dynamics_variation_leap(dynamics_variation *v, int flank, double leap,
                              const dynamics_place *place)
 {

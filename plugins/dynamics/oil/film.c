@@ -3,18 +3,18 @@
 
 #include <math.h>
 
-/* Returns w of the wedge alone, at beta = 0. */
+/* w of the wedge alone, at beta = 0 (squeeze-law.h). */
 static const double wedge_load = 4.8949684937;
 
-/* Returns the mesh cycles that lead to a phase, just past a node that `phase` is but for rounding.
-   A place in front of a node (landing.c) stays there. */
+/* Converts a phase to mesh cycles. A phase that differs from a node only by round-off counts as
+   just after the node. A phase deliberately placed before a node (landing.c) stays before it. */
 static double cycles_to(const dynamics_film *film, double phase)
 {
     static const double rounding = 1e-13;
     return film->span > 1 ? (phase + rounding) * film->span : phase;
 }
 
-/* Returns those of them that are whole. */
+/* Returns the number of whole mesh cycles up to a phase. */
 static double whole_cycles(const dynamics_film *film, double phase)
 {
     return film->span > 1 ? floor(cycles_to(film, phase)) : 0;
@@ -26,15 +26,16 @@ double dynamics_film_node(const dynamics_film *film, double phase)
     return (whole_cycles(film, phase) + node) / fmax(film->span, 1);
 }
 
-/* Returns R^1.5 of the pair x mesh cycles after SAP. */
+/* Returns R^1.5 of the pair at x mesh cycles after SAP. */
 static double radius_power(const dynamics_film *film, double x)
 {
     double r = film->radius[0] + x * (film->radius[1] + x * film->radius[2]);
     return r * sqrt(r);
 }
 
-/* Combines the pairs in mesh, whose widths add up. One common R makes their squeeze exact. Their
- * wedge then errs by the square of the difference of their radii. */
+/* Combines the pairs in mesh; their widths add up. A common radius R is chosen so that the squeeze
+   force is exact. The error of the wedge force is then of second order in the differences of the
+   radii. */
 dynamics_film_place dynamics_film_at(const dynamics_film *film, double phase, double T)
 {
     static const double root_of_two = 1.4142135623730951;
@@ -77,7 +78,7 @@ double dynamics_film_holding_load(const dynamics_film *film, const dynamics_film
     return film->rolling ? wedge_load * place->wedge / film->hand_over : 0;
 }
 
-/* Solves for the bend z of the teeth; V(k z, h_c - q + z) rises with z. */
+/* Solves for the deflection z of the teeth; V(k z, h_c - q + z) increases with z. */
 double dynamics_film_quasi_static(const dynamics_film *film, const dynamics_film_place *place,
                                   double stiffness, double q, double speed)
 {

@@ -6,11 +6,11 @@
 
 enum { S = DYNAMICS_STAGES, MOST = 2 * S, ITERATIONS = 25 };
 
-/* Bounds on the last coefficients, relative to the film or to the speed. The error at the end of a
- * step is about the square of these. */
+/* Bounds on the last coefficients of the series, relative to the film or to the speed. The error at
+   the end of a step is about the square of these. */
 static const double allowed = 1e-10;
 
-/* At the end of a step that ends in a node, the film is the one before the node. */
+/* A step that ends in a node uses the film just before the node, at this distance (mesh cycles). */
 static const double before_node = 1e-12;
 
 static double lagrange(const double *node, int count, int j, double x)
@@ -22,7 +22,7 @@ static double lagrange(const double *node, int count, int j, double x)
     return value;
 }
 
-/* Computes Radau's nodes, the roots of P_s - P_(s-1) of Legendre on [0, 1]. */
+/* Computes the Radau nodes: the roots of P_s - P_(s-1) with Legendre polynomials on [0, 1]. */
 static double radau_function(double x)
 {
     double y = 2 * x - 1, p = 1, q = y;
@@ -52,8 +52,8 @@ static void find_nodes(double *node)
     }
 }
 
-/* Gives the Lagrange polynomial of node j: the product of (x - node[k]) without j, divided by its
- * value at node[j], as powers of x. */
+/* Computes the Lagrange polynomial of node j, as powers of x: the product of (x - node[k]) over k
+   other than j, divided by its value at node[j]. */
 static void basis_powers(const double *node, int j, double *power)
 {
     memset(power, 0, DYNAMICS_NODES * sizeof *power);
@@ -103,9 +103,9 @@ void dynamics_landing_polynomial(const dynamics_radau *r, const double *value, d
             power[n] += value[j] * r->power[j][n];
 }
 
-/* Solves n equations by elimination with pivoting for `columns` right sides, in place. 0: singular.
- * GSL costs more than everything else for so few equations: light-load.yaml with squeeze: series
- * takes 3.0e9 instructions, and 8.8e9 with GSL. */
+/* Solves n equations with `columns` right-hand sides in place, by Gaussian elimination with
+   pivoting. Returns 0 if the matrix is singular. GSL is slower for so few equations:
+   light-load.yaml with squeeze: series takes 3.0e9 instructions, and 8.8e9 with GSL. */
 static int eliminate(int n, double m[MOST][MOST], int columns,
                      double side[DYNAMICS_FILM_COLUMNS][MOST])
 {
@@ -141,15 +141,16 @@ static int eliminate(int n, double m[MOST][MOST], int columns,
     return 1;
 }
 
-/* What stays constant while a step is solved. */
+/* Quantities that are constant while a step is solved. */
 typedef struct stages {
     const dynamics_radau *r;
-    double h, c, load[S], bend[S], k[S]; /* load less drag and e''; bend: e'' */
-    double thicken[S];                   /* rate of the loaded film, which acts beside the damper */
-    int count, flank[2];                 /* number and flanks of the films that carry */
+    double h, c, load[S], bend[S], k[S]; /* load: load less drag and e'' at each stage; bend: e'' */
+    double thicken[S];                   /* growth rate of the loaded film; the damper acts on
+                                            the rate of delta minus this rate */
+    int count, flank[2];                 /* number and flanks of the films that carry load */
     dynamics_film_place place[S];
     double (*inverse)[S];
-    double yield[S][S]; /* derivative of delta at the stages by the force */
+    double yield[S][S]; /* derivative of delta at the stages with respect to the force */
 } stages;
 
 static double sign_of(int flank)
@@ -158,7 +159,7 @@ static double sign_of(int flank)
 }
 
 /* Inverts the system of the stages for the accelerations a: a = load - c v - sum s k (s delta - b +
- * y), with v = v0 + h A a and delta = delta0 + h c v0 + h^2 A^2 a. */
+   y), with v = v0 + h A a and delta = delta0 + h c v0 + h^2 A^2 a. */
 static int prepare(const dynamics_radau *r, dynamics_landing *step, stages *g)
 {
     const dynamics_excitation *x = step->excitation;
@@ -218,7 +219,7 @@ static void accelerate(const stages *g, const double *force, double *a)
     }
 }
 
-/* Computes the motion of the stages for given films y. */
+/* Computes the motion at the stages for given films y. */
 static void move_stages(const stages *g, dynamics_landing *step, double y[2][S])
 {
     double force[S], a[S], v0 = step->rate[0], half_gap = step->excitation->half_gap;
@@ -262,7 +263,8 @@ static void find_approach(const stages *g, dynamics_landing *step)
         }
 }
 
-/* Computes the derivative of y - y0 + h A V by the films of the stages. */
+/* Computes the derivative of the residual y - y0 + h A V with respect to the films at the
+   stages. */
 static void build_matrix(const stages *g, const dynamics_landing *step, double m[MOST][MOST])
 {
     for (int n = 0; n < g->count; n++)
@@ -285,8 +287,8 @@ static void build_matrix(const stages *g, const dynamics_landing *step, double m
         }
 }
 
-/* Computes the last two coefficients in Legendre's polynomials on [0, 1], of degrees 7 and 6. The
- * coefficients of their highest powers are 3432 and 924. */
+/* Computes the last two coefficients of a Legendre series on [0, 1], of degrees 7 and 6. The
+   leading coefficients of these polynomials are 3432 and 924. */
 static double last_coefficients(const dynamics_radau *r, const double *value)
 {
     double p[DYNAMICS_NODES];
@@ -296,7 +298,7 @@ static double last_coefficients(const dynamics_radau *r, const double *value)
 
 static double find_doubt(const stages *g, const dynamics_landing *step)
 {
-    /* without a mean load the unit of force is that of the swings */
+    /* without a mean load the unit of force is the amplitude of the fluctuation */
     double unit = step->excitation->load > 0 ? step->excitation->load : 1;
     double least = INFINITY, doubt = 0;
     for (int i = 0; i < DYNAMICS_NODES; i++)
@@ -363,13 +365,14 @@ int dynamics_landing_solve(const dynamics_radau *r, dynamics_landing *step)
     return isfinite(step->delta[S]);
 }
 
-/* Derivatives at the stages by a start value, or by T, which stretches the step by `stretch`. */
+/* Derivatives at the stages with respect to a start value, or to T. T scales the duration of the
+   step by `stretch`. */
 typedef struct variation {
     double stretch;
     double rate[S], delta[S]; /* at fixed films */
 } variation;
 
-/* Gives the derivatives by T at fixed acceleration: of rate, delta and force. */
+/* Computes the derivatives of rate, delta and force with respect to T, at fixed acceleration. */
 static void stretch_stages(const stages *g, const dynamics_landing *step, variation *v, double *f)
 {
     double a[S];
@@ -384,12 +387,12 @@ static void stretch_stages(const stages *g, const dynamics_landing *step, variat
         v->rate[i] += v->stretch * rate;
         v->delta[i] += v->stretch * delta;
         f[i] = (2 * g->bend[i] - g->c * g->thicken[i]) /
-               step->T; /* at fixed phase e'' is proportional to 1/T^2 and rates to 1/T */
+               step->T; /* at a fixed phase e'' is proportional to 1/T^2, and rates to 1/T */
     }
 }
 
-/* Gives the derivatives of the motion of the stages; `start` holds those of delta, its rate and the
- * films. */
+/* Computes the derivatives of the motion at the stages. `start` contains those of delta, its rate
+   and the films. */
 static void vary_motion(const stages *g, const dynamics_landing *step, const double *start,
                         variation *v)
 {
@@ -410,7 +413,7 @@ static void vary_motion(const stages *g, const dynamics_landing *step, const dou
         }
 }
 
-/* Gives the right side of the equations of the films. */
+/* Computes the right-hand side of the linear equations for the films. */
 static void vary_films(const stages *g, const dynamics_landing *step, const double *start,
                        const variation *v, double *side)
 {
@@ -448,8 +451,8 @@ static void vary_end(const stages *g, const variation *v, const double *film, do
         end[2 + g->flank[n]] = film[n * S + S - 1];
 }
 
-/* Differentiates the equations of the step by the start values and, at fixed phases, by T. T
- * stretches the step and slows the entrainment. */
+/* Differentiates the equations of the step with respect to the start values and, at fixed phases,
+   to T. T changes the duration of the step and the entrainment speed. */
 void dynamics_landing_vary(const dynamics_radau *r, const dynamics_landing *step,
                            double column[DYNAMICS_FILM_COLUMNS][DYNAMICS_FILM_ROWS])
 {

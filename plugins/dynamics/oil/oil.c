@@ -18,20 +18,20 @@ ff_status dynamics_oil_check(const ff_host *host, const dynamics_oil *oil, int32
         return FF_OK;
     if (damping != DYNAMICS_DAMPING_ALWAYS)
         return ff_failf(host, FF_INVALID, "damping",
-                        "must be always with squeeze: series, where the oil between the flanks "
-                        "takes the place of a damper that acts in contact alone");
+                        "must be always with squeeze: series, since the oil between the flanks "
+                        "replaces a damper that acts only in contact");
     if (oil->supply <= oil->hand_over)
         return ff_failf(host, FF_INVALID, "supply_film", "must be above handover_film");
     return FF_OK;
 }
 
-/* Reads a scalar or series that the oil needs; all values are above 0. */
+/* Reads a scalar or series that the oil model needs. All values must be above 0. */
 static ff_status check_input(const ff_host *host, const ff_array *in, int input, size_t count)
 {
     const char *name = dynamics_oil_input_ports[input].name;
     if (!in[input].data)
         return ff_failf(host, FF_INVALID, "squeeze",
-                        "series needs %s: wire a %s that offers it, or give squeeze: none", name,
+                        "series needs %s: wire a %s that gives it, or set squeeze: none", name,
                         input == DYNAMICS_IN_ETA0 ? "lubricant" : "gear");
     if (count > 0 && (in[input].rank != 1 || in[input].shape[0] != count))
         return ff_failf(host, FF_INVALID, name, "must be a series of %zu values", count);
@@ -42,9 +42,9 @@ static ff_status check_input(const ff_host *host, const ff_array *in, int input,
     return FF_OK;
 }
 
-/* Sets radii and speeds. The radii of curvature change linearly along the line of action, so that
- * the equivalent radius r1 r2/(r1 + r2) of a pair is a parabola in the mesh cycles since SAP. The
- * flank speeds r1 w1 and r2 w2 are linear; u is their mean half-way. */
+/* Sets radii and speeds. The radii of curvature are linear along the line of action, so that the
+   equivalent radius r1 r2/(r1 + r2) of a pair is a parabola in the mesh cycles since SAP. The flank
+   speeds r1 w1 and r2 w2 are linear too; u is their mean in the middle of the path. */
 static void read_path(const ff_array *in, const dynamics_inputs *inputs, double length,
                       dynamics_film *film)
 {
@@ -74,11 +74,12 @@ ff_status dynamics_oil_read(const ff_host *host, const ff_array *in, const dynam
         return FF_OK;
     if (excitation->shared)
         return ff_failf(host, FF_UNSUPPORTED, "force",
-                        "a film between parted flanks (squeeze: series) bends teeth of one "
+                        "a film between separated flanks (squeeze: series) needs a mesh with one "
                         "stiffness; take force: frozen, or squeeze: none");
     if (!(excitation->half_gap > 0))
         return ff_failf(host, FF_INVALID, "squeeze",
-                        "series needs a gear with backlash: without it the flanks never part");
+                        "series needs a gear with backlash: without backlash the flanks never "
+                        "separate");
     ff_status status = check_input(host, in, DYNAMICS_IN_RADIUS_1, inputs->stations);
     if (status == FF_OK)
         status = check_input(host, in, DYNAMICS_IN_RADIUS_2, inputs->stations);

@@ -3,12 +3,12 @@
 
 #include <math.h>
 
-/* Ends of the table in ln w; beyond them the power laws hold to 1e-8 of beta. */
+/* Ends of the table in ln w. Beyond them the power laws are accurate to 1e-8 of beta. */
 static const double lowest = -12, highest = 14;
 
-/* Gives the integrals of cos^4 and of sin^2 cos^2 from -pi/2 to delta - pi/2, which equal those of
- * sin^4 and of sin^2 cos^2 from 0 to delta. The closed forms cancel near 0; series replace them
- * there. */
+/* Computes the integrals of cos^4 and of sin^2 cos^2 from -pi/2 to delta - pi/2, which equal those
+   of sin^4 and of sin^2 cos^2 from 0 to delta. The closed forms suffer from cancellation near 0, so
+   series replace them there. */
 static double fourth_power(double d)
 {
     double x = d * d;
@@ -27,17 +27,17 @@ static double mixed_power(double d)
     return d / 8 - sin(4 * d) / 32;
 }
 
-/* Returns the integral of cos^2, by sin^2 = sin^4 + sin^2 cos^2. */
+/* Returns the integral of cos^2 over the same range, using sin^2 = sin^4 + sin^2 cos^2. */
 static double second_power(double d)
 {
     return fourth_power(d) + mixed_power(d);
 }
 
 /* Evaluates the curve in closed form. Reynolds' equation, integrated once, is with X = x/sqrt(2 R
- * h) and H = 1 + X^2: h^2/(12 eta u sqrt(2 R h)) dp/dX = (H - beta X - c)/H^3. Its constant c = 1 +
- * X_e^2 - beta X_e makes the slope vanish at the end X_e of the film. All integrals are elementary
- * with X = tan(gamma). p(X_e) = 0 is linear in beta, and w is 24 times the integral of the
- * pressure, taken by parts. */
+   h) and H = 1 + X^2: h^2/(12 eta u sqrt(2 R h)) dp/dX = (H - beta X - c)/H^3. The constant c = 1 +
+   X_e^2 - beta X_e makes dp/dX = 0 at the end X_e of the film. With X = tan(gamma) all integrals
+   are elementary. The condition p(X_e) = 0 is linear in beta. w is 24 times the integral of the
+   pressure, integrated by parts. */
 void dynamics_squeeze_point(double delta, double *beta, double *w)
 {
     double s = sin(delta), c = cos(delta), end = -c / s;
@@ -48,8 +48,7 @@ void dynamics_squeeze_point(double delta, double *beta, double *w)
     *w = 24 * (s * s / 2 + *beta * mixed_power(delta) - constant * quarter);
 }
 
-/* Finds the delta of a given ln w by Newton's method from a neighbour. The slope of asinh(beta)
- * over ln w comes from central differences of the closed form. */
+/* Finds delta for a given ln w by Newton's method, starting from a neighbouring value. */
 static double find_delta(double target, double delta)
 {
     for (int i = 0; i < 60; i++) {
@@ -82,13 +81,13 @@ void dynamics_squeeze_table_build(dynamics_squeeze_table *t)
         t->value[i] = asinh(beta);
         t->slope[i] = slope_at(delta);
     }
-    t->least = 0; /* makes dynamics_squeeze_beta use the curve itself */
+    t->least = 0; /* least = 0 makes dynamics_squeeze_beta use the curve itself */
     t->beta_least = dynamics_squeeze_beta(t, exp(lowest), &t->slope_least);
     t->least = exp(lowest);
 }
 
-/* Evaluates the cubic through the nodes in ln w, and the power laws, which are straight lines,
- * beyond them. */
+/* Evaluates the cubic in ln w between the nodes. Beyond them the curve is a power law, which is a
+   straight line here. */
 static double curve(const dynamics_squeeze_table *t, double x, double *slope)
 {
     const double width = (highest - lowest) / (DYNAMICS_SQUEEZE_NODES - 1);

@@ -6,17 +6,17 @@
 #include <math.h>
 #include <string.h>
 
-/* Both are in units of dynamics_state_unit. Newton's method is tried if a state returns within
- * near_return of an earlier one. The orbit that it finds is accepted if the state lies within
- * close_enough of it. */
+/* Distances in units of dynamics_state_unit. Newton's method is tried if a state returns to within
+   near_return of an earlier one. The orbit that it finds is accepted if the state is within
+   close_enough of it. */
 static const double near_return = 0.05, close_enough = 2e-2;
 
-/* A motion is left to settle at this damping ratio or above. A smaller damping is then reached by
- * continuation from here. */
+/* A motion is left to settle only at this damping ratio or above. A smaller damping ratio is then
+   reached by continuation from there. */
 static const double least_damping = 2e-3;
 
-/* Counts of mesh cycles: between the first attempts of Newton's method, kept in memory, and
- * integrated to measure the growth. */
+/* Numbers of mesh cycles: between the first attempts of Newton's method, kept in memory, and
+   integrated to measure the growth of a disturbance. */
 enum { BATCH = 16, HISTORY = DYNAMICS_PERIOD_MAX + 1, GROWTH_CYCLES = 400 };
 
 /* Looks for a periodic motion near the last states; history[i] is the state i cycles ago. */
@@ -96,7 +96,7 @@ int dynamics_attract(const dynamics_flow *flow, const dynamics_search *search,
     return 1;
 }
 
-/* Does the sweep of settle.c with the exact steps of flow.h. */
+/* Performs the sweep of settle.c with the exact steps of flow.h. */
 static ff_status sweep(const dynamics_flow *flow, double from, double to, size_t start,
                        const ff_host *host, double x[2])
 {
@@ -118,7 +118,7 @@ static ff_status sweep(const dynamics_flow *flow, double from, double to, size_t
     return FF_OK;
 }
 
-/* Finds the stable motion whose flanks never part. FF_NOCONV: there is none. */
+/* Finds the stable motion whose flanks never separate. Returns FF_NOCONV if there is none. */
 static ff_status find_full_contact(const dynamics_flow *flow, double lambda, dynamics_attractor *a)
 {
     double T = dynamics_cycle_duration(lambda);
@@ -135,7 +135,7 @@ static ff_status find_full_contact(const dynamics_flow *flow, double lambda, dyn
 }
 
 /* Continues a periodic motion from the damping of `excitation` down to `zeta` by Newton's method.
- * 0: the motion is lost. */
+   Returns 0 if the motion is lost. */
 static int lower_damping(dynamics_flow *flow, dynamics_excitation *excitation, double zeta,
                          dynamics_orbit *orbit)
 {
@@ -165,9 +165,9 @@ static double distance_of(const dynamics_excitation *excitation, const dynamics_
     return hypot(b->x[0] - a->x[0], b->x[1] - a->x[1]) / dynamics_state_unit(excitation, a->x);
 }
 
-/* Continues a stable motion to the speed `lambda` by Newton's method. 0: the branch ends or loses
- * its stability on the way; `orbit` is then the last stable motion, found to within `share` of the
- * remaining way. */
+/* Continues a stable motion to the speed `lambda` by Newton's method. Returns 0 if the branch ends
+   or becomes unstable on the way. `orbit` is then the last stable motion; its speed is located to
+   within `share` of the remaining change. */
 static int follow_speed(const dynamics_flow *flow, double lambda, double share,
                         dynamics_orbit *orbit)
 {
@@ -196,9 +196,9 @@ static void take_orbit(const dynamics_flow *flow, dynamics_orbit *orbit, dynamic
     memcpy(a->x, orbit->x, sizeof a->x);
 }
 
-/* Returns how many cycles a motion may take to come near a periodic one while the speed still
- * changes. Newton's method needs no more, and an aperiodic motion would use up the whole search at
- * each intermediate speed. */
+/* Returns how many cycles a motion may take to come near a periodic motion while the speed still
+   changes. Newton's method needs no more. Without this limit an aperiodic motion would use up the
+   whole search at each intermediate speed. */
 static size_t cycles_on_the_way(const dynamics_flow *flow, const dynamics_search *search,
                                 double lambda)
 {
@@ -207,16 +207,16 @@ static size_t cycles_on_the_way(const dynamics_flow *flow, const dynamics_search
 }
 
 /* Changes the speed slowly from `from` to that of the search. A periodic motion is continued to the
- * end of its branch. There the speed is swept by a short stretch and the motion settles again. With
- * oil between the flanks the speed is swept all the way: one Newton solution of such a motion costs
- * more than hundreds of its cycles. */
+   end of its branch. There the speed is swept over a short range, and the motion settles again. If
+   there is oil between the flanks, the speed is swept over the whole range, since one Newton
+   solution of such a motion costs more than hundreds of its cycles. */
 static ff_status change_speed(const dynamics_flow *flow, double from, const dynamics_search *search,
                               const ff_host *host, dynamics_attractor *a)
 {
     int follows = !flow->excitation->film;
     double stretch = follows ? 0.03 : INFINITY; /* length of one sweep, in lambda */
-    /* A slow speed is reached past dozens of branch ends. The first end is located exactly, since
-     * it is reported. Later ones are located roughly. */
+    /* On the way to a slow speed dozens of branches end. The first end is located exactly, since it
+       is reported. Later ones are located roughly. */
     static const double nearly = 0.01;
     dynamics_search here = *search;
     here.growth = 0;
@@ -253,11 +253,11 @@ static ff_status change_speed(const dynamics_flow *flow, double from, const dyna
     }
 }
 
-/* Start of a change of speed, and what is known there. */
+/* Where a change of speed starts, and how. */
 typedef struct way {
     double from;       /* lambda */
-    int seeks_contact; /* 1: a stable motion without contact loss is the answer */
-    int settles;       /* 1: the motion settles at `from` first */
+    int seeks_contact; /* 1: accept a stable motion without contact loss */
+    int settles;       /* 1: the motion settles at `from` before the speed changes */
 } way;
 
 /* Finds the motion at the speed of the search, starting from a->x. */

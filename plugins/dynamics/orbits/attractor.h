@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Finds the long-term motion from a start: periodic, aperiodic, or unbounded. */
+/* Finds the motion that develops from a start state: periodic, aperiodic, or unbounded. */
 #ifndef DYNAMICS_ATTRACTOR_H
 #define DYNAMICS_ATTRACTOR_H
 
@@ -9,39 +9,40 @@
 #include <flankfilm/plugin.h>
 
 typedef struct dynamics_attractor {
-    int period;           /* mesh cycles, DYNAMICS_APERIODIC or DYNAMICS_UNBOUNDED */
-    dynamics_orbit orbit; /* of a periodic motion */
+    int period;           /* in mesh cycles, or DYNAMICS_APERIODIC or DYNAMICS_UNBOUNDED */
+    dynamics_orbit orbit; /* set if the motion is periodic */
     double x[2];          /* last state */
-    double growth;        /* of an aperiodic motion: the Lyapunov exponent per mesh cycle */
-    size_t cycles;        /* integrated so far */
+    double growth;        /* Lyapunov exponent per mesh cycle, if the motion is aperiodic */
+    size_t cycles;        /* number of cycles integrated so far */
     int ends;             /* number of branches that ended while the speed changed */
-    double ended;         /* lambda of the first of these ends */
+    double ended;         /* lambda at the first of these ends */
 } dynamics_attractor;
 
 typedef struct dynamics_search {
     double lambda;
     int max_period;
     size_t cycles; /* most mesh cycles for settling */
-    int growth;    /* 1: measure the growth of a motion that does not settle */
+    int growth;    /* 1: measure the growth of disturbances of a motion that does not settle */
 } dynamics_search;
 
-/* Follows the motion from a->x until Newton's method finds the periodic motion nearby. 0: the flow
- * needs too many steps. */
+/* Follows the motion from a->x until Newton's method finds the periodic motion nearby. Returns 0 if
+   the flow needs too many steps. */
 int dynamics_attract(const dynamics_flow *flow, const dynamics_search *search,
                      dynamics_attractor *a);
 
-/* Finds the motion of the lower or upper branch: the stable motion without separation, or else what
-   the speed leads to when it rises from below; what it leads to when it falls from above. Branches
-   are followed to their ends by Newton's method; there the motion settles anew. With little or no
-   damping no motion settles: then that of a higher damping is followed down to the given one, and
-   when this fails the period is DYNAMICS_APERIODIC. FF_OK, FF_STOPPED or FF_NOCONV. */
+/* Finds the motion of the lower or upper branch. Lower: the stable motion without separation, or if
+   there is none, the motion that a slow rise of the speed leads to. Upper: the motion that a slow
+   fall of the speed leads to. Branches are followed to their ends by Newton's method; there the
+   motion settles again. With little or no damping no motion settles. The motion at a higher damping
+   ratio is then continued down to the given one; if this fails the period is DYNAMICS_APERIODIC.
+   Returns FF_OK, FF_STOPPED or FF_NOCONV. */
 ff_status dynamics_attract_branch(const dynamics_flow *flow, dynamics_branch branch,
                                   const dynamics_search *search, const ff_host *host,
                                   dynamics_attractor *a);
 
-/* Finds the motion into which `from` turns when the speed, and the gear pair, slowly become the
-   present ones. `from` has its period, lambda and x set; a period below 1 means that it did not
-   repeat itself. */
+/* Finds the motion to which `from` leads when the speed and the gear pair slowly change to the
+   current ones. Its period, lambda and x are set; a period below 1 means that the motion did not
+   repeat. */
 ff_status dynamics_attract_from(const dynamics_flow *flow, const dynamics_orbit *from,
                                 const dynamics_search *search, const ff_host *host,
                                 dynamics_attractor *a);

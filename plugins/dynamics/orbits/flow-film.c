@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Follows a motion with oil between the flanks. */
+/* Integrates a motion with oil between the flanks. */
 #include "flow-run.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-/* Longest and shortest step in oil, in radians of the natural frequency. */
+/* Longest and shortest step of a motion in oil, in radians of the natural frequency. */
 static const double longest = 0.5, shortest = 1e-14;
 
 static double sign_of(int flank)
@@ -19,9 +19,9 @@ static double overlap(const dynamics_run *r, int flank)
     return sign_of(flank) * r->y->delta - r->excitation->half_gap;
 }
 
-/* Sets each film that carries no load from the position of the flanks: 0, the thickness at
- * hand-over, on a flank that is held, and the whole gap on the other. At a start this overrides the
- * films that were given. */
+/* Sets each film without load from the position of the flanks: to 0, the thickness at hand-over, on
+   a flank that is held, and to the whole gap on the other flank. At the start of a motion this
+   overwrites given films. */
 void dynamics_run_follow_flanks(dynamics_run *r)
 {
     dynamics_film_state *oil = &r->y->oil;
@@ -46,7 +46,7 @@ static int is_filled(const dynamics_run *r, int flank)
     return film->hand_over - overlap(r, flank) < film->supply;
 }
 
-/* Starts the film of a flank that begins to carry at its quasi-static thickness. */
+/* Starts the film of a flank that begins to carry load, at its quasi-static thickness. */
 static void open_film(dynamics_run *r, int flank)
 {
     const dynamics_film *film = r->excitation->film;
@@ -87,7 +87,7 @@ void dynamics_run_find_films(dynamics_run *r)
 }
 
 /* Multiplies the derivatives by a saltation matrix, as in flow.c, for a force on the gears that
- * jumps by `force`. A change of delta by d moves the event by -share d. */
+   jumps by `force`. If delta changes by d, the event occurs earlier or later by -share d. */
 static void salt(dynamics_run *r, double force, double share)
 {
     dynamics_state *y = r->y;
@@ -98,8 +98,8 @@ static void salt(dynamics_run *r, double force, double share)
     y->change[1] += force * share * y->change[0];
 }
 
-/* Applies the force of the film on the back of the flank that lets go as a step. That film is not
- * integrated until then. */
+/* Applies the force of the film on the opposite flank as a step when a flank is released. That film
+   is not integrated before. */
 static void jump_in(dynamics_run *r, int flank)
 {
     double s = -sign_of(flank), k = dynamics_run_stiffness(r),
@@ -152,9 +152,9 @@ void dynamics_run_carry_films(dynamics_run *r, const double v[2], const double w
     dynamics_run_follow_flanks(r);
 }
 
-/* What happens when the value of a gate becomes negative: the film falls to the hand-over
- * thickness, the film stops carrying, the flank begins to approach, or the gap passes the supply of
- * oil. */
+/* Kinds of gates. When the value becomes negative: the film has fallen to the hand-over thickness
+   (HELD), the film stops carrying load (FREE), the flank begins to approach (CLOSING), the gap
+   passes the thickness up to which oil fills it (FILLED). */
 enum { HELD, FREE, CLOSING, FILLED };
 
 typedef struct oil_gate {
@@ -198,8 +198,8 @@ static int list_gates(const dynamics_run *r, oil_gate g[8])
     return count;
 }
 
-/* Drops the film on the other flank when this flank lands, since it is not integrated any longer.
- */
+/* Removes the film on the opposite flank when a flank lands, since that film is then no longer
+   integrated. */
 static void jump_out(dynamics_run *r, int flank)
 {
     const dynamics_film *film = r->excitation->film;
@@ -246,7 +246,7 @@ static void pass_gate(dynamics_run *r, oil_gate g)
     dynamics_run_follow_flanks(r);
 }
 
-/* Solves a step from the present state to the phase `end`. 0: there is no solution. */
+/* Solves a step from the current state to the phase `end`. Returns 0 if there is no solution. */
 static int solve_step(const dynamics_run *r, double end, dynamics_landing *step)
 {
     *step = (dynamics_landing){.excitation = r->excitation,
@@ -265,7 +265,8 @@ static int solve_step(const dynamics_run *r, double end, dynamics_landing *step)
     return dynamics_landing_solve(r->flow->radau, step);
 }
 
-/* Solves the longest step that keeps the accuracy, at most to the next node. 0: none was found. */
+/* Solves the longest step, at most to the next node, that meets the accuracy. Returns 0 if none was
+   found. */
 static int find_step(dynamics_run *r, dynamics_landing *step)
 {
     double node = dynamics_film_node(r->excitation->film, r->at),
@@ -295,8 +296,8 @@ static int find_step(dynamics_run *r, dynamics_landing *step)
     }
 }
 
-/* Finds the first gate that the step passes. Returns the share of the step at which it closes; -1:
- * none. */
+/* Finds the first gate that closes in the step. Returns the fraction of the step at which it
+   closes, or -1 if none does. */
 static double first_gate(const dynamics_run *r, const dynamics_landing *step, oil_gate *which)
 {
     double first = -1, tiny = 8 * DBL_EPSILON * (1 + r->excitation->half_gap);
@@ -315,8 +316,8 @@ static double first_gate(const dynamics_run *r, const dynamics_landing *step, oi
     return first;
 }
 
-/* Shortens the step until it ends where the gate closes. The polynomial of a step is less accurate
- * inside the step than at its end. */
+/* Shortens the step until it ends where the gate closes. The polynomials are less accurate inside a
+   step than at its end. */
 static void end_at_gate(const dynamics_run *r, oil_gate g, double x, dynamics_landing *step)
 {
     double value[DYNAMICS_NODES], power[DYNAMICS_NODES], at = x * (step->end - step->at);
@@ -366,8 +367,8 @@ static void vary_state(dynamics_run *r, const dynamics_landing *step)
     y->oil.change[1] = column[4][3];
 }
 
-/* Passes delta to the observer as the integral of its rate, whose values at the nodes have a higher
- * order. */
+/* Passes the step to the observer, with delta as the integral of its rate. The values of the rate
+   at the nodes have a higher order. */
 static void notify(const dynamics_run *r, const dynamics_landing *step)
 {
     dynamics_taylor_series s = {.order = DYNAMICS_NODES, .h = (step->end - step->at) * r->T};

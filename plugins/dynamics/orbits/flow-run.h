@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* State of a motion inside a mesh cycle, shared by flow.c and flow-film.c (the steps in oil). */
+/* The state of a motion inside a mesh cycle, shared by flow.c and flow-film.c (steps in oil). */
 #ifndef DYNAMICS_FLOW_RUN_H
 #define DYNAMICS_FLOW_RUN_H
 
@@ -10,27 +10,27 @@ typedef struct dynamics_run {
     const dynamics_flow *flow;
     const dynamics_excitation *excitation;
     const dynamics_piece *piece;
-    double T, at, end; /* duration of the cycle, present phase, phase at the end of the step */
-    int side, pressed; /* as in oscillator.c; with oil, the flank that is held */
-    int band;          /* of the spring (spring.h) */
-    int open[2];       /* with oil: whether the film of a flank carries */
-    double stride;     /* the time that the next step in oil may take */
+    double T, at, end; /* duration of the cycle, current phase, phase at the end of the step */
+    int side, pressed; /* as in oscillator.c; in oil, side is the flank that is held */
+    int band;          /* band of the spring (spring.h) */
+    int open[2];       /* in oil: whether the film of each flank carries load */
+    double stride;     /* in oil: proposed duration of the next step */
     int idle;
     int variation;
     dynamics_state *y;
     const dynamics_observer *observer;
 } dynamics_run;
 
-/* A condition that holds while p >= 0. When it fails, the contact changes to (side, pressed), or
- * the spring alone to another band. */
+/* A gate is a condition that holds while p >= 0. When it fails, the contact changes to (side,
+   pressed); at a knee only the band of the spring changes. */
 enum { DYNAMICS_RUN_GATES = 4 };
 typedef struct dynamics_gate {
     double p[DYNAMICS_ORDER_MAX + 1];
     int side, pressed, knee, band;
 } dynamics_gate;
 
-/* A change of contact that comes less than dynamics_slip (rad) after the one before counts as idle.
- * After DYNAMICS_MAX_IDLE of them in a row the contact is held for that time. */
+/* A change of contact is idle if it comes less than dynamics_slip (rad) after the previous one.
+   After DYNAMICS_MAX_IDLE idle changes in a row the contact is kept for that time. */
 enum { DYNAMICS_MAX_IDLE = 6 };
 static const double dynamics_slip = 1e-6;
 
@@ -46,22 +46,22 @@ static inline double dynamics_piece_end(const dynamics_excitation *excitation,
     return piece + 1 < excitation->pieces + excitation->count ? piece[1].start : 1;
 }
 
-/* Three updates of the contact with oil. find_films sets the held flank and the films that carry,
- * from the state. follow_flanks sets the films that carry no load, after delta has jumped.
- * release_flank frees the held flank and opens the films. */
+/* Updates of the contact in oil. find_films sets the held flank and the films that carry load, from
+   the state. follow_flanks sets the films without load after a jump of delta. release_flank
+   releases the held flank and starts the films. */
 void dynamics_run_find_films(dynamics_run *r);
 void dynamics_run_follow_flanks(dynamics_run *r);
 void dynamics_run_release_flank(dynamics_run *r);
 
-/* Takes one step while no flank is held. 0: the step has no solution. */
+/* Takes one step while no flank is held. Returns 0 if the step has no solution. */
 int dynamics_run_step_in_oil(dynamics_run *r);
 
-/* Carries the derivatives over a step of the series. v and w are the responses of delta and of the
- * rate to (delta, rate). The derivatives of the films follow from that of delta. */
+/* Advances the derivatives over a step of the Taylor series. v and w are the responses of delta and
+   of the rate to (delta, rate). The derivatives of the films follow from that of delta. */
 void dynamics_run_carry_films(dynamics_run *r, const double v[2], const double w[2]);
 
-/* Returns the least load that keeps the flank held, over a step of the series: its value at the
- * start and its change over the step. */
+/* Computes the smallest load that keeps the flank held: its value at the start of a Taylor step,
+   and its change over the step. */
 void dynamics_run_holding_load(const dynamics_run *r, double end, double load[2]);
 
 #endif

@@ -6,10 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A relative kink of e below this is round-off. */
+/* A kink of e below this relative size is round-off. */
 static const double round_off = 1e-12;
 
-/* The motion is given up after this many steps in one mesh cycle. */
+/* The integration fails after this many steps in one mesh cycle. */
 static const size_t step_limit = 20000000;
 
 dynamics_state dynamics_state_at(double delta, double rate)
@@ -94,8 +94,8 @@ static void find_band(dynamics_run *r)
     r->band = r->side ? dynamics_spring_band(r->piece, r->at - r->piece->start, bend) : 0;
 }
 
-/* Selects the contact from the state. At the edge of the gap the sign of the rate decides. At rest
- * there the load decides, which presses the driving flanks. */
+/* Selects the contact from the state. At the edge of the gap the sign of the rate decides. If the
+   rate is 0 there, the load decides, which presses the driving flanks together. */
 static void find_contact(dynamics_run *r)
 {
     double b = r->excitation->half_gap, delta = r->y->delta, rate = r->y->rate;
@@ -109,8 +109,8 @@ static void find_contact(dynamics_run *r)
     r->pressed = r->side != 0;
 }
 
-/* Passes a node. s and s' are continuous there, so that delta = s - e jumps by the negative jump of
- * e. The damper turns a jump of e into an impulse of 2 zeta times that jump. */
+/* Crosses a node. s and s' are continuous there, so delta = s - e jumps by minus the jump of e. The
+   damper turns a jump of e into an impulse of 2 zeta times that jump. */
 static void enter_piece(dynamics_run *r, const dynamics_piece *before, const dynamics_piece *piece)
 {
     double e = dynamics_piece_value(before->e, before->degree, before->length);
@@ -128,14 +128,15 @@ static void enter_piece(dynamics_run *r, const dynamics_piece *before, const dyn
     find_band(r);
 }
 
-/* Sets the gate of a clipped contact: the contact force as a polynomial. The flanks part where it
- * would become negative. */
+/* Makes the gate of a clipped contact: the contact force as a polynomial. The flanks separate where
+   it would become negative. */
 static void contact_force_gate(const dynamics_run *r, const dynamics_taylor_series *s, double sign,
                                dynamics_gate *g)
 {
     double k[DYNAMICS_DEGREE + 1] = {0}, offset[DYNAMICS_DEGREE + 1] = {0};
     double c =
-        r->excitation->film ? 0 : 2 * r->excitation->zeta; /* films carry the teeth's force */
+        /* with films the force is that of the teeth alone */
+        r->excitation->film ? 0 : 2 * r->excitation->zeta;
     int degree = r->piece->degree;
     double since = r->at - r->piece->start, unit = s->h / r->T;
     dynamics_piece_shift(dynamics_spring_slope(r->piece, r->band), degree, since, unit, k);
@@ -154,10 +155,10 @@ static void contact_force_gate(const dynamics_run *r, const dynamics_taylor_seri
     }
 }
 
-/* Sets the gate at the knee of the spring on one flank, from which a line takes over: the excess of
- * the deflection over the knee, or its lack (`sign` -1), times the change of slope there. 0: the
- * knee is out of reach, because the sum of the coefficients of a product is at most the product of
- * the sums. */
+/* Makes the gate at a knee of the spring on one flank. Its value is the force of `line` minus the
+   force of the previous line, times `sign`. Returns 0 if the knee is out of reach in this step. The
+   bound is that the sum of the absolute coefficients of a product is at most the product of the
+   sums. */
 static int knee_gate(const dynamics_run *r, const dynamics_taylor_series *s, int flank, int line,
                      double sign, dynamics_gate *g)
 {
@@ -196,8 +197,8 @@ static int knee_gate(const dynamics_run *r, const dynamics_taylor_series *s, int
     return 1;
 }
 
-/* Adds the gates at the knees that the present contact can reach. Returns the number of all gates.
- */
+/* Adds the gates at the knees that can be reached from the current contact. Returns the number of
+   all gates. */
 static int add_knees(const dynamics_run *r, const dynamics_taylor_series *s, int count,
                      dynamics_gate *g)
 {
@@ -212,7 +213,7 @@ static int add_knees(const dynamics_run *r, const dynamics_taylor_series *s, int
     return count;
 }
 
-/* Sets the gate at an edge of the gap: sign z + offset. */
+/* Makes the gate at an edge of the gap: sign z + offset. */
 static void gap_edge_gate(const dynamics_taylor_series *s, double sign, double offset,
                           dynamics_gate *g)
 {
@@ -221,7 +222,7 @@ static void gap_edge_gate(const dynamics_taylor_series *s, double sign, double o
     g->p[0] += offset;
 }
 
-/* Lists the gates of the present contact. Returns their number. */
+/* Lists the gates of the current contact. Returns their number. */
 static int find_gates(const dynamics_run *r, const dynamics_taylor_series *s,
                       dynamics_gate g[DYNAMICS_RUN_GATES])
 {
@@ -273,7 +274,8 @@ static int cannot_reach_edge(const dynamics_run *r, const dynamics_taylor_series
     return room > reach && (r->excitation->damping != DYNAMICS_DAMPING_CLIPPED || r->side == 0);
 }
 
-/* Finds the first change of contact within the step: its x and its gate. -1: there is none. */
+/* Finds the first change of contact within the step. Returns its x and sets its gate; returns -1 if
+   there is none. */
 static double find_event(const dynamics_run *r, const dynamics_taylor_series *s,
                          dynamics_gate g[DYNAMICS_RUN_GATES], const dynamics_gate **which)
 {
@@ -291,7 +293,7 @@ static double find_event(const dynamics_run *r, const dynamics_taylor_series *s,
     return first;
 }
 
-/* Moves the state by x h along the series. */
+/* Advances the state by x h along the series. */
 static void move_state(dynamics_run *r, const dynamics_taylor_series *s, double x)
 {
     dynamics_state *y = r->y;
@@ -317,9 +319,9 @@ static void move_state(dynamics_run *r, const dynamics_taylor_series *s, double 
     y->det *= v[DYNAMICS_PHI_1] * w[DYNAMICS_PHI_2] - v[DYNAMICS_PHI_2] * w[DYNAMICS_PHI_1];
 }
 
-/* Multiplies the derivatives by the saltation matrix [1 0; -jump 1] where the damper begins or
- * ceases to act, so that the force jumps by `jump` times the rate (Leine & Nijmeijer 2004, Dynamics
- * and Bifurcations of Non-Smooth Mechanical Systems). */
+/* Changes the contact. Where the damper begins or ceases to act, the force jumps by `jump` times
+   the rate, and the derivatives are multiplied by the saltation matrix [1 0; -jump 1] (Leine &
+   Nijmeijer 2004, Dynamics and Bifurcations of Non-Smooth Mechanical Systems). */
 static void change_contact(dynamics_run *r, const dynamics_gate *g)
 {
     if (g->knee) {
@@ -346,7 +348,7 @@ static void change_contact(dynamics_run *r, const dynamics_gate *g)
     r->y->change[1] -= jump * r->y->change[0];
 }
 
-/* Adds the offset of the spring's line above its knee, as a drag of that size. */
+/* Adds the offset of the current line of the spring, as a negative drag. */
 static void add_offset(const dynamics_run *r, double since, dynamics_piece_equation *q)
 {
     double offset[DYNAMICS_DEGREE + 1];
@@ -357,8 +359,8 @@ static void add_offset(const dynamics_run *r, double since, dynamics_piece_equat
     q->drags = 1;
 }
 
-/* Plans the next step: its equation and its end. The end is at most the node at which the smooth
- * stretch ends. */
+/* Sets the equation and the end of the next step. The end is at most the node where the smooth
+   stretch ends. */
 static double plan_step(const dynamics_run *r, dynamics_piece_equation *q)
 {
     double end = dynamics_piece_end(r->excitation, r->piece);
@@ -406,8 +408,8 @@ static void notify_observer(const dynamics_run *r, const dynamics_taylor_series 
     r->observer->observe(r->observer->ctx, &stride);
 }
 
-/* Expands the motion up to `end`, or to an earlier time at which the series converges. Returns that
- * time. */
+/* Expands the motion up to `end`, or up to an earlier phase where the series converges. Returns
+   that phase. */
 static double expand(const dynamics_run *r, const dynamics_piece_equation *q, double end,
                      dynamics_taylor_series *s)
 {

@@ -74,7 +74,7 @@ double dynamics_orbit_residual(const dynamics_excitation *excitation, const dyna
     return miss / dynamics_state_unit(excitation, o->x);
 }
 
-/* Solves (M - 1) step = x - end. 0: M - 1 is singular. */
+/* Solves (M - 1) step = x - end. Returns 0 if M - 1 is singular. */
 static int newton_step(const dynamics_orbit *o, double step[2])
 {
     double a = o->m[0] - 1, b = o->m[1], c = o->m[2], d = o->m[3] - 1, det = a * d - b * c;
@@ -109,7 +109,8 @@ int dynamics_orbit_solve(const dynamics_flow *flow, double tolerance, dynamics_o
                 break;
         }
         if (!(after < residual))
-            break; /* no better point: the residual is at round-off, or the orbit is lost */
+            break; /* no better point was found: the residual is at round-off, or the orbit is
+                      lost */
         now = next;
         residual = after;
     }
@@ -178,7 +179,7 @@ void dynamics_orbit_reduce(const dynamics_flow *flow, dynamics_orbit *o)
         shorter.period = q;
         if (dynamics_orbit_map(flow, &shorter) &&
             dynamics_orbit_residual(flow->excitation, &shorter) < 1e-6) {
-            /* Newton's method stops early where a film begins to follow its flank at phase 0. */
+            /* Newton's method stops early where a film begins to follow its flank at phase 0 */
             dynamics_orbit exact = shorter;
             *o = dynamics_orbit_solve(flow, dynamics_orbit_accuracy, &exact) ? exact : shorter;
             return;

@@ -7,8 +7,8 @@
 
 const double dynamics_chaotic_growth = 1e-3;
 
-/* Returns a bound on the error of the state by round-off: each step errs by at most one rounding,
- * and the fixed point moves by (M - 1)^-1 times the error of the return. */
+/* Returns a bound on the error of the state due to round-off. Each step has at most one rounding
+   error, and the fixed point moves by (M - 1)^-1 times the error of the return map. */
 static double state_error(const dynamics_orbit *o)
 {
     double steps = o->period * (dynamics_cycle_duration(o->lambda) + 10);
@@ -30,31 +30,31 @@ static void report_aperiodic(const dynamics_attractor *a, const dynamics_excitat
     char text[320];
     if (a->period == DYNAMICS_UNBOUNDED) {
         host->quality(host->ctx, "periodicity", 1, 0, FF_BAD,
-                      "the motion grows without bound; what is shown is the mesh cycle before it "
-                      "passed 1000 times half backlash and static deflection");
+                      "the motion grows without bound; shown is the mesh cycle before it "
+                      "exceeded 1000 times the sum of half backlash and static deflection");
         return;
     }
     if (zeta < 2e-3)
         snprintf(
             text, sizeof text,
-            "with so little damping no motion settles, and the periodic one at a damping ratio "
-            "of 0.002 does not go on down to %g; what is shown depends on the start",
+            "with so little damping no motion settles, and the periodic motion at a damping "
+            "ratio of 0.002 could not be continued down to %g; the motion shown depends on the "
+            "start",
             zeta);
     else if (a->growth > dynamics_chaotic_growth) {
         dynamics_chaos_line(exp(a->growth / span), host);
         return;
     } else
-        snprintf(
-            text, sizeof text,
-            "the motion did not repeat itself within %g mesh cycles after %g of them: a longer "
-            "period, or it needs more cycles_settle",
-            max_period * span, (double)a->cycles * span);
+        snprintf(text, sizeof text,
+                 "the motion did not repeat within %g mesh cycles after %g of them: its period is "
+                 "longer, or it needs more cycles_settle",
+                 max_period * span, (double)a->cycles * span);
     host->quality(host->ctx, "periodicity", 1, 0, FF_DOUBTFUL, text);
 }
 
-/* Returns the error of det M by rounding alone. A mesh cycle takes at most as many steps as it has
- * pieces plus twice its length in radians. Each step errs by about DBL_EPSILON in its determinant.
- * It also errs by half of that in the time t, which exp(-2 zeta t) magnifies by 2 zeta t. */
+/* Returns the round-off error of det M. A mesh cycle takes at most as many steps as it has pieces,
+   plus twice its length in radians. The relative error of the determinant of a step is about
+   DBL_EPSILON. The time t has half of that error, and exp(-2 zeta t) magnifies it by 2 zeta t. */
 static double round_off_of_determinant(const dynamics_motion *motion)
 {
     const double each = 16;
@@ -74,14 +74,16 @@ void dynamics_periodicity_report(const dynamics_attractor *a, const dynamics_mot
     } else {
         double largest = dynamics_largest_multiplier(&a->orbit);
         report_line(host, "periodicity", dynamics_orbit_residual(excitation, &a->orbit), 1e-10,
-                    "distance by which the motion misses its start, over its size");
+                    "distance between the start and the end of the period, over the size of the "
+                    "motion");
         report_line(host, "stability", largest, dynamics_stable_multiplier,
                     largest < 1 ? NULL : "a disturbance of this motion does not die out");
         report_line(host, "state_error", state_error(&a->orbit), 1e-6,
-                    "round-off carried into the state, over the static deflection");
+                    "round-off error of the state, over the static deflection");
     }
     report_line(host, "energy_balance", motion->energy_error, 1e-9, NULL);
     if (!excitation->film)
         report_line(host, "determinant", motion->det_error, round_off_of_determinant(motion),
-                    "of the monodromy, against exp(-2 zeta omega t) while the damper acts");
+                    "difference between the determinant of the monodromy and exp(-2 zeta omega "
+                    "t), with t the time in which the damper acts");
 }

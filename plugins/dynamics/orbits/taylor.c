@@ -7,7 +7,7 @@
 
 const double dynamics_taylor_longest_step = 1.5;
 
-/* Square of the step size above which the terms x^n/n! of order n exceed 2e-17. */
+/* For each order n, the square of the step size above which the terms x^n/n! exceed 2e-17. */
 static const double reach[] = {2e-17,    6.325e-9, 4.932e-6, 1.480e-4, 1.191e-3, 4.932e-3, 1.391e-2,
                                3.078e-2, 5.785e-2, 9.685e-2, 0.1489,   0.2147,   0.2944,   0.3879,
                                0.4949,   0.6150,   0.7476,   0.8921,   1.048,    1.214};
@@ -29,8 +29,8 @@ static int likely_order(double size)
     return n + 1 < 4 ? 4 : n + 1;
 }
 
-/* Returns whether the last two coefficients of the first `columns` are below round-off. The
- * response to the start rate is compared with h. */
+/* Returns whether the last two coefficients of the first `columns` columns are below round-off. The
+   motion is compared with `unit`, the response to the start rate with h. */
 static int has_converged(const dynamics_taylor_series *s, int n, int columns, double unit)
 {
     static const double round_off = 5e-17;
@@ -49,8 +49,8 @@ static const double share[] = {0,       1.,      1. / 2,  1. / 3,  1. / 4,  1. /
                                1. / 21, 1. / 22, 1. / 23, 1. / 24, 1. / 25, 1. / 26, 1. / 27,
                                1. / 28, 1. / 29, 1. / 30};
 
-/* Adds factor x to sum. One vector expression, because gcc would unroll a loop here before it
- * vectorises it. */
+/* Adds factor x to sum. It is one vector expression, because gcc would unroll a loop here before
+   vectorising it. */
 FF_SIMD_INLINE void add_product(double factor, const double *restrict x, int columns,
                                 double *restrict sum)
 {
@@ -59,9 +59,9 @@ FF_SIMD_INLINE void add_product(double factor, const double *restrict x, int col
         sum[j] += factor * x[j];
 }
 
-/* Computes the coefficients of t/h by the recurrence of the equation in taylor.h, for straight k
- * and e: n (n - 1) c_n = -damper h (n - 1) c_(n-1) - k_0 h^2 c_(n-2) - k_1 h^3 c_(n-3). The
- * derivative by T at a fixed phase obeys the same with (2 z'' + damper z')/T added. */
+/* Computes the coefficients of t/h by the recurrence of the equation in taylor.h, for linear k and
+   e: n (n - 1) c_n = -damper h (n - 1) c_(n-1) - k_0 h^2 c_(n-2) - k_1 h^3 c_(n-3). The derivative
+   with respect to T at a fixed phase obeys the same equation with (2 z'' + damper z')/T added. */
 FF_SIMD_INLINE void recur_straight(const dynamics_piece_equation *q, double T, int columns,
                                    dynamics_taylor_series *s)
 {
@@ -87,8 +87,8 @@ FF_SIMD_INLINE void recur_straight(const dynamics_piece_equation *q, double T, i
     }
 }
 
-/* Does the same for curved k and e and with a drag. Here (2 (z'' + e'') + damper z')/T is added to
- * the derivative by T. */
+/* The same recurrence for polynomials k and e and with a drag. Here (2 (z'' + e'') + damper z')/T
+   is added for the derivative with respect to T. */
 FF_SIMD_INLINE void recur_curved(const dynamics_piece_equation *q, double T, int columns,
                                  dynamics_taylor_series *s)
 {
@@ -102,13 +102,13 @@ FF_SIMD_INLINE void recur_curved(const dynamics_piece_equation *q, double T, int
         e[i] = q->e[i] * power;
         drag[i] = q->drag[i] * power * h * h;
     }
-    int degree = q->degree; /* high powers of k are below round-off in a short step */
+    int degree = q->degree; /* in a short step the high powers of k are below round-off */
     while (degree > 0 && fabs(k[degree]) < 1e-18)
         degree--;
     for (int n = 2; n <= DYNAMICS_ORDER_MAX; n++) {
         double fa = -a * share[n], f = -share[n] * share[n - 1], sum[DYNAMICS_COLUMNS] = {0};
         int last = degree < n - 2 ? degree : n - 2;
-        if (last == DYNAMICS_DEGREE) /* the common case: a loop of known length */
+        if (last == DYNAMICS_DEGREE) /* the common case: a loop of constant length */
             for (int i = 0; i <= DYNAMICS_DEGREE; i++)
                 add_product(k[i], c[n - 2 - i], columns, sum);
         for (int i = 0; last < DYNAMICS_DEGREE && i <= last; i++)
@@ -124,7 +124,7 @@ FF_SIMD_INLINE void recur_curved(const dynamics_piece_equation *q, double T, int
             c[n][0] += f * drag[n - 2];
         double bend = n <= q->degree ? e[n] : 0;
         if (columns == DYNAMICS_COLUMNS)
-            c[n][3] += (2 * c[n][0] - fa * c[n - 1][0]) / T; /* c_n does not contain -e_n yet */
+            c[n][3] += (2 * c[n][0] - fa * c[n - 1][0]) / T; /* c_n does not yet contain -e_n */
         c[n][0] -= bend;
         s->order = n;
         s->converged = n >= likely && n > q->degree + 2 && has_converged(s, n, columns, unit);
@@ -163,7 +163,8 @@ void dynamics_taylor_expand(const dynamics_piece_equation *q, double T, double h
     s->c[0][DYNAMICS_PHI_2] = 0;
     s->c[1][DYNAMICS_PHI_2] = h;
     s->c[0][DYNAMICS_Z_T] = z_T[0];
-    s->c[1][DYNAMICS_Z_T] = (z_T[1] + z[1] / T) * h; /* the rate is per time, and time is T phase */
+    /* the rate is with respect to time, and time is T phase */
+    s->c[1][DYNAMICS_Z_T] = (z_T[1] + z[1] / T) * h;
     recur(q, T, DYNAMICS_COLUMNS, s);
 }
 
@@ -196,8 +197,8 @@ void dynamics_taylor_columns_at(const dynamics_taylor_series *s, double x,
 typedef struct polynomial {
     const double *p;
     int order;
-    double bend; /* bound on the second derivative in [0, 1] */
-    double tiny; /* round-off of the values */
+    double bend; /* bound on the absolute second derivative in [0, 1] */
+    double tiny; /* round-off error of the values */
 } polynomial;
 
 static double value_at(const polynomial *q, double x, double *slope)
@@ -211,8 +212,8 @@ static double value_at(const polynomial *q, double x, double *slope)
     return value;
 }
 
-/* Finds the root on a falling stretch by Newton's method, with bisection where it leaves the
- * bracket. A step of d leaves an error of at most d^2 bend/(2 slope). */
+/* Finds the root on a falling stretch by Newton's method, with bisection where Newton's method
+   leaves the bracket. A step of d leaves an error of at most d^2 bend/(2 slope). */
 static double falling_root(const polynomial *q, double low, double high)
 {
     double x = 0.5 * (low + high), slope;
@@ -234,12 +235,12 @@ static double falling_root(const polynomial *q, double low, double high)
     return x;
 }
 
-/* Finds the first change of sign in [a, z], given a value at a that is not negative. -1: there is
- * none. */
+/* Finds the first change of sign in [a, z] if the value at a is not negative. Returns -1 if there
+   is none. */
 static double first_change(const polynomial *q, double a, double z)
 {
     static const double shortest =
-        1e-9; /* the value at a minimum is then known to the square of this */
+        1e-9; /* tolerance of the minimum; its value is then accurate to the square of this */
     double middle = 0.5 * (a + z), d = 0.5 * (z - a), slope, end_slope;
     double value = value_at(q, middle, &slope), turn = q->bend * d;
     if (value + q->tiny > (fabs(slope) + 0.5 * turn) * d || d < shortest || slope > turn)
@@ -260,7 +261,7 @@ double dynamics_taylor_first_exit(const double *p, int order, double tiny)
     polynomial q = {p, order, 0, tiny};
     if (p[0] < -tiny)
         return 0;
-    /* p(0) = 0 at the bound, and p(x) has the sign of p(x)/x */
+    /* p(0) = 0 at the bound: divide by x, since p(x) and p(x)/x have the same sign */
     for (int i = 0; q.order > 0 && (i == 0 ? fabs(q.p[0]) <= tiny : q.p[0] == 0) && i < 3; i++) {
         q.p++;
         q.order--;

@@ -7,24 +7,24 @@
 #include <math.h>
 #include <string.h>
 
-/* Nodes and weights of the 8-point Gauss-Legendre rule on [-1, 1] (Abramowitz & Stegun 1964,
- * table 25.4). The rule is exact up to degree 15. A step is at most 1.5 rad long, so that the error
- * is about 1e-15. */
+/* Nodes and weights of the 8-point Gauss-Legendre rule on [-1, 1] (Abramowitz & Stegun 1964, table
+   25.4). The rule is exact up to degree 15. A step is at most 1.5 rad long, so its error is about
+   1e-15. */
 enum { NODES = 8 };
 static const double node[NODES / 2] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
                                        0.9602898564975363};
 static const double weight[NODES / 2] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
                                          0.1012285362903763};
 
-/* The motion at x h into a step. */
+/* The motion at x h after the start of a step. */
 typedef struct moment {
     double delta, rate, e, e_rate;
     dynamics_spring spring; /* 0 if no flank is pressed */
     double drag, film_rate;
 } moment;
 
-/* Gives the energy at an end of a step in which no flank is held. The teeth bend under the films
- * then, two springs at a time. Only the ends of such steps are asked for. */
+/* Sets the energy at one end of a step in which no flank is held. The films then deflect the teeth
+   of both flanks, so that two springs may store energy. It is not defined inside such a step. */
 static void bend_in_oil(const dynamics_step *f, double x, double phase, moment *m)
 {
     const dynamics_landing *step = f->landing;
@@ -33,7 +33,7 @@ static void bend_in_oil(const dynamics_step *f, double x, double phase, moment *
     m->spring = dynamics_spring_at(f->piece, phase, f->T, bend, 0);
 }
 
-/* Returns the time since the start of the piece. */
+/* Returns the phase since the start of the piece. */
 static double phase_at(const dynamics_step *f, double x)
 {
     return f->at + (f->end - f->at) * (f->x > 0 ? x / f->x : 0) - f->piece->start;
@@ -81,9 +81,9 @@ void dynamics_trajectory_observe_moments(void *self, const dynamics_step *f)
     }
 }
 
-/* Books the energy that changes between two steps. The excitation does work at a node. When a
- * clipped contact lets go, the damper takes the energy stored in the spring. Nothing else changes
- * the energy. */
+/* Adds the change of energy between two steps to the balance. At a node the excitation does work.
+   When a clipped contact opens, the damper takes the energy stored in the spring. Nothing else
+   changes the energy. */
 static void join_strides(dynamics_trajectory *t, const dynamics_step *f)
 {
     moment m = moment_at(f, 0);
@@ -93,7 +93,7 @@ static void join_strides(dynamics_trajectory *t, const dynamics_step *f)
     else if (f->side == t->side && f->pressed != t->pressed)
         t->loss -= change;
     else if (f->excitation->film &&
-             f->side != t->side) /* a film on the other flank begins or ends */
+             f->side != t->side) /* a film on the opposite flank begins or ends */
         t->loss -= change;
     else if (f->at == f->piece->start)
         t->work += change;
@@ -138,8 +138,8 @@ static double value_in_oil(const dynamics_radau *radau, const double *nodes, dou
     return value;
 }
 
-/* Returns the film of (4.6) on the driving flank, beyond the thickness at hand-over: 0 while the
- * flank is held, the whole gap if the film carries no load. */
+/* Returns the film on the driving flank beyond the thickness at hand-over (theory, eq. 4.6). It is
+   0 while the flank is held, and the whole gap if the film carries no load. */
 static double film_ahead(const dynamics_radau *radau, const dynamics_step *f, double x,
                          double delta)
 {
@@ -171,7 +171,7 @@ static int jumps_at_end(const dynamics_step *f)
 {
     const dynamics_excitation *excitation = f->excitation;
     const dynamics_piece *next = f->piece, *end = excitation->pieces + excitation->count;
-    while (next < end && next->start < f->end) /* free flight passes over nodes */
+    while (next < end && next->start < f->end) /* in free flight a step may pass several nodes */
         next++;
     return next < end ? next->jump && next->start == f->end
                       : excitation->pieces->jump && f->end == 1;
@@ -215,8 +215,8 @@ static dynamics_state start_of(const double x[2], const dynamics_motion *motion)
                          : dynamics_state_at(x[0], x[1]);
 }
 
-/* Sets the derivatives over the cycles that are shown, and the error of Abel's identity det M =
- * exp(-2 zeta t), where t is the time in which the damper acts. */
+/* Sets the derivatives over the shown cycles, and the error in Abel's identity det M = exp(-2 zeta
+   t), where t is the time in which the damper acts. */
 static int take_monodromy(const dynamics_flow *flow, const double x[2], dynamics_motion *motion)
 {
     dynamics_state y = start_of(x, motion);
@@ -257,7 +257,7 @@ ff_status dynamics_trajectory_record(const dynamics_flow *flow, const dynamics_i
         motion->loss = trace.loss;
         motion->squeeze = trace.films;
         motion->drag = trace.drag;
-        /* the node at phase 0 lies before the start and after the end */
+        /* the node at phase 0 is before the start and after the end */
         motion->work = trace.work + trace.start - trace.energy;
         motion->thickness = trace.thickness;
     }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Observers of a flow: they sum moments, energies and times, and take samples. */
+/* Observers of a flow. They sum moments, energies and times, and take samples. */
 #ifndef DYNAMICS_TRAJECTORY_H
 #define DYNAMICS_TRAJECTORY_H
 
@@ -9,25 +9,24 @@
 typedef struct dynamics_trajectory {
     double origin;      /* origin of s in the moments */
     double sum, square; /* integrals over time of (s - origin) and its square */
-    double loss, work; /* energy taken by damper and films, and energy supplied by the excitation */
-    double films;      /* the films' share of `loss` */
-    double drag;       /* energy taken from the vibration by friction and rolling */
-    double thickness;  /* energy supplied by the changing thickness of the loaded film, part of
-                          `work` */
-    double energy;     /* energy of the state at the end */
-    double start;      /* energy of the state at the start */
+    double loss, work;  /* energy taken by damper and films; energy supplied by the excitation */
+    double films;       /* part of `loss` taken by the films */
+    double drag;        /* energy taken from the vibration by friction and rolling */
+    double thickness;   /* part of `work` supplied by the changing thickness of the loaded film */
+    double energy;      /* energy of the state at the end */
+    double start;       /* energy of the state at the start */
     dynamics_clocks clocks;
-    const dynamics_radau *radau; /* radau of the flow */
+    const dynamics_radau *radau; /* Radau nodes of the flow */
     dynamics_record *record;
-    size_t next;              /* number of the next sample in the cycle */
-    int begun, side, pressed; /* of the last step */
+    size_t next;              /* index of the next sample in the cycle */
+    int begun, side, pressed; /* whether a step has been observed; contact in the last step */
 } dynamics_trajectory;
 
-/* Gives an observer that sums the moments of s alone. */
+/* Observer that sums the moments of s only. */
 void dynamics_trajectory_observe_moments(void *trace, const dynamics_step *step);
 
-/* Records the motion from x as dynamics_motion_record does, but to round-off. `motion` has
- * excitation, period, cycles and T set. A periodic motion restarts at x after each period. */
+/* Records the motion from x like dynamics_motion_record, but to round-off. excitation, period,
+   cycles and T of `motion` are already set. A periodic motion restarts at x after each period. */
 ff_status dynamics_trajectory_record(const dynamics_flow *flow, const dynamics_inputs *inputs,
                                      size_t per_cycle, const double x[2], dynamics_motion *motion);
 

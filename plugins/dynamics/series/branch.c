@@ -10,24 +10,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Most guesses made from a motion that is not periodic, one per mesh cycle. */
+/* Most guesses, one per mesh cycle, made from a motion that is not periodic. */
 enum { GUESSES = 32 };
 
 /* The search for one series. */
 typedef struct search {
     const dynamics_branch_request *request;
-    dynamics_excitation excitation; /* the request's, with the damping used at present */
+    dynamics_excitation excitation; /* excitation of the request, with the current damping ratio */
     dynamics_harmonics *b;
     size_t n;      /* number of coefficients of the series */
     double *x;     /* the series */
-    double *guess; /* the guess of it */
-    double *off;   /* its distance from the guess */
+    double *guess; /* guess of the series */
+    double *off;   /* distance of the series from the guess */
     double *time;  /* samples of a motion over a mesh cycle */
 } search;
 
 static int search_init(search *s, const dynamics_branch_request *request)
 {
-    /* with little damping every sample that gains or loses contact shows in the motion */
+    /* with little damping every sample at which contact begins or ends affects the motion */
     size_t samples = request->excitation->zeta < 1e-3 ? 16384 : 2048;
     while (samples < 16 * request->harmonics)
         samples *= 2;
@@ -50,7 +50,7 @@ static void search_free(search *s)
     free(s->time);
 }
 
-/* Gives the state of a series at phase 0, before a node there. */
+/* Computes the state of a series at phase 0, before a node there. */
 static void state_of_series(const search *s, const dynamics_branch_start *from, double state[2])
 {
     const dynamics_excitation *excitation = s->request->excitation;
@@ -62,8 +62,8 @@ static void state_of_series(const search *s, const dynamics_branch_start *from, 
         from->w * (slope - dynamics_piece_slope(last->e, last->degree, last->length) / (2 * M_PI));
 }
 
-/* Solves for the motion without contact loss, the only one at small excitation. 0: there is none.
- */
+/* Solves for the motion without contact loss; it is the only one at small excitation. Returns 0 if
+   there is none. */
 static int solve_in_contact(search *s)
 {
     const dynamics_excitation *excitation = s->request->excitation;
@@ -84,8 +84,8 @@ static int solve_in_contact(search *s)
     return 1;
 }
 
-/* Gives the motion at rest on the driving flanks, if there is neither load nor error. 0: something
- * moves. */
+/* Sets the state of rest on the driving flanks, if there is neither load nor transmission error.
+   Returns 0 if there is an excitation. */
 static int solve_at_rest(search *s)
 {
     const dynamics_excitation *excitation = s->request->excitation;
@@ -98,8 +98,8 @@ static int solve_at_rest(search *s)
     return 1;
 }
 
-/* Solves for the stable motion without contact loss, which is the lower branch where it exists.
- * FF_NOCONV: there is none. */
+/* Solves for the stable motion without contact loss. If it exists, it is the lower branch. Returns
+   FF_NOCONV if there is none. */
 static ff_status solve_in_full_contact(search *s)
 {
     double delta, rate, T = 2 * M_PI / s->request->w;
@@ -109,7 +109,7 @@ static ff_status solve_in_full_contact(search *s)
     return status != FF_OK ? status : solve_in_contact(s) ? FF_OK : FF_NOCONV;
 }
 
-/* Adds the samples of a record, times `part`, to s->time, mesh cycle over mesh cycle. */
+/* Adds the samples of one recorded mesh cycle, times `part`, to s->time. */
 static void read_samples(const search *s, const dynamics_record *record, double part)
 {
     double n = (double)record->per_cycle;
@@ -122,8 +122,8 @@ static void read_samples(const search *s, const dynamics_record *record, double 
     }
 }
 
-/* Integrates over some mesh cycles from `state`, sets `state` to the end, and takes the mean of the
- * cycles as the guess. FF_NOCONV: too many steps. */
+/* Integrates over `cycles` mesh cycles from `state`, sets `state` to the end, and takes the mean of
+   the cycles as the guess. Returns FF_NOCONV if there are too many steps. */
 static ff_status guess_in_time(search *s, int cycles, double state[2])
 {
     const dynamics_excitation *excitation = &s->excitation;
@@ -168,13 +168,13 @@ static int solve_near_guess(search *s)
     return dynamics_fourier_rms(s->off, harmonics) < 0.5 * size;
 }
 
-/* Mesh frequency over natural frequency below which no branch is followed, since resonances are
- * narrow and endless there. */
+/* No branch is followed below this ratio of mesh frequency to natural frequency, since the
+   resonances there are narrow and too numerous. */
 static const double slowest = 0.1;
 
-/* Follows the curve of motions of period 1 from the start of the sweep to the speed, round its
- * folds. It serves motions with hardly any damping, which do not settle. FF_NOCONV: the curve does
- * not reach the speed, or the speed is below `slowest`. */
+/* Follows the curve of motions of period 1 from the start of the sweep to the speed, around its
+   folds. It is used with hardly any damping, where motions do not settle. Returns FF_NOCONV if the
+   curve does not reach the speed, or if the speed is below `slowest`. */
 static ff_status trace_to_speed(const search *s, const dynamics_flow *flow, dynamics_attractor *a)
 {
     const dynamics_branch_request *request = s->request;
@@ -207,8 +207,8 @@ static ff_status trace_to_speed(const search *s, const dynamics_flow *flow, dyna
 /* Damping ratio below which motions take too long to settle. */
 static const double hardly_damped = 2e-3;
 
-/* Continues the series from the present damping to that of the request by Newton's method, as near
- * as it gets. A new solution with other samples can get the rest of the way. */
+/* Continues the series from the current damping to that of the request by Newton's method, as far
+   as possible. A new solution with another number of samples may get the rest of the way. */
 static void lower_damping(search *s)
 {
     static const double shortest = 1e-3;
@@ -226,8 +226,8 @@ static void lower_damping(search *s)
     }
 }
 
-/* Lets the motion settle at a slow speed: from rest, or on the upper branch from the motion at
- * `slowest`. */
+/* Lets the motion settle at a slow speed: from rest, or for the upper branch from the motion at
+   `slowest`. */
 static ff_status settle_at_speed(const search *s, const dynamics_flow *flow,
                                  const dynamics_search *how, dynamics_attractor *a)
 {
@@ -264,8 +264,8 @@ static ff_status lead_to_speed(const search *s, const dynamics_flow *flow, dynam
     return dynamics_attract_from(flow, &from, &how, request->host, a);
 }
 
-/* Turns a motion into a series. For a motion of several mesh cycles the guess is the mean of the
- * cycles, which lies near the motion of period 1 from which it branched off. */
+/* Converts a motion to a series. For a motion of several mesh cycles the guess is the mean of the
+   cycles, which is near the motion of period 1 from which it branched off. */
 static ff_status solve_from_motion(search *s, dynamics_attractor *a)
 {
     int cycles = a->period > 0 ? a->period : 1, guesses = a->period == 1 ? 1 : GUESSES;
@@ -287,9 +287,9 @@ static ff_status solve_on_curve(search *s, const dynamics_flow *flow)
     return status == FF_OK ? solve_from_motion(s, &a) : status;
 }
 
-/* Solves for the series on the requested branch. A motion with hardly any damping is traced to the
- * speed; if that fails it is found with more damping first. If settling leads to a motion that is
- * not near one of period 1, the curve is followed instead. */
+/* Solves for the series on the requested branch. With hardly any damping a motion is followed to
+   the speed along the curve; if that fails it is found with more damping first. If settling leads
+   to a motion that is not near one of period 1, the curve is followed instead. */
 static ff_status solve_on_branch(search *s, const dynamics_flow *flow,
                                  dynamics_branch_result *result)
 {
@@ -323,10 +323,10 @@ ff_status dynamics_branch_series(const dynamics_branch_request *request,
         goto out;
     status = FF_OK;
     if (!solve_at_rest(&s)) {
-        int linear = request->excitation->half_gap == 0; /* a linear system has one motion */
+        int linear = request->excitation->half_gap == 0; /* a linear system has only one motion */
         if (linear && !solve_in_contact(&s)) {
             status = FF_NOCONV;
-            result->why = "a linear system without damping has none at resonance";
+            result->why = "a linear system without damping has no periodic motion at resonance";
         }
         if (!linear)
             status = request->from.x ? FF_NOCONV : solve_in_full_contact(&s);

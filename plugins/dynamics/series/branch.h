@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The series of the motion of period 1 on a branch. The flow of the return map finds the branch and
- * follows it to the speed (attractor.h). Its motion is the guess from which Newton's method finds
- * the series, stable or not. */
+/* Finds the series of the motion of period 1 on a branch. The return map finds the branch and
+   follows it to the speed (attractor.h). The motion found there is the guess from which Newton's
+   method finds the series, whether stable or not. */
 #ifndef DYNAMICS_BRANCH_H
 #define DYNAMICS_BRANCH_H
 
@@ -10,7 +10,7 @@
 
 #include <flankfilm/plugin.h>
 
-/* A motion to start from: its series at w, mesh frequency over natural frequency. */
+/* A motion to start from: its series x at w, the ratio of mesh frequency to natural frequency. */
 typedef struct dynamics_branch_start {
     const double *x; /* NULL: none */
     size_t harmonics;
@@ -30,7 +30,7 @@ typedef struct dynamics_branch_result {
     double *x;       /* series at w with the request's number of harmonics; the caller frees it */
     int ends;        /* number of branch ends on the way */
     int lost;        /* 1: the branch was lost, and x is the motion without contact loss */
-    const char *why; /* the reason for FF_NOCONV */
+    const char *why; /* reason if the status is FF_NOCONV */
 } dynamics_branch_result;
 
 ff_status dynamics_branch_series(const dynamics_branch_request *request,

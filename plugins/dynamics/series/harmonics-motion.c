@@ -7,15 +7,15 @@
 #include <math.h>
 #include <string.h>
 
-/* Order of the Taylor series of a disturbance, and its longest step in rad: 0.25^15/15! is below
- * round-off. */
+/* Order of the Taylor series of a disturbance. Its longest step is 0.25 rad: 0.25^15/15! is below
+   round-off. */
 enum { TAYLOR = 14 };
 static const double longest_step = 0.25;
 
-/* Share of a mesh cycle to which the instant of a change of contact is located. */
+/* Accuracy, in mesh cycles, to which a change of contact is located. */
 static const double instant = 1e-14;
 
-/* State of a walk through the mesh cycle along a series. */
+/* State of the integration through the mesh cycle along a series. */
 typedef struct walk {
     dynamics_motion *motion;
     const dynamics_piece *piece;
@@ -66,7 +66,8 @@ static void disturb(double zeta, const double *k, double h, double *u, double *u
     }
 }
 
-/* Carries the disturbances and the clocks over a stretch of the cycle in one state of contact. */
+/* Advances the disturbances and the clocks over a stretch of the cycle with one state of
+   contact. */
 static void pass_stretch(const walk *w, double from, double to, contact c)
 {
     dynamics_motion *motion = w->motion;
@@ -82,7 +83,8 @@ static void pass_stretch(const walk *w, double from, double to, contact c)
     motion->clocks.damped += h;
 }
 
-/* Passes a stretch in parts of one state of contact each, located by bisection. */
+/* Advances over a stretch in parts with one state of contact each. Changes of contact are located
+   by bisection. */
 static void pass_contact_changes(const walk *w, double from, double to, contact first, contact last)
 {
     if (same_contact(first, last) || to - from < instant) {
@@ -135,7 +137,7 @@ static void add_sample(const walk *w, double phase)
     };
 }
 
-/* Records one mesh cycle at equal steps. A jump of the excitation gets two samples. */
+/* Records one mesh cycle at equal steps. At a jump of the excitation there are two samples. */
 static void record_cycle(walk *w)
 {
     const dynamics_excitation *excitation = w->motion->excitation;

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The series that one case of a chain passes to its neighbour, as warm-start.h does with a state.
- */
+/* The series that one case of a chain passes to the next one, like the state in warm-start.h. */
 #ifndef DYNAMICS_HARMONICS_WARM_START_H
 #define DYNAMICS_HARMONICS_WARM_START_H
 
@@ -8,7 +7,7 @@
 
 enum { DYNAMICS_MOST_HARMONICS = 512 };
 
-/* At phase 0 = SAP. */
+/* The series begins at phase 0 = SAP. */
 typedef struct dynamics_harmonics_warm_start {
     char mark[16];
     double mesh_frequency;                     /* Hz */
@@ -16,13 +15,13 @@ typedef struct dynamics_harmonics_warm_start {
     double x[2 * DYNAMICS_MOST_HARMONICS + 1]; /* m */
 } dynamics_harmonics_warm_start;
 
-/* Stores a series whose unit is `length`, in m. */
+/* Converts a series in units of `length` to m and stores it. */
 void dynamics_harmonics_warm_start_set(dynamics_harmonics_warm_start *warm_start,
                                        double mesh_frequency, const double *x, size_t harmonics,
                                        double length);
 
-/* Implements the model's `carry`: takes over the series of the neighbouring case, or none if the
- * bytes are of another kind, and passes on its own. */
+/* Implements `carry` of a model: reads the series of the neighbouring case, or none if the bytes
+   have another format, and writes the model's own series. */
 ff_status dynamics_harmonics_warm_start_carry(dynamics_harmonics_warm_start *taken,
                                               const ff_state_bytes *from,
                                               const dynamics_harmonics_warm_start *left,

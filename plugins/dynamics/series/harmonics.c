@@ -13,9 +13,9 @@
 #include <fftw3.h>
 #include <lapacke.h>
 
-/* A passage of the motion through an edge of the gap, or a knee of the spring, between neighbouring
- * samples i and j. The trapezium rule misses `area` at the kink of the force, and the two samples
- * share it. after_i and after_j are the derivatives of `area` by s at i and at j. */
+/* A crossing of the edge of the gap, or of a knee of the spring, between the neighbouring samples i
+   and j. The trapezoidal rule misses `area` at the kink of the force, and the two samples share
+   this area. after_i and after_j are the derivatives of `area` with respect to s at i and at j. */
 typedef struct edge {
     size_t i, j;
     double area, after_i, after_j;
@@ -24,17 +24,18 @@ typedef struct edge {
 struct dynamics_harmonics {
     const dynamics_excitation *excitation;
     size_t harmonics, samples;
-    size_t lines; /* number of lines of the spring (spring.h), at least 1 */
-    double *slope,
-        *offset;      /* of each line, at the samples, from the exact harmonics below samples/2 */
-    double *e;        /* e at the samples, likewise */
-    double *e_series; /* series of e */
-    double *time;     /* work space for samples */
-    edge *edges;      /* edges that the motion passes */
+    size_t lines;           /* number of lines of the spring (spring.h), at least 1 */
+    double *slope, *offset; /* slope and offset of each line at the samples, from the exact
+                               harmonics below samples/2 */
+    double *e;              /* e at the samples, from its exact harmonics below samples/2 */
+    double *e_series;       /* series of e */
+    double *time;           /* workspace for samples */
+    edge *edges;            /* edges that the motion crosses */
     fftw_complex *spectrum;
     fftw_plan to_time, to_spectrum;
-    double *cosine, *sine;          /* harmonics of the stiffness along the motion, up to 2 H */
-    double *residual, *trial, *try; /* work space of Newton's method */
+    double *cosine, *sine;          /* harmonics of the mesh stiffness along the motion, up to 2
+                                       H */
+    double *residual, *trial, *try; /* workspace of Newton's method */
     double *jacobian;
     lapack_int *pivot;
 };
@@ -45,14 +46,15 @@ enum { MAX_NEWTON = 40, MAX_HALVINGS = 6 };
  * stop below `nearly_converged` if round-off keeps the residual from falling. */
 static const double converged = 1e-12, nearly_converged = 1e-9;
 
-/* A residual below this is 0 to round-off. Without load the flanks may rest anywhere in the gap,
- * where no Newton step is defined. */
+/* A residual below this value is round-off. Without load the flanks may rest anywhere in the gap,
+   where no Newton step is defined. */
 static const double round_off = 1e-15;
 
-/* Adds one node's part of the exact harmonics n > 0 of a piecewise polynomial. `jump` holds the
- * jumps of the value and of its derivatives by theta at the node. Repeated integration by parts
- * gives c_n = sum exp(-i n theta) sum_j jump_j/(2 pi (i n)^(j + 1)). The phase follows a
- * recurrence, which is reset every 64 harmonics before round-off adds up. */
+/* Adds the contribution of one node to the exact harmonics n > 0 of a piecewise polynomial.
+   `jump` contains the jumps of the value and of its derivatives with respect to theta at the
+   node. Repeated integration by parts gives c_n = sum exp(-i n theta) sum_j jump_j/(2 pi (i
+   n)^(j + 1)). The phase factor follows a recurrence, which is restarted every 64 harmonics to
+   limit round-off. */
 static void add_jump(double complex *c, size_t count, double theta,
                      const double jump[DYNAMICS_DEGREE + 1], int degree)
 {
@@ -71,7 +73,7 @@ static void add_jump(double complex *c, size_t count, double theta,
     }
 }
 
-/* A curve made of the pieces: e, or one line of the spring. */
+/* A curve given by the pieces: e, or slope or offset of one line of the spring. */
 enum { CURVE_E, CURVE_SLOPE, CURVE_OFFSET };
 typedef struct curve {
     int which;
@@ -97,7 +99,7 @@ static double integral_of(const dynamics_piece *p, curve which)
     return sum;
 }
 
-/* Gives the harmonics 0 to count - 1 of a curve. */
+/* Computes the harmonics 0 to count - 1 of a curve. */
 static void exact_harmonics(const dynamics_excitation *excitation, curve which, double complex *c,
                             size_t count)
 {
@@ -175,8 +177,7 @@ dynamics_harmonics *dynamics_harmonics_new(const dynamics_excitation *excitation
     if (b->slope && b->e && b->offset && b->time && b->edges && b->spectrum && b->e_series &&
         b->cosine && b->sine && b->residual && b->trial && b->try && b->jacobian && b->pivot &&
         numerics_has_room(numerics_fftw_room(samples))) {
-        fftw_make_planner_thread_safe(); /* the planner is shared by the process, and other plugins
-                                            plan, too */
+        fftw_make_planner_thread_safe(); /* all plugins of the process share FFTW's planner */
         b->to_time = fftw_plan_dft_c2r_1d((int)samples, b->spectrum, b->time, FFTW_ESTIMATE);
         b->to_spectrum = fftw_plan_dft_r2c_1d((int)samples, b->time, b->spectrum, FFTW_ESTIMATE);
     }
@@ -243,14 +244,15 @@ static void transform_samples(dynamics_harmonics *b)
         b->spectrum[n] *= scale;
 }
 
-/* Returns the deflection of the mesh spring, with the dead zone of Li & Kahraman 2011, eq. 2b. */
+/* Returns the deflection of the mesh spring behind the dead zone (Li & Kahraman 2011, eq. 2b). */
 static double bend(const dynamics_excitation *excitation, double delta)
 {
     double h = excitation->half_gap;
     return delta > h ? delta - h : delta < -h ? delta + h : 0;
 }
 
-/* Returns the excess of a line's force over that of the line before, at sample i (spring.h). */
+/* Returns by how much the force of a line exceeds that of the previous line, at sample i
+   (spring.h). */
 static double excess(const dynamics_harmonics *b, size_t line, size_t i, double bend)
 {
     size_t at = line * b->samples + i, below = at - b->samples;
@@ -277,10 +279,10 @@ static double spring_force(const dynamics_harmonics *b, size_t i, double bend)
     return b->slope[i] * bend + (more > 0 ? (bend < 0 ? -more : more) : 0);
 }
 
-/* Gives the edge of a force with that slope which begins or ends between the samples i and j. The
- * force is proportional to a distance that changes from `from` to `to`. By the Euler-Maclaurin rule
- * a kink at the share t of a step makes the trapezium rule err by (t (1 - t)/2 - 1/12) times the
- * change of slope. */
+/* Makes the edge between the samples i and j at which a force of slope `slope` begins or ends. The
+   force is proportional to a distance that changes from `from` to `to`. By the Euler-Maclaurin
+   formula a kink at the fraction t of a step gives the trapezoidal rule an error of (t (1 - t)/2 -
+   1/12) times the change of slope. */
 static edge edge_between(size_t i, size_t j, double from, double to, double slope)
 {
     double a = fabs(from), z = fabs(to), sum = a + z;
@@ -290,8 +292,8 @@ static edge edge_between(size_t i, size_t j, double from, double to, double slop
     return e;
 }
 
-/* Finds the passage of the motion, sampled in b->time, through the edge of the gap on that side
- * between sample i and the next. 0: it does not pass. */
+/* Finds where the motion, sampled in b->time, crosses the edge of the gap on one side between
+   sample i and the next one. Returns 0 if it does not. */
 static int find_edge(const dynamics_harmonics *b, size_t i, int side, edge *e)
 {
     size_t j = (i + 1) % b->samples;
@@ -303,8 +305,8 @@ static int find_edge(const dynamics_harmonics *b, size_t i, int side, edge *e)
     return 1;
 }
 
-/* Finds the passage through the knee from which a line takes over; the distance is the excess of
- * the line's force. 0: it does not pass. */
+/* Finds where the motion crosses the knee at which `line` begins. The distance is the excess of the
+   line's force. Returns 0 if it does not cross. */
 static int find_knee(const dynamics_harmonics *b, size_t line, size_t i, int side, edge *e)
 {
     size_t j = (i + 1) % b->samples;
@@ -319,7 +321,7 @@ static int find_knee(const dynamics_harmonics *b, size_t line, size_t i, int sid
     return 1;
 }
 
-/* Collects the edges and knees on both sides. Returns their number. */
+/* Collects the crossings of edges and knees on both sides. Returns their number. */
 static size_t find_edges(dynamics_harmonics *b)
 {
     size_t count = 0;
@@ -332,7 +334,7 @@ static size_t find_edges(dynamics_harmonics *b)
     return count;
 }
 
-/* Writes the harmonics of the mesh spring's force to b->spectrum. */
+/* Writes the harmonics of the mesh spring force to b->spectrum. */
 static void force_spectrum(dynamics_harmonics *b, const double *x)
 {
     sample_motion(b, x);
@@ -346,8 +348,8 @@ static void force_spectrum(dynamics_harmonics *b, const double *x)
     transform_samples(b);
 }
 
-/* Computes the harmonics of the derivative of the force by s, which is the slope in contact and 0
- * in the gap. Returns the number of edges. */
+/* Computes the harmonics of the derivative of the force with respect to s: the slope in contact,
+   and 0 in the gap. Returns the number of edges. */
 static size_t stiffness_spectrum(dynamics_harmonics *b, const double *x)
 {
     double h = b->excitation->half_gap;
@@ -375,7 +377,7 @@ static void add_basis(const dynamics_harmonics *b, size_t sample, double a, doub
     }
 }
 
-/* Adds the edges to the Jacobian, an outer product each. */
+/* Adds the edges to the Jacobian; each is an outer product. */
 static void add_edges(dynamics_harmonics *b, size_t count, double *jacobian, size_t stride)
 {
     size_t size = series_size(b);
@@ -395,8 +397,8 @@ static void add_edges(dynamics_harmonics *b, size_t count, double *jacobian, siz
     }
 }
 
-/* Fills the columns of a_n and b_n for the spring force: the product of the stiffness, with
- * harmonics P and Q, and cos n theta or sin n theta. */
+/* Fills the columns of the Jacobian for a_n and b_n with the derivatives of the spring force: the
+   product of the stiffness, with harmonics P and Q, and cos n theta or sin n theta. */
 static void fill_columns(const dynamics_harmonics *b, size_t n, double *a, double *z)
 {
     const double *P = b->cosine, *Q = b->sine;
@@ -470,7 +472,8 @@ static double norm_of(const double *x, size_t count)
     return sqrt(sum);
 }
 
-/* Replaces the residual by Newton's correction, which is subtracted from the series. */
+/* Solves for Newton's correction, in place of the residual. The correction is to be subtracted from
+   the series. */
 static int solve_correction(dynamics_harmonics *b)
 {
     lapack_int size = (lapack_int)series_size(b);
@@ -479,7 +482,7 @@ static int solve_correction(dynamics_harmonics *b)
            isfinite(norm_of(b->residual, series_size(b)));
 }
 
-/* Goes along the correction, and halves it until the residual falls. */
+/* Subtracts the correction, and halves it until the residual decreases. */
 static int search_line(dynamics_harmonics *b, double w, double *x, double before)
 {
     size_t size = series_size(b);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* dynamics/coupled: the gear pair on its bearings, two translations and a rotation per gear. */
+/* dynamics/coupled: gears on elastic bearings, with two translations and one rotation per gear. */
 #include "../coupled/coupled-motion.h"
 #include "../coupled/coupled-shooting.h"
 #include "references.h"
@@ -10,11 +10,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The motion that a case of a chain hands to its neighbour. */
+/* The motion that one case of a chain passes to the next one. */
 typedef struct handed {
     char mark[16];
     double mesh_frequency;        /* Hz; 0: there is none */
-    double state[DYNAMICS_TAKEN]; /* at phase 0: m, m/s */
+    double state[DYNAMICS_TAKEN]; /* state at phase 0: m, m/s */
 } handed;
 static const char mark[16] = "coupled 1";
 
@@ -24,55 +24,56 @@ typedef struct model {
     int32_t damping, force, branch;
     dynamics_inertia inertia;
     ff_reals bearing, bearing_zeta,
-        mass; /* N/m, 1, kg; one value or two; mass empty: the gears' own */
+        mass; /* units N/m, 1, kg; one value or two; mass empty: the gears' own masses */
     int64_t cycles_settle, cycles_measured, steps_per_cycle;
-    handed from, to; /* what the neighbouring case left, and what it is left */
+    handed from, to; /* motion from the neighbouring case; motion for the next case */
 } model;
 
 static const ff_param params[] = {
     FF_QUANTITY("damping_ratio", "1", model, zeta, 0, "0.01", NULL, 0, 10, 1e-3, 0.2,
                 "damping of the mesh over critical damping at the mean stiffness, c/(2 sqrt(k m))"),
     FF_ONE_OF("always|contact|clipped", "damping", model, damping, 0, "always",
-              "when the mesh damper acts: always (also in free flight, as Li & Kahraman 2011), in "
-              "contact only, or in contact and clipped so that the flanks never pull"),
+              "when the mesh damper acts: always (also in free flight, as Li & Kahraman 2011), "
+              "in contact only, or clipped: in contact only, and the mesh force never pulls"),
     FF_ONE_OF(
         "lower|upper", "branch", model, branch, 0, "lower",
-        "which of several motions: lower is the one without separation where it is stable, or "
-        "else what comes up slowly from 0.7 times the mesh frequency; upper comes down from "
-        "1.4 times the natural frequency of the mesh; where a study follows the speed, for "
-        "the first case of a chain"),
+        "which motion is shown if several exist: lower is the one without contact loss where it "
+        "is stable, or else the one that a slow rise of the speed from 0.7 times the mesh "
+        "frequency leads to; upper is the one that a slow fall from 1.4 times the natural "
+        "frequency of the mesh leads to; in a chain of cases over the speed it applies to the "
+        "first case"),
     DYNAMICS_FORCE_ROW(model),
     FF_QUANTITY("equivalent_mass", "kg", model, inertia.equivalent_mass, FF_MIN_OPEN, NULL,
                 "inertia", 0, 1e9, 0, 0,
-                "mass that the mesh spring sees in rotation; default: the gear's"),
+                "equivalent mass at the mesh spring in rotation; default: the gear's"),
     FF_QUANTITY("natural_frequency", "Hz", model, inertia.natural_frequency, FF_MIN_OPEN, NULL,
                 "inertia", 0, 1e9, 0, 0,
-                "linear natural frequency of the mesh on stiff bearings at the mean stiffness, in "
-                "place of the mass"),
+                "natural frequency of the linear mesh on rigid bearings at the mean stiffness, "
+                "in place of the mass"),
     FF_LIST("bearing_stiffness", "N/m", model, bearing, FF_REQUIRED | FF_MIN_OPEN, NULL, NULL, 0,
             1e15, 1e7, 1e11, 1, 2,
-            "radial stiffness that shaft and bearings give each gear, the same in all directions; "
+            "radial stiffness of shaft and bearings of each gear, the same in all directions; "
             "one value or two"),
     FF_LIST("bearing_damping_ratio", "1", model, bearing_zeta, 0, "0.02", NULL, 0, 10, 1e-3, 0.2, 1,
             2,
             "damping of each gear on its bearings over critical damping, c/(2 sqrt(k m)); one "
             "value or two"),
     FF_LIST("gear_mass", "kg", model, mass, FF_MIN_OPEN, NULL, NULL, 0, 1e9, 0, 0, 1, 2,
-            "masses that move on the bearings; default: the gears'; one value or two"),
+            "masses that move on the bearings; default: the gears' masses; one value or two"),
     FF_COUNT_OR(
         "auto", "cycles_settle", model, cycles_settle, FF_TUNABLE, "auto", NULL, 1, 1e6, 0, 0,
-        "the most mesh cycles in which a motion that shooting does not find may settle; auto: four "
-        "times what the damping takes"),
+        "most mesh cycles for settling if shooting does not find the motion; auto: four times "
+        "what the damping requires"),
     FF_COUNT("cycles_measured", model, cycles_measured, 0, "16", NULL, 1, 256, 0, 0,
-             "mesh cycles shown when the motion is not periodic"),
+             "mesh cycles shown if the motion is not periodic"),
     FF_COUNT("steps_per_cycle", model, steps_per_cycle, FF_TUNABLE, "512", NULL, 16, 65536, 0, 0,
-             "points shown per mesh cycle; the integrator's steps are its own"),
+             "points shown per mesh cycle; they do not affect the steps of the integrator"),
     FF_QUANTITY("tolerance", "1", model, tolerance, FF_TUNABLE, "1e-9", NULL, 1e-13, 1e-3, 1e-12,
                 1e-6, "error of one integration step over the static deflection"),
-    FF_QUANTITY(
-        "settle_tolerance", "1", model, settle_tolerance, FF_TUNABLE, "1e-6", NULL, 1e-12, 1e-2,
-        1e-10, 1e-4,
-        "distance to the periodic motion at which it has settled, over the static deflection"),
+    FF_QUANTITY("settle_tolerance", "1", model, settle_tolerance, FF_TUNABLE, "1e-6", NULL, 1e-12,
+                1e-2, 1e-10, 1e-4,
+                "the motion has settled if its distance to the periodic motion, over the static "
+                "deflection, is below this"),
 };
 
 static ff_status ready(void *self)
@@ -104,11 +105,12 @@ static ff_status check_gears(const model *m, const ff_array *in)
                         base[0] + base[1], centre);
     if (m->mass.count == 0 && !in[DYNAMICS_IN_MASS].data)
         return ff_failf(m->host, FF_INVALID, "gear_mass",
-                        "no masses are known: give gear_mass, or wire a gear that offers mass");
+                        "the masses are not known: give gear_mass, or wire a gear that gives mass");
     return FF_OK;
 }
 
-/* Makes the checked inputs dimensionless. Per gear the damper is c = 2 zeta sqrt(k m). */
+/* Makes the checked inputs dimensionless. The damping coefficient of each gear is c = 2 zeta sqrt(k
+   m). */
 static ff_status build_pair(const model *m, const ff_array *in, const dynamics_inputs *inputs,
                             dynamics_coupled *pair)
 {
@@ -149,7 +151,7 @@ static void report(const model *m, const dynamics_coupled_motion *motion, double
 {
     const ff_host *host = m->host;
     dynamics_periodicity_line(&motion->settled, m->settle_tolerance,
-                              "the motion does not repeat itself within 8 mesh cycles: aperiodic, "
+                              "the motion does not repeat within 8 mesh cycles: it is aperiodic, "
                               "or it needs more cycles_settle",
                               host);
     host->quality(host->ctx, "settled_cycles", (double)motion->settled.cycles,
@@ -165,18 +167,19 @@ static void report(const model *m, const dynamics_coupled_motion *motion, double
 static ff_status fail_too_many_steps(const ff_host *host, const dynamics_inputs *inputs)
 {
     return ff_failf(host, FF_NOCONV, "bearing_stiffness",
-                    "a mesh frequency of %g Hz with bearings this stiff takes too many steps; take "
-                    "softer bearings, a higher speed, or dynamics/time-integration for rigid ones",
+                    "a mesh frequency of %g Hz with bearings this stiff takes too many steps; "
+                    "use softer bearings, a higher speed, or dynamics/time-integration with "
+                    "rigid bearings",
                     inputs->mesh_frequency);
 }
 
-/* The highest frequency of a gear on its bearings, relative to that of the mesh. */
+/* Returns the highest natural frequency of a gear on its bearings, relative to that of the mesh. */
 static double highest_frequency(const dynamics_coupled *pair)
 {
     return sqrt(1 + fmax(pair->bearing[0] / pair->mass[0], pair->bearing[1] / pair->mass[1]));
 }
 
-/* The unit of a component of the state. */
+/* Returns the unit of a component of the state. */
 static double unit_of(const dynamics_excitation *excitation, int i)
 {
     return excitation->length * (i < DYNAMICS_RATES ? 1 : excitation->omega);
@@ -250,9 +253,9 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     dynamics_inputs inputs;
     if (in[DYNAMICS_IN_LINE_FORCE].data[0] < 0)
         return ff_failf(m->host, FF_UNSUPPORTED, "operating.line_force",
-                        "the torque is below 0, and gears that move on their bearings are followed "
-                        "on driving flanks alone: write gear 2 of the file as gear 1, with a "
-                        "torque above 0, or take another model of the kind dynamics");
+                        "the torque is below 0, but gears on elastic bearings are computed for a "
+                        "driving gear 1 only: exchange gear 1 and gear 2 in the file and give a "
+                        "torque above 0, or use another model of the kind dynamics");
     ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &inputs, &excitation);
     inputs.wanted = wanted;
     inputs.back = 0;
@@ -283,8 +286,9 @@ static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *t
 }
 
 FF_MODEL(dynamics_coupled_model, model, .id = "dynamics/coupled", .version = "1.0.0",
-         .summary = "non-linear dynamics of the gear pair with two translations and a rotation per "
-                    "gear; backlash, pressure angle and contact ratio follow the centre distance",
+         .summary = "non-linear dynamics of the gear pair on elastic bearings, with two "
+                    "translations and a rotation per gear; backlash, pressure angle and contact "
+                    "ratio depend on the centre distance",
          .reference = "Kim, Yoo & Chung 2010, Dynamic analysis for a pair of spur gears with "
                       "translational motion due to bearing deformation, J. Sound Vib. 329, "
                       "4409-4421; Li & Kahraman 2011, Proc. IMechE J 225, 740-753, eqs 2-5",

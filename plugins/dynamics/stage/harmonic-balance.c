@@ -20,35 +20,38 @@ typedef struct model {
     double zeta, tolerance;
     int32_t damping, force, branch;
     dynamics_inertia inertia;
-    int64_t harmonics_given, samples_given, steps_per_cycle; /* -1: auto */
-    size_t harmonics, samples;                               /* the same; 0: auto */
-    dynamics_harmonics_warm_start from, to; /* what the neighbouring case left, what it is left */
+    int64_t harmonics_given, samples_given, steps_per_cycle; /* as given by the user; -1: auto */
+    size_t harmonics, samples;                               /* as given by the user; 0: auto */
+    dynamics_harmonics_warm_start from, to; /* series from the neighbouring case; series for the
+                                               next case */
 } model;
 
 static const ff_param params[] = {
     DYNAMICS_DAMPING_RATIO_ROW(model, 1e-3),
     FF_ONE_OF("always|contact|clipped", "damping", model, damping, 0, "always",
-              "when the damper acts; a series needs a force without jumps, so that only always is "
-              "served"),
+              "when the damper acts; only always is possible, since a Fourier series needs a "
+              "force without jumps"),
     FF_ONE_OF("lower|upper", "branch", model, branch, 0, "lower",
-              "which of several motions: lower is that without separation where there is a stable "
-              "one, else followed up from 0.7 times the mesh frequency; upper is followed down "
-              "from 1.4 times the natural frequency, also where it is unstable; where a study "
-              "follows the speed, it is for the first case of a chain"),
+              "which motion is shown if several exist: lower is the one without contact loss "
+              "where it is stable, or else the one on the branch followed up from 0.7 times the "
+              "mesh frequency; upper is the one on the branch followed down from 1.4 times the "
+              "natural frequency, stable or not; in a chain of cases over the speed it applies "
+              "to the first case"),
     DYNAMICS_FORCE_ROW(model),
     DYNAMICS_INERTIA_ROWS(model),
     FF_COUNT_OR("auto", "harmonics", model, harmonics_given, FF_TUNABLE, "auto", NULL, 1,
                 DYNAMICS_MOST_HARMONICS, 5, DYNAMICS_MOST_HARMONICS,
-                "of the mesh frequency in the series; auto: until the first neglected ones, as the "
-                "force drives them, stay below the tolerance"),
+                "number of harmonics of the mesh frequency in the series; auto: increased until "
+                "the first neglected ones, estimated from the force, are below the tolerance"),
     FF_COUNT_OR(
         "auto", "samples", model, samples_given, FF_TUNABLE, "auto", NULL, 16, 1 << 20, 0, 0,
-        "of the mesh force per mesh cycle, at least 8 for each harmonic; auto: 32 for each"),
+        "samples of the mesh force per mesh cycle, at least 8 per harmonic; auto: 32 per harmonic"),
     FF_COUNT("steps_per_cycle", model, steps_per_cycle, FF_TUNABLE, "512", NULL, 16, 65536, 0, 0,
              "points shown per mesh cycle"),
     FF_QUANTITY("tolerance", "1", model, tolerance, FF_TUNABLE, "1e-6", NULL, 1e-12, 1e-1, 1e-9,
                 1e-3,
-                "amplitude of the first neglected harmonics, summed, over the static deflection"),
+                "sum of the amplitudes of the first neglected harmonics over the static "
+                "deflection"),
 };
 
 static ff_status ready(void *self)
@@ -59,8 +62,8 @@ static ff_status ready(void *self)
     dynamics_tell_servings(m->host, &m->inertia, m->zeta);
     if (m->damping != DYNAMICS_DAMPING_ALWAYS)
         return ff_failf(m->host, FF_UNSUPPORTED, "damping",
-                        "a damper that lets go in the gap makes the mesh force jump, which a "
-                        "Fourier series cannot follow; take damping: always, or "
+                        "a damper that does not act in the gap makes the mesh force jump, which "
+                        "a Fourier series cannot represent; use damping: always, or "
                         "dynamics/time-integration");
     if (m->samples && m->samples < 8 * m->harmonics)
         return ff_failf(m->host, FF_INVALID, "samples",
@@ -71,9 +74,9 @@ static ff_status ready(void *self)
     return FF_OK;
 }
 
-/* The series, solved at one resolution after another, and its errors. */
+/* A series and its errors. It is solved at increasing resolution. */
 typedef struct solution {
-    double *x; /* DYNAMICS_MOST_HARMONICS long */
+    double *x; /* array of length DYNAMICS_MOST_HARMONICS */
     size_t harmonics, samples;
     double residual, neglected, error;
 } solution;
@@ -86,7 +89,7 @@ static size_t samples_for(const model *m, size_t harmonics)
     return m->samples > 8 * harmonics ? m->samples : samples;
 }
 
-/* Solves with that many harmonics; s->x holds the guess and then the solution. */
+/* Solves with that number of harmonics. s->x is first the guess, then the solution. */
 static ff_status solve(const model *m, const dynamics_excitation *excitation, double w,
                        size_t harmonics, solution *s)
 {
@@ -110,8 +113,9 @@ static ff_status solve(const model *m, const dynamics_excitation *excitation, do
     return status;
 }
 
-/* How much the series would change, to first order, with twice the harmonics (a quarter more where
-   there are many, since the work grows with their cube) and twice the samples. */
+/* Estimates, to first order, how much the series would change with twice the harmonics and twice
+   the samples. With many harmonics a quarter more are used, since the work grows with their
+   cube. */
 static ff_status estimate_error(const dynamics_excitation *excitation, double w, solution *s)
 {
     size_t harmonics = s->harmonics <= 200 ? 2 * s->harmonics : s->harmonics + s->harmonics / 4;
@@ -128,7 +132,7 @@ static ff_status estimate_error(const dynamics_excitation *excitation, double w,
     return status;
 }
 
-/* Refines the series of the continuation to the resolution that is asked for. */
+/* Refines the series of the continuation to the requested resolution. */
 static ff_status refine(const model *m, const dynamics_excitation *excitation, double w,
                         const double *x, size_t harmonics, solution *s)
 {
@@ -168,19 +172,20 @@ static void report(const model *m, const dynamics_motion *motion, const solution
                   NULL);
     host->quality(host->ctx, "neglected_harmonics", s->neglected, m->tolerance,
                   enough ? FF_GOOD : FF_DOUBTFUL,
-                  enough ? NULL : "the motion needs more harmonics than the series has");
+                  enough ? NULL : "the motion needs more harmonics than the series can have");
     host->quality(host->ctx, "residual", s->residual, 1e-8, s->residual <= 1e-8 ? FF_GOOD : FF_BAD,
                   NULL);
     double limit = fmax(10 * m->tolerance, 1e-8);
     host->quality(host->ctx, "state_error", fmin(s->error, 1e300), limit,
                   s->error <= limit ? FF_GOOD : FF_DOUBTFUL,
-                  "change by more harmonics and samples, over the static deflection");
+                  "change of the series with more harmonics and samples, over the static "
+                  "deflection");
     host->quality(host->ctx, "determinant", motion->det_error, 1e-9,
                   motion->det_error <= 1e-9 ? FF_GOOD : FF_DOUBTFUL, NULL);
     host->quality(host->ctx, "jumps_on_the_way", result->ends, 20000,
                   result->lost ? FF_DOUBTFUL : FF_GOOD,
-                  result->lost ? "the branch could not be followed to this mesh frequency; shown "
-                                 "is the motion that never loses contact"
+                  result->lost ? "the branch could not be followed to this mesh frequency; the "
+                                 "motion without contact loss is shown"
                                : NULL);
     report_stability(m, motion, largest);
 }
@@ -213,14 +218,15 @@ static ff_status fail_without_motion(const model *m, const dynamics_inputs *inpu
                     why ? why : "Newton's method fails with these harmonics");
 }
 
-/* Harmonics of the series while a branch is followed: enough to hold 15 times the natural
-   frequency, within bounds that keep the work small. */
+/* Returns the number of harmonics while a branch is followed. They include 15 times the natural
+   frequency, within bounds that limit the work. */
 static size_t harmonics_on_the_way(double w)
 {
     return (size_t)fmin(fmax(ceil(15 / w), 24), 160);
 }
 
-/* Finds the series on the branch, or that into which the motion of the neighbouring case turns. */
+/* Finds the series on the branch, or the series that continues the motion of the neighbouring
+   case. */
 static ff_status find_series(const model *m, dynamics_branch_request *request, double natural,
                              dynamics_branch_result *result)
 {
@@ -236,7 +242,7 @@ static ff_status find_series(const model *m, dynamics_branch_request *request, d
     return status == FF_NOCONV ? dynamics_branch_series(request, result) : status;
 }
 
-/* The motion at the duty's mesh frequency. */
+/* Writes the motion at the mesh frequency of the duty. */
 static ff_status output_motion(model *m, const dynamics_excitation *excitation,
                                const dynamics_inputs *inputs)
 {
@@ -244,8 +250,8 @@ static ff_status output_motion(model *m, const dynamics_excitation *excitation,
     if (w * DYNAMICS_MOST_HARMONICS < 2)
         return fail_without_motion(
             m, inputs,
-            "so far below resonance a series of 512 harmonics does not reach twice "
-            "the natural frequency; take dynamics/quasi-static");
+            "the mesh frequency is so far below resonance that a series of 512 harmonics does "
+            "not reach twice the natural frequency; use dynamics/quasi-static");
     dynamics_branch_result result = {0};
     solution s = {.x = calloc(2 * DYNAMICS_MOST_HARMONICS + 1, sizeof *s.x)};
     dynamics_branch_request request = {.excitation = excitation,
@@ -312,8 +318,8 @@ static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *t
 
 FF_MODEL(
     dynamics_harmonic_balance, model, .id = "dynamics/harmonic-balance", .version = "1.0.0",
-    .summary = "non-linear dynamics of the gear pair with backlash as a Fourier series of the mesh "
-               "cycle, by continuation in speed",
+    .summary = "non-linear dynamics of the gear pair with backlash, as a Fourier series over the "
+               "mesh cycle, by continuation in speed",
     .reference = "Cameron & Griffin 1989, An alternating frequency/time domain method for "
                  "calculating the steady-state response of nonlinear dynamic systems, J. Appl. "
                  "Mech. 56, 149-154; Li & Kahraman 2011, Proc. IMechE J 225, 740-753, eqs 2-5",

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * dynamics/quasi-static: the motion far below resonance, s - e = b + F/k (Li & Kahraman 2011,
- * eq. 2 without inertia and damping), so that s is the loaded transmission error, counted like
- * every s from the middle of the backlash.
+ * dynamics/quasi-static: the motion far below resonance, s - e = b + F/k (Li & Kahraman 2011, eq. 2
+ * without inertia and damping). s is the loaded transmission error; as in all models, zero is the
+ * middle of the backlash.
  */
 #include "../excitation/inputs.h"
 #include "references.h"
@@ -23,8 +23,8 @@ typedef struct model {
 static const ff_param params[] = {
     DYNAMICS_INERTIA_ROWS(model),
     FF_QUANTITY("damping_ratio", "1", model, zeta, 0, "0.01", NULL, 0, 10, 1e-4, 0.2,
-                "damping over critical damping; says how far the motion is from the static one "
-                "where the program chooses the model, and nothing else"),
+                "damping over critical damping; used only to tell how far the motion is from the "
+                "static one if the program chooses the model"),
 };
 
 enum {
@@ -48,7 +48,7 @@ static const ff_port inputs[] = {
      .flags = FF_OPTIONAL},
     {.name = "gear.equivalent_mass",
      .unit = "kg",
-     .doc = "mass that the mesh spring sees",
+     .doc = "equivalent mass at the mesh spring",
      .dims = "",
      .flags = FF_OPTIONAL},
     {.name = "operating.line_force",
@@ -57,7 +57,7 @@ static const ff_port inputs[] = {
      .dims = ""},
     {.name = "stiffness.phase",
      .unit = "1",
-     .doc = "phase of the mesh cycle, 0 to 1; twice at a jump",
+     .doc = "phase of the mesh cycle, 0 to 1; a repeated value marks a jump",
      .dims = "phase"},
     {.name = "stiffness.loaded_transmission_error",
      .unit = "m",
@@ -70,17 +70,18 @@ static const ff_port inputs[] = {
      .dims = "engagement? station"},
     {.name = "operating.mesh_frequency",
      .unit = "Hz",
-     .doc = "to say how far the motion is from the static one",
+     .doc = "used to tell how far the motion is from the static one",
      .dims = "",
      .flags = FF_OPTIONAL},
     {.name = "operating.reference_force",
      .unit = "N",
-     .doc = "force under which the loaded transmission error is given; none or 0: the line force",
+     .doc = "line force at which the loaded transmission error was computed; not given or 0: the "
+            "line force",
      .dims = "",
      .flags = FF_OPTIONAL},
     {.name = "operating.fluctuation_order",
      .unit = "1",
-     .doc = "orders of what the line force swings by, none of which is followed",
+     .doc = "orders of the fluctuation of the line force; this model refuses them",
      .dims = "fluctuation",
      .flags = FF_OPTIONAL},
 };
@@ -105,54 +106,63 @@ enum {
 static const ff_port outputs[] = {
     {.name = "phase",
      .unit = "1",
-     .doc = "mesh cycles since the entering pair was at SAP; twice at a jump",
+     .doc = "mesh cycles since the entering pair was at SAP; a repeated value marks a jump",
      .dims = "cycle"},
     {.name = "dte",
      .unit = "m",
-     .doc = "transmission error s under load; 0 in the middle of the backlash, so that half of it "
-            "is in "
-            "the values",
+     .doc = "transmission error s under load; zero is the middle of the backlash, so that the "
+            "values include half the backlash",
      .dims = "cycle"},
-    {.name = "mesh_force", .unit = "N", .doc = "mesh force, the static one", .dims = "cycle"},
+    {.name = "mesh_force",
+     .unit = "N",
+     .doc = "mesh force; equal to the static force",
+     .dims = "cycle"},
     {.name = "dte_rms",
      .unit = "m",
-     .doc = "root mean square of the alternating part of s",
+     .doc = "root mean square of the alternating part of the transmission error s",
      .dims = "",
      .max = INFINITY},
-    {.name = "dte_mean", .unit = "m", .doc = "mean of s", .dims = ""},
+    {.name = "dte_mean", .unit = "m", .doc = "mean of the transmission error s", .dims = ""},
     {.name = "dte_peak_to_peak",
      .unit = "m",
-     .doc = "highest less lowest s",
+     .doc = "largest minus smallest transmission error s",
      .dims = "",
      .max = INFINITY},
     {.name = "tooth_force",
      .unit = "N",
-     .doc = "tooth force, the quasi-static one",
+     .doc = "tooth force; equal to the quasi-static one",
      .dims = "engagement? stiffness.station"},
     {.name = "gap",
      .unit = "m",
-     .doc = "separation of the driving flanks: 0",
+     .doc = "separation of the driving flanks; always 0",
      .dims = "engagement? stiffness.station"},
-    {.name = "dynamic_factor_tooth", .unit = "1", .doc = "1: no dynamics", .dims = ""},
-    {.name = "dynamic_factor_mesh", .unit = "1", .doc = "1: no dynamics", .dims = ""},
+    {.name = "dynamic_factor_tooth",
+     .unit = "1",
+     .doc = "always 1, since there are no dynamics",
+     .dims = ""},
+    {.name = "dynamic_factor_mesh",
+     .unit = "1",
+     .doc = "always 1, since there are no dynamics",
+     .dims = ""},
     {.name = "contact_loss",
      .unit = "1",
-     .doc = "share of the time without contact: 0",
+     .doc = "share of the time without contact; always 0",
      .dims = "",
      .max = 1},
     {.name = "back_contact",
      .unit = "1",
-     .doc = "share of the time with contact on the back flank: 0",
+     .doc = "share of the time with contact on the back flanks; always 0",
      .dims = "",
      .max = 1},
     {.name = "natural_frequency",
      .unit = "Hz",
-     .doc = "of small vibration, at the mean of the stiffness that is wired; needs a mass",
+     .doc = "natural frequency of small vibration at the mean of the wired stiffness; needs a "
+            "mass",
      .dims = "",
      .max = INFINITY},
     {.name = "period",
      .unit = "1",
-     .doc = "of the motion in mesh cycles: those of the tooth forces",
+     .doc = "period of the motion in mesh cycles: that of the tooth forces",
      .dims = ""},
 };
 
@@ -190,7 +200,7 @@ typedef struct statistics {
     double mean, rms, low, high;
 } statistics;
 
-/* The statistics, exact for straight lines between the phases. */
+/* Returns the statistics, exact for straight lines between the phases. */
 static statistics statistics_of(size_t count, const double *phase, const double *s)
 {
     statistics st = {.low = s[0], .high = s[0]};
@@ -208,7 +218,7 @@ static statistics statistics_of(size_t count, const double *phase, const double 
     return st;
 }
 
-/* `apart`: separation of the flanks that would bear. */
+/* `apart` is the separation of the flanks on the driving side. */
 static ff_status put_series(const ff_host *host, const ff_array *in, const double *s, int back,
                             double apart)
 {
@@ -256,10 +266,11 @@ static ff_status put_scalars(const ff_host *host, const statistics *st, double p
     return status;
 }
 
-static const char no_inertia[] = "needs an inertia: give equivalent_mass or natural_frequency, or "
-                                 "wire a gear that offers equivalent_mass";
+static const char no_inertia[] = "needs an inertia: give equivalent_mass or natural_frequency, "
+                                 "or wire a gear that gives equivalent_mass";
 
-/* Without a mass there is no natural frequency; that is an error only if it is asked for. */
+/* Without a mass there is no natural frequency. That is an error only if the output is
+   requested. */
 static ff_status put_natural_frequency(const model *m, uint64_t wanted, const ff_array *in)
 {
     double frequency;
@@ -287,8 +298,8 @@ static ff_status evaluate_driving(void *self, uint64_t wanted, const ff_array *i
     if (!floats && in[I_REFERENCE].data && in[I_REFERENCE].data[0] > 0 &&
         fabs(in[I_REFERENCE].data[0] - force) > 1e-9 * force)
         return ff_failf(m->host, FF_UNSUPPORTED, "operating.reference_force",
-                        "the loaded transmission error is that of %g N, and the line force is %g "
-                        "N: leave reference_torque of the duty out",
+                        "the loaded transmission error was computed at %g N, but the line force "
+                        "is %g N: leave reference_torque out of the duty",
                         in[I_REFERENCE].data[0], force);
     const dynamics_inputs swings = {
         .fluctuation.count = in[I_FLUCTUATION].rank == 1 ? in[I_FLUCTUATION].shape[0] : 0};
@@ -320,7 +331,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
                              I_TOOTH_FORCE, in, evaluate_driving, self, wanted);
 }
 
-/* An inertia makes the natural frequency alone. */
+/* An inertia affects only the natural frequency. */
 static ff_status ready(void *self)
 {
     const model *m = self;
@@ -338,7 +349,7 @@ static ff_status ready(void *self)
 }
 
 FF_MODEL(dynamics_quasi_static, model, .id = "dynamics/quasi-static", .version = "1.0.0",
-         .summary = "no dynamics: the gears stand still in every mesh position",
+         .summary = "no dynamics: the gears are at rest in every mesh position",
          .reference =
              "Li & Kahraman 2011, Influence of dynamic behaviour on elastohydrodynamic "
              "lubrication of spur gears, Proc. IMechE J 225, 740-753, eq. 2 without inertia",

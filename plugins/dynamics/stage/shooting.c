@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* dynamics/shooting: every periodic motion, stable or not, as a fixed point of the return map. */
+/* dynamics/shooting: every periodic motion, whether stable or not, as a fixed point of the return
+   map. */
 #include "../continuation/atlas-report.h"
 #include "../continuation/jump-search.h"
 #include "../continuation/stable-motions.h"
@@ -22,20 +23,20 @@
 typedef struct model {
     const ff_host *host;
     double zeta, atlas_from, atlas_to, arc_step;
-    int32_t damping, force, knows; /* KNOWS_... */
+    int32_t damping, force, knows; /* KNOWS_... for `knows` */
     const char *branch_word;
     dynamics_inertia inertia;
     dynamics_oil oil;
     dynamics_film_wire wire;
     int64_t max_period, speeds, starts, cycles_settle, cycles_measured, steps_per_cycle;
-    int by_name; /* 0: `branch_word` is lower or upper; 1: the branch of the atlas called `name` */
-    int largest; /* whether it is largest */
+    int by_name; /* 0: the branch is lower or upper; 1: the branch of the atlas called `name` */
+    int largest; /* whether the branch is `largest` */
     dynamics_branch branch;
     dynamics_branch_name name;
-    dynamics_warm_start from, to; /* what the neighbouring case left, and what it is left */
+    dynamics_warm_start from, to; /* motion from the neighbouring case; motion for the next case */
 } model;
 
-/* Where the motions that stable_motions and the branch `largest` know come from. */
+/* Which motions stable_motions counts, and from which the branch `largest` is chosen. */
 enum { KNOWS_STARTS, KNOWS_ATLAS };
 
 static const ff_param params[] = {
@@ -43,17 +44,17 @@ static const ff_param params[] = {
     DYNAMICS_DAMPING_ROW(model),
     FF_PHRASE(
         "branch", model, branch_word, 0, "lower", NULL,
-        "which of several motions: lower is the one without separation where it is stable, or else "
-        "what comes up slowly from 0.7 times the mesh frequency; upper comes down from 1.4 times "
-        "the natural frequency, and where its branch ends it settles to another one; largest has "
-        "the largest rms of all that stable_motions counts, also within a chain; or the name of a "
-        "branch of the atlas, "
-        "as p2-1; where a study follows the speed, lower and upper are for the first case of a "
-        "chain"),
+        "which motion is shown if several exist: lower is the one without contact loss where it "
+        "is stable, or else the one that a slow rise of the speed from 0.7 times the mesh "
+        "frequency leads to; upper is the one that a slow fall from 1.4 times the natural "
+        "frequency leads to (where its branch ends, the motion settles to another one); largest "
+        "has the largest rms of all motions that stable_motions counts; or the name of a branch "
+        "of the atlas, such as p2-1. In a chain of cases over the speed, lower and upper apply "
+        "to the first case, largest to every case"),
     FF_ONE_OF("starts|atlas", "known_motions", model, knows, 0, "starts",
-              "which stable motions stable_motions counts and branch: largest chooses from: those "
-              "that lower, upper and 16 starts lead to; or those of the atlas, too, which is then "
-              "built and takes some 50 times as long"),
+              "which stable motions stable_motions counts and branch: largest chooses from: "
+              "those to which lower, upper and 16 other starts lead; or also those of the atlas, "
+              "which takes about 50 times as long"),
     DYNAMICS_FORCE_ROW(model),
     DYNAMICS_INERTIA_ROWS(model),
     DYNAMICS_OIL_ROWS(model),
@@ -63,27 +64,29 @@ static const ff_param params[] = {
     FF_QUANTITY("atlas.to", "Hz", model, atlas_to, FF_MIN_OPEN, NULL, NULL, 0, 1e9, 0, 0,
                 "highest mesh frequency of the atlas; default: 1.4 natural_frequency"),
     FF_COUNT("max_period", model, max_period, 0, "6", NULL, 1, DYNAMICS_PERIOD_MAX, 0, 0,
-             "longest period, in mesh cycles, that is looked for"),
+             "longest period that is tried, in mesh cycles"),
     FF_COUNT("search_speeds", model, speeds, 0, "24", NULL, 0, 10000, 0, 0,
-             "speeds at which the atlas is searched for isolated motions"),
+             "number of speeds at which the atlas is searched for isolated motions"),
     FF_COUNT("search_starts", model, starts, 0, "16", NULL, 0, 10000, 0, 0,
-             "starts of the search at each of them"),
+             "number of starts of the search at each speed"),
     FF_QUANTITY("arc_step", "1", model, arc_step, 0, "0.04", NULL, 1e-4, 0.5, 1e-3, 0.1,
                 "longest step along a branch, over the size of the motion"),
     FF_COUNT_OR(
         "auto", "cycles_settle", model, cycles_settle, FF_TUNABLE, "auto", NULL, 1, 1e6, 0, 0,
-        "mesh cycles in which lower and upper may settle; auto: four times what the damping takes"),
+        "mesh cycles in which the lower or upper motion may settle; auto: four times what the "
+        "damping requires"),
     FF_COUNT("cycles_measured", model, cycles_measured, 0, "64", NULL, 1, 1024, 0, 0,
-             "mesh cycles shown when the motion is not periodic"),
+             "mesh cycles shown if the motion is not periodic"),
     FF_COUNT("steps_per_cycle", model, steps_per_cycle, FF_TUNABLE, "512", NULL, 16, 65536, 0, 0,
-             "points shown per mesh cycle; the steps of the solver are exact"),
+             "points shown per mesh cycle; the solver does not depend on them"),
 };
 
 static const uint64_t power_bits =
     FF_BIT(DYNAMICS_POWER_OUTPUT_COUNT) - FF_BIT(DYNAMICS_ATLAS_OUTPUT_COUNT);
 static const uint64_t motion_bits = FF_BIT(DYNAMICS_MOTION_OUTPUT_COUNT) - 1;
 
-/* The accuracy that `cycles_settle: auto` aims at; Newton's method goes on from there. */
+/* Accuracy to which a motion settles with `cycles_settle: auto`; Newton's method starts from
+   there. */
 static const double settle_tolerance = 1e-4;
 
 static ff_status set_branch(model *m)
@@ -129,7 +132,7 @@ static ff_status ready(void *self)
     return status;
 }
 
-/* All that one evaluation works on. */
+/* The data of one evaluation. */
 typedef struct job {
     const model *m;
     uint64_t wanted;
@@ -138,11 +141,11 @@ typedef struct job {
     dynamics_flow flow;
     dynamics_atlas atlas;
     double lambda;
-    int in_loop;  /* whether a film is wired back, in a round after the first */
-    int searched; /* whether `known` is what is known at lambda */
+    int in_loop;  /* whether a film is wired back and this is not the first round */
+    int searched; /* whether `known` has been computed at lambda */
     dynamics_known_motions known;
-    dynamics_film_powers powers; /* of the film that is wired back */
-    dynamics_warm_start to;      /* what the neighbouring case is left */
+    dynamics_film_powers powers; /* powers of the film that is wired back */
+    dynamics_warm_start to;      /* motion for the next case */
 } job;
 
 static ff_status build_atlas(job *j)
@@ -187,7 +190,7 @@ static ff_status find_named(const job *j, dynamics_attractor *a)
                     m->name.period, m->name.number, where, j->inputs.mesh_frequency, names);
 }
 
-/* Searches once, whichever outputs are asked for. */
+/* Searches for the known motions, once for all outputs. */
 static ff_status find_known(job *j)
 {
     const dynamics_atlas *atlas = j->m->knows == KNOWS_ATLAS ? &j->atlas : NULL;
@@ -197,7 +200,8 @@ static ff_status find_known(job *j)
     return dynamics_known_motions_find(&j->flow, j->lambda, atlas, j->m->host, &j->known);
 }
 
-/* The stable motion with the largest rms; where none is known, that of the upper branch is left. */
+/* Chooses the stable motion with the largest rms. If none is known, the motion of the upper branch
+   remains. */
 static ff_status find_largest(job *j, dynamics_attractor *a)
 {
     ff_status status = find_known(j);
@@ -260,8 +264,8 @@ static ff_status output_motion(const job *j, const dynamics_attractor *a)
 static ff_status fail_too_slow(const job *j)
 {
     return ff_failf(j->m->host, FF_NOCONV, "operating.mesh_frequency",
-                    "a mesh frequency of %g Hz is too far below the natural frequency of %g Hz to "
-                    "follow every vibration; take dynamics/quasi-static there",
+                    "a mesh frequency of %g Hz is too far below the natural frequency of %g Hz "
+                    "to follow every vibration; use dynamics/quasi-static there",
                     j->inputs.mesh_frequency, j->inputs.natural_frequency);
 }
 
@@ -276,8 +280,8 @@ static ff_status find_at(const void *ctx, double lambda, dynamics_attractor *a)
     return status;
 }
 
-/* How near, over the speed, a fold makes a motion doubtful: a machine's speed is known no better.
- */
+/* A motion is doubtful if a fold is within this relative distance of its speed: the speed of a
+   machine is not known more accurately. */
 static const double near_fold = 0.005;
 
 static void report_jump(const job *j, const dynamics_jump *jump)
@@ -287,17 +291,18 @@ static void report_jump(const job *j, const dynamics_jump *jump)
     double distance = fabs(expm1(jump->lambda - j->lambda));
     char text[320];
     snprintf(text, sizeof text,
-             jump->beside ? "a fold at %.6g Hz, %.2g %% from the mesh frequency: beside the motion "
-                            "of dte rms %.3g um there is, on one side of it, one of %.3g um"
-             : jump->is_fold ? "a fold at %.6g Hz, %.2g %% from the mesh frequency: the motion of "
-                               "dte rms %.3g um may jump; across the fold there is one of %.3g um"
+             jump->beside    ? "a fold at %.6g Hz, %.2g %% from the mesh frequency: on one side of "
+                               "it, the motion of dte rms %.3g um coexists with one of %.3g um"
+             : jump->is_fold ? "a fold at %.6g Hz, %.2g %% from the mesh frequency: the motion "
+                               "of dte rms %.3g um may jump; beyond the fold there is one of "
+                               "%.3g um"
                              : "at %.6g Hz, %.2g %% from the mesh frequency, the branch is another "
                                "one: dte rms %.3g um here, %.3g um there",
              natural * exp(jump->lambda), 100 * distance, jump->rms * micron, jump->other * micron);
     host->quality(host->ctx, "distance_of_jump", distance, near_fold, FF_DOUBTFUL, text);
 }
 
-/* Looks for folds near the motion, of its own branch and of others. */
+/* Looks for folds near the motion, on its own branch and on others. */
 static ff_status find_jump(const job *j, const dynamics_attractor *motion)
 {
     const model *m = j->m;
@@ -316,8 +321,9 @@ static ff_status find_jump(const job *j, const dynamics_attractor *motion)
     return status;
 }
 
-/* A film that is frozen excites and does not damp, so that far from its speed neither folds nor
-   multipliers are those of motion and film together. */
+/* Warns that the atlas uses frozen films. A frozen film excites the motion but does not damp it.
+   Far from the speed at which it was computed, the folds and multipliers are therefore not those of
+   motion and film together. */
 static void report_frozen_films(const job *j)
 {
     static const double near = 0.02;
@@ -329,11 +335,12 @@ static void report_frozen_films(const job *j)
         fmax(fabs(log(to / j->inputs.mesh_frequency)), fabs(log(from / j->inputs.mesh_frequency)));
     m->host->quality(
         m->host->ctx, "atlas_films", far, near, far <= near ? FF_GOOD : FF_DOUBTFUL,
-        "how far, as a logarithm, the atlas runs from the mesh frequency, at which the "
-        "film that is wired back is frozen: it excites and does not damp there");
+        "largest distance of the atlas from the mesh frequency (natural logarithm of the ratio). "
+        "The film that is wired back was computed at the mesh frequency and is frozen in the "
+        "atlas: it excites the motion but does not damp it");
 }
 
-/* Says where the branch that the speed was led along ended, if it did. */
+/* Reports where the branch ended that was followed to the speed, if it ended. */
 static void report_end(const job *j, const dynamics_attractor *a)
 {
     const model *m = j->m;
@@ -343,14 +350,14 @@ static void report_end(const job *j, const dynamics_attractor *a)
         return;
     snprintf(
         text, sizeof text,
-        "the branch that \"%s\" followed ends at %.8g Hz; the motion is the one that it settled "
-        "to from there",
+        "the branch that \"%s\" followed ends at %.8g Hz; the motion shown is the one to which "
+        "it settled from there",
         m->largest ? "upper" : m->branch_word, end);
     m->host->quality(m->host->ctx, "branch_end", fabs(end / j->inputs.mesh_frequency - 1), 0,
                      FF_GOOD, text);
 }
 
-/* Gives the number of stable motions, and says if the atlas has more than are counted. */
+/* Writes the number of stable motions, and reports if the atlas has more of them. */
 static ff_status put_known(job *j)
 {
     const ff_host *host = j->m->host;
@@ -372,15 +379,16 @@ static ff_status put_known(job *j)
     return FF_OK;
 }
 
-/* Gears that float have no isolated motion: nothing to count, and no branches. */
+/* Gears that float have no isolated motion, so there is nothing to count, and there are no
+   branches. */
 static ff_status put_floating(const job *j)
 {
     const model *m = j->m;
     const dynamics_motion none = {.excitation = &j->excitation, .cycles = 1, .T = 1};
     if ((j->wanted & ~power_bits) >> DYNAMICS_SPEED_OUTPUT_COUNT || m->by_name)
         return ff_failf(m->host, FF_UNSUPPORTED, m->by_name ? "branch" : "operating.line_force",
-                        "without a torque the gears float, and there is no branch of motions: give "
-                        "a torque, or leave the atlas out");
+                        "without a torque the gears float, and there is no branch of motions: "
+                        "give a torque, or do not request the atlas");
     ff_status status = dynamics_motion_put_floating(&j->inputs, &j->excitation, m->host);
     if (status == FF_OK)
         status = dynamics_motion_put_powers(&none, &(dynamics_film_powers){0, 0}, m->host);
@@ -449,7 +457,7 @@ static ff_status evaluate_driving(void *self, uint64_t wanted, const ff_array *i
         status =
             dynamics_film_wire_read(m->host, in, &m->wire, &j.inputs, &j.excitation, &j.powers);
     j.in_loop = dynamics_film_is_wired(in);
-    if (j.in_loop) /* a later round goes on from the one before */
+    if (j.in_loop) /* a later round continues from the previous round */
         m->from = m->to;
     if (status == FF_OK)
         status = evaluate_job(&j);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* dynamics/time-integration: integrates the motion until it repeats itself. */
+/* dynamics/time-integration: integrates the motion until it repeats. */
 #include "../continuation/stable-motions.h"
 #include "../excitation/film-wire.h"
 #include "../excitation/inputs.h"
@@ -24,36 +24,37 @@ typedef struct model {
     dynamics_oil oil;
     dynamics_film_wire wire;
     int64_t cycles_settle, cycles_measured, steps_per_cycle;
-    dynamics_warm_start from, to; /* what the neighbouring case left, and what it is left */
+    dynamics_warm_start from, to; /* motion from the neighbouring case; motion for the next case */
 } model;
 
 static const ff_param params[] = {
     DYNAMICS_DAMPING_RATIO_ROW(model, 1e-3),
     DYNAMICS_DAMPING_ROW(model),
     FF_ONE_OF("lower|upper", "branch", model, branch, 0, "lower",
-              "which of several motions: lower is the one without separation where it is stable, "
-              "or else what comes up slowly from 0.7 times the mesh frequency; upper comes down "
-              "from 1.4 times the natural frequency; where a study follows the speed, it is for "
-              "the first case of a chain"),
+              "which motion is shown if several exist: lower is the one without contact loss "
+              "where it is stable, or else the one that a slow rise of the speed from 0.7 times "
+              "the mesh frequency leads to; upper is the one that a slow fall from 1.4 times the "
+              "natural frequency leads to; in a chain of cases over the speed it applies to the "
+              "first case"),
     DYNAMICS_FORCE_ROW(model),
     DYNAMICS_INERTIA_ROWS(model),
     DYNAMICS_OIL_ROWS(model),
     DYNAMICS_FILM_WIRE_ROWS(model),
     FF_COUNT_OR(
         "auto", "cycles_settle", model, cycles_settle, FF_TUNABLE, "auto", NULL, 1, 1e6, 0, 0,
-        "mesh cycles in which the motion may settle; auto: four times what the damping takes"),
+        "mesh cycles in which the motion may settle; auto: four times what the damping requires"),
     FF_COUNT("cycles_measured", model, cycles_measured, 0, "64", NULL, 1, 1024, 0, 0,
-             "mesh cycles shown when the motion is not periodic"),
+             "mesh cycles shown if the motion is not periodic"),
     FF_COUNT("steps_per_cycle", model, steps_per_cycle, FF_TUNABLE, "512", NULL, 16, 65536, 0, 0,
-             "points shown per mesh cycle; the integrator's steps are its own"),
+             "points shown per mesh cycle; they do not affect the steps of the integrator"),
     FF_QUANTITY("tolerance", "1", model, tolerance, FF_TUNABLE, "1e-9", NULL, 1e-13, 1e-3, 1e-12,
                 1e-6,
-                "error of one integration step over the static deflection; with squeeze the "
-                "steps are those of dynamics/shooting"),
-    FF_QUANTITY(
-        "settle_tolerance", "1", model, settle_tolerance, FF_TUNABLE, "1e-7", NULL, 1e-12, 1e-2,
-        1e-11, 1e-4,
-        "distance to the periodic motion at which it has settled, over the static deflection"),
+                "error of one integration step over the static deflection; with squeeze: series "
+                "the steps are those of dynamics/shooting"),
+    FF_QUANTITY("settle_tolerance", "1", model, settle_tolerance, FF_TUNABLE, "1e-7", NULL, 1e-12,
+                1e-2, 1e-11, 1e-4,
+                "the motion has settled if its distance to the periodic motion, over the static "
+                "deflection, is below this"),
 };
 
 static ff_status ready(void *self)
@@ -80,8 +81,8 @@ static void read_steps(const void *self, double x[2])
     x[1] = y[DYNAMICS_RATE];
 }
 
-/* A motion with oil between parted flanks, by the steps of flow.h: the oil is a state law that the
-   explicit steps of oscillator.h would have to resolve in wide gaps, too, where it is stiff. */
+/* A motion with oil between separated flanks, integrated with the steps of flow.h. In wide gaps the
+   film equation is stiff, and the explicit steps of oscillator.h would have to resolve it. */
 typedef struct oil_motion {
     dynamics_flow flow;
     dynamics_state y;
@@ -107,8 +108,9 @@ static void read_in_oil(const void *self, double x[2])
     x[1] = o->y.rate;
 }
 
-/* How far the end of the period moves when the steps are halved and the tolerance is a hundredth,
-   divided by 1 - |mu|: the fixed point of a map that contracts by mu moves by that much. */
+/* Estimates the error of the steps. It is the change of the state at the end of the period when the
+   steps are halved and the tolerance is divided by 100, over 1 - |mu|: the fixed point of a map
+   that contracts by mu moves by that amount. */
 static ff_status step_error(const model *m, const dynamics_excitation *excitation,
                             const dynamics_motion *motion, const dynamics_settled *settled,
                             double largest, double *error)
@@ -144,12 +146,12 @@ static void report(const model *m, const dynamics_settled *settled, const dynami
     else
         dynamics_periodicity_line(
             settled, m->settle_tolerance,
-            m->zeta > 0 ? "the motion does not repeat itself within 8 mesh cycles: aperiodic, "
-                          "or it needs more cycles_settle"
-                        : "without damping the motion never settles; what is shown depends on "
+            m->zeta > 0 ? "the motion does not repeat within 8 mesh cycles: it is aperiodic, or "
+                          "it needs more cycles_settle"
+                        : "without damping the motion never settles; the motion shown depends on "
                           "its start",
             host);
-    /* a step is about half a radian, and at worst the errors of all steps add up */
+    /* a step is about half a radian long, and at worst the errors of all steps add up */
     double limit = m->tolerance * fmax(1000, 2 * (double)motion->cycles * motion->T);
     host->quality(host->ctx, "settled_cycles", (double)settled->cycles, (double)settled->limit,
                   FF_GOOD, NULL);
@@ -162,25 +164,25 @@ static void report(const model *m, const dynamics_settled *settled, const dynami
         return;
     if (settled->period > 1)
         host->quality(host->ctx, "coexistence", settled->period, 1, FF_DOUBTFUL,
-                      "a motion of several mesh cycles is seldom the only one at its speed, and "
-                      "round-off may decide which is reached; dynamics/shooting lists them");
+                      "a motion of several mesh cycles is rarely the only one at its speed, and "
+                      "round-off may decide which one is found; dynamics/shooting lists them all");
     host->quality(host->ctx, "stability", largest, 1, largest < 1 ? FF_GOOD : FF_DOUBTFUL,
                   largest < 1 ? NULL : "a disturbance of this motion does not die out");
     if (!motion->excitation->film)
         host->quality(host->ctx, "state_error", error, 1e-5, error <= 1e-5 ? FF_GOOD : FF_DOUBTFUL,
-                      "error of the steps, over the static deflection");
+                      "error due to the integration steps, over the static deflection");
 }
 
 static ff_status fail_too_many_steps(const ff_host *host, const dynamics_inputs *inputs)
 {
     return ff_failf(host, FF_NOCONV, "operating.mesh_frequency",
-                    "a mesh frequency of %g Hz and a natural frequency of %g Hz take more than 20 "
-                    "million steps, or a step in the oil has no solution; give fewer "
-                    "cycles_settle, or take dynamics/quasi-static far below resonance",
+                    "a mesh frequency of %g Hz and a natural frequency of %g Hz take more than "
+                    "20 million steps, or a step in the oil has no solution; give fewer "
+                    "cycles_settle, or use dynamics/quasi-static far below resonance",
                     inputs->mesh_frequency, inputs->natural_frequency);
 }
 
-/* oil: the settled motion; NULL: there is no oil between parted flanks. */
+/* `oil` is the settled motion; NULL: there is no oil between separated flanks. */
 static ff_status output_motion(const model *m, const dynamics_excitation *excitation,
                                const dynamics_inputs *inputs, double T,
                                const dynamics_settled *settled, const oil_motion *oil)
@@ -210,12 +212,12 @@ static ff_status output_motion(const model *m, const dynamics_excitation *excita
     return status;
 }
 
-/* All that one evaluation works on. */
+/* The data of one evaluation. */
 typedef struct job {
     model *m;
     dynamics_inputs inputs;
     dynamics_excitation excitation;
-    dynamics_film *film; /* with the motion in oil; NULL: an oscillator takes its place */
+    dynamics_film *film; /* film of a motion in oil; NULL: the oscillator without oil is used */
     oil_motion oil;
     dynamics_oscillator *steps;
 } job;
@@ -288,7 +290,7 @@ static ff_status evaluate_driving(void *self, uint64_t wanted, const ff_array *i
     if (status == FF_OK)
         status = dynamics_film_wire_read(m->host, in, &m->wire, &j.inputs, &j.excitation, &powers);
     if (status == FF_OK &&
-        dynamics_film_is_wired(in)) /* a later round goes on from the one before */
+        dynamics_film_is_wired(in)) /* a later round continues from the previous round */
         m->from = m->to;
     if (status == FF_OK)
         status = evaluate_job(&j, wanted);
@@ -316,7 +318,7 @@ static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *t
 FF_MODEL(
     dynamics_time_integration, model, .id = "dynamics/time-integration", .version = "1.0.0",
     .summary =
-        "non-linear dynamics of the gear pair with backlash, integrated until it repeats itself",
+        "non-linear dynamics of the gear pair with backlash, integrated until the motion repeats",
     .reference = "Li & Kahraman 2011, Influence of dynamic behaviour on elastohydrodynamic "
                  "lubrication of spur gears, Proc. IMechE J 225, 740-753, eqs 2-5",
     .bibtex = BIB_likahraman2011 "\n", .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
