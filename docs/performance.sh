@@ -52,11 +52,11 @@ def move(a, b):
 
 print("""# What a film costs
 
-Made by `sh docs/performance.sh build`. Instructions are callgrind's and bind; times of shared machines do not. The film of the
-benchmark (`build/tests/bench/bench-ehl CELLS STEPS`, a smooth tooth, Doolittle-Tait and Eyring, with its start). Beside them what its
-counts need at least: additions and multiplications (10 n log2 2n of a convolution of n cells, 52 n of the band with each convolution
-and Newton step, 62 n of a Krylov vector, 254 n of an evaluation of laws and balances), and the factors of the band, 28 numbers a
-cell, which each of its solutions reads once.
+Made by `sh docs/performance.sh build`. The instructions are counted by callgrind, since times on shared machines are not reproducible. The
+benchmark (`build/tests/bench/bench-ehl CELLS STEPS`) is the film of a smooth tooth with Doolittle-Tait and Eyring, including its start. The table also has
+the minimum work for its counts with n cells: floating-point operations (10 n log2 2n for a convolution, 52 n for the band matrix in each convolution
+and Newton step, 62 n for a Krylov vector, 254 n for an evaluation of laws and balances) and memory traffic for the band factors (28 numbers per
+cell, read once in each solution).
 
 | cells | steps | instructions, 1e9 | instructions a cell and step | flops a cell and step | flops an instruction | band read in a step, MB |
 |---|---|---|---|---|---|---|""")
@@ -67,8 +67,8 @@ for line in open(counted):
     print("| %.0f | %.0f | %.3f | %.0f | %.0f | %.2f | %.2f |" % (
         cells, steps, giga, each, flops, flops / each, 28 * 8 * cells * (convolutions + newton) / 1e6))
 print("""
-0.426e9 of the film on 256 cells measure its errors on finer ones (`ehl_results_measure`). What the lines of its quality cost
-besides: `docs/lines.sh`, a row of [campaigns.md](campaigns.md).
+With 256 cells, 0.426e9 instructions measure the errors on finer cells (`ehl_results_measure`). `docs/lines.sh` measures the cost of the other quality lines;
+its result is a row of [campaigns.md](campaigns.md).
 
 | film | instructions |
 |---|---|
@@ -78,7 +78,7 @@ besides: `docs/lines.sh`, a row of [campaigns.md](campaigns.md).
 
 ## The film of a vibrating gear pair
 
-The dynamic tooth of the seed's configuration, whose load vibrates, errors not wanted:
+The dynamic tooth of Li & Kahraman's pair with its vibrating load, without errors:
 `valgrind --tool=callgrind --trace-children=yes build/flankfilm run configs/li-kahraman-2011.yaml --set mesh.use=stiffness/iso-6336
 --set film.cells=512 --set "outputs=[film.h_min]"`, `ehl_evaluate`; counts by `"outputs=[film.h_min,film.newton_steps,film.convolutions]"`.
 
@@ -86,12 +86,13 @@ The dynamic tooth of the seed's configuration, whose load vibrates, errors not w
 |---|---|---|---|---|
 | 512 | 1000 | 1.16 | 3.56 | 0.599 |
 
-Beside the same equations solved to 1e-9 `h_min` is within 7.9e-5 everywhere, `p_max` within 3.1e-5.
+Compared with the same equations solved to 1e-9, `h_min` differs by at most 7.9e-5 and `p_max` by at most 3.1e-5.
 
 ## What the presets leave
 
-The film of the paper's point I at 1000 steps, on its presets and with `tolerance: 1e-9`, which is the solution of the same
-equations on the same grid. Largest relative change of `h_min` and `p_max` at any instant, beside the error that the run states for its cells.
+The film of the paper's point I at 1000 steps, with its presets and with `tolerance: 1e-9`, which solves the same
+equations on the same grid exactly. The table has the largest relative change of `h_min` and `p_max` at any instant, and the error that the run reports for its
+cells.
 
 | cells | Newton steps | convolutions | with 1e-9 | h_min moves by | p_max moves by | stated error by the cells |
 |---|---|---|---|---|---|---|""")
@@ -104,8 +105,8 @@ for cells in (128, 256, 512, 1024, 2048):
 print("""
 ## A tenth of a per cent
 
-The same film with steps as many as its cells ask for, against 4096 cells and 8000 steps at 251 instants: the largest error of `h_min(t)` and of `h_central(t)`
-along the path, what Richardson's extrapolation from two levels leaves of it (second order), and what the run states for cells and steps together.
+The same film with steps matched to its cells, against 4096 cells and 8000 steps at 251 instants: the largest error of `h_min(t)` and of `h_central(t)`
+along the path, the error after Richardson extrapolation from two levels (second order), and the error that the run reports for cells and steps.
 
 | cells | steps | h_min | extrapolated | h_central | extrapolated | stated for h_min |
 |---|---|---|---|---|---|---|""")
@@ -121,8 +122,8 @@ for (_, coarse, _), (cells, fine, stated) in zip(levels, levels[1:-1]):
         row += [move(fine[name], exact), move([f + (f - c) / 3 for f, c in zip(fine[name], coarse[name])], exact)]
     print("| %d | %d | %.3f %% | %.3f %% | %.3f %% | %.3f %% | %.2f %% |" % ((cells, cells * 1000 // 512) + tuple(100 * x for x in row + [stated])))
 print("""
-1024 cells and 2000 steps are within 0.1 % everywhere; extrapolated, 512 and 256 cells are not. On random scenes `h_min` is hardly ever in the range where its
-order can be trusted ([error bars](validation/error-bars.md#extrapolated-answers)), so that answers are not extrapolated.
+1024 cells and 2000 steps reach 0.1 % everywhere; the extrapolation of 512 and 256 cells does not. On random scenes `h_min` hardly ever has a reliable
+order of convergence ([error bars](validation/error-bars.md#extrapolated-answers)), so answers are not extrapolated.
 
 ## Rough flanks
 
@@ -134,31 +135,26 @@ for line in open(rough):
     cells, newton, convolutions, giga = line.split()
     print("| %s | %s | %s | %.1f |" % (cells, newton, convolutions, float(giga)))
 print("""
-At 512 cells it is 20.4, 53.2 and 11.9. Waves that the cells do not resolve are taken off since then (`roughness_cutoff`), which left 32.3 Newton
-steps and 90.8 convolutions of 40.4 and 112 (28.5e6 instructions); steps as long as the share of the asperities allows left
-22.4 and 62.0 (14.3e6), `tolerance: auto` of 1e-4 in place of 1e-5 and leaner loops the rest; no law is asked again where
-only the state of a node has turned. At d11ebff9 the asperities carried 0.034 of the load at 512 cells and half as much
-at 1024; with one cut-off the share moves by 6 % from 512 to 1024 ([mixed](validation/mixed.md)).
+With 512 cells, the numbers are 20.4, 53.2 and 11.9; with a fixed cut-off, the asperity share changes by 6 % from 512 to 1024 cells
+([mixed](validation/mixed.md)). With all waves of the flanks, 512 cells took 40.4 Newton steps, 112 convolutions and 28.5e6 instructions.
+The cut-off (`roughness_cutoff`) reduced that to 32.3 and 90.8, and time steps as long as the asperity share allows to 22.4 and 62.0
+(14.3e6). `tolerance: auto` of 1e-4 instead of 1e-5 and shorter loops gave the rest.
 
-What did not help, on flanks with all of their waves: extrapolated by parabolas instead of lines, the
-first step was as large. Of the first 400 output steps, 52.5 Newton steps each, were left 52.5 by contacts predicted from the extrapolated gap, 52.1 with nodes
-without pressure predicted as well (137 convolutions for 126), 52.1 and 54.2 where p may fall to 0 or to 0.8 of itself (0.5 is kept), 61.7 and 67.2
-with half and without the extrapolation, 57.1 (150 convolutions) where a step is solved so far that what it leaves is predicted to be
-small and no node turns after it, which then needs no further step. Newton steps that may change p by 0.3 of the Hertz pressure in place of 0.1: 4 % more of
-them. With one cut-off the work still grows as the cells to some 1.7: from 512 to 2048 cells the steps grow by 1.2, the Newton
-steps of one from 3.0 to 5.1, as more nodes turn between film, cavity and contact, and the convolutions of a Newton step from 3.3 to 4.2.
-Factors take 18 % of the instructions, so that keeping them gains less than that.
+With a fixed cut-off, the work grows with the cells to the power of some 1.7. From 512 to 2048 cells the number of steps grows by 1.2, the Newton
+steps in each from 3.0 to 5.1, since more nodes change between film, cavity and contact, and the convolutions in a Newton step from 3.3 to 4.2.
+The factorisation takes 18 % of the instructions.
 
-Held once step by step against the solver of 441d7a7, both in one program that is not kept, with `tolerance: 1e-8`, each from the same film (256 cells, 6920 steps): p is within
-1e-5 of the largest Hertz pressure but for 2, at most 1.8e-5, and 9 have another set of full nodes or contacts, each by nodes whose oil is within
-0.3 % of filling the gap. That solver with its own 1e-5: 12, at most 7.4e-5, and 22.
+These attempts did not reduce the 52.5 Newton steps of each of the first 400 output steps (flanks with all waves): contacts predicted from the extrapolated
+gap (52.5); predicted nodes without pressure as well (52.1, and 137 convolutions instead of 126); p may fall to 0 or to 0.8 of itself in a step instead of 0.5
+(52.1, 54.2); half or no extrapolation (61.7, 67.2); a parabola instead of a line (same first step); a more exact solution that needs no further
+step if no node changes (57.1, and 150 convolutions); changes of p up to 0.3 instead of 0.1 of the Hertz pressure (4 % more).
 
 ## Against the release before
 
-The smooth film of 256 cells, 1000 steps, 1500 rpm with `tolerance: 1e-9`: `h_min` and `p_max` differ from those of c93fe0c by
-5.4e-10 at most, with either `cavitation`, from those of 441d7a7 by 1.6e-10.
+For the smooth film with 256 cells, 1000 steps, 1500 rpm and `tolerance: 1e-9`, `h_min` and `p_max` differ from those of c93fe0c by
+at most 5.4e-10, with either `cavitation`, and from those of 441d7a7 by 1.6e-10.
 
-## Against the slow twin
+## Against a dense solver
 
 `ehl/dense-newton` solves the same equations by dense factorisation; both with `tolerance: 1e-9`, 256 cells.
 """)
