@@ -18,7 +18,7 @@ cat >"$page" <<PAGE
 Maps of \`configs/studies/stability-*.yaml\` in full, by \`docs/stability.sh\` on $(date -u +%Y-%m-%d), flankfilm
 $("$program" --version | sed 's/flankfilm //'), $(uname -m). What the verdicts mean, and how to draw such a map for a
 pipeline of your own, stands in the [guide](guide/accuracy.md#where-can-it-be-trusted). A *silent* cell is one
-whose lines of quality all hold while the refined case differs by more than three times the estimate
+whose lines of quality all hold while the finer twin differs by more than three times the estimate
 that is printed. Halved distances between cells of the grid count, too. A case may take $limit, more than the files say,
 so that none fails for other work on the machine. Figures show the maps; below each stands what decides where.
 

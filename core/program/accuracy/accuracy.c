@@ -21,6 +21,8 @@ bool accuracy_run(accuracy_record *record, ff_run *run, ff_engine *engine, const
         accuracy_want_beside(pipeline, true);
         good = run_start(run, watch) && accuracy_measure(record, run, engine, watch, NULL);
     }
+    if (good && accuracy_has_check(run))
+        good = accuracy_check_twin(record, run, engine, watch);
     if (good)
         accuracy_tell(record, record->answer);
     return good;

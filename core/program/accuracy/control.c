@@ -8,6 +8,7 @@
 #include "choice.h"
 #include "estimate.h"
 #include "goals.h"
+#include "lines.h"
 #include "models.h"
 #include "open.h"
 #include "settings.h"
@@ -16,6 +17,7 @@
 #include "../run/run.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -52,6 +54,7 @@ typedef struct control {
     size_t attempts, twins;
     double seconds; /* CPU time of all runs, s */
     const char *failure;
+    char *now; /* as in the record */
     memory_arena arena;
 } control;
 
@@ -86,6 +89,43 @@ static double goal_of(const control *c, const accuracy_error *e)
     return e->goal * goal_share(c);
 }
 
+static bool is_missed(const control *c, const accuracy_error *e)
+{
+    return !isnan(e->goal) && !(e->reached <= goal_of(c, e));
+}
+
+static size_t count_kept(const control *c, const attempt *a)
+{
+    size_t kept = 0;
+    for (size_t i = 0; a->run.good && i < a->record.count; i++)
+        kept += !isnan(a->record.errors[i].goal) && !is_missed(c, &a->record.errors[i]);
+    return kept;
+}
+
+/* Says which attempt begins, what the one before has reached, and what is missing most. */
+static void tell_attempt(const control *c)
+{
+    const accuracy_error *worst = NULL;
+    size_t goals = 0;
+    if (!c->now)
+        return;
+    snprintf(c->now, ACCURACY_NOW, "attempt %zu, by the presets", c->attempts + 1);
+    for (size_t i = 0; c->best && c->best->run.good && i < c->best->record.count; i++) {
+        const accuracy_error *e = &c->best->record.errors[i];
+        goals += isnan(e->goal) ? 0 : 1;
+        if (is_missed(c, e) && (!worst || e->reached / e->goal > worst->reached / worst->goal))
+            worst = e;
+    }
+    if (!worst)
+        return;
+    char *reached = accuracy_print_reached(worst), *goal = accuracy_print_goal(worst);
+    snprintf(c->now, ACCURACY_NOW, "attempt %zu: %zu of %zu as asked, %.40s has %s for %s",
+             c->attempts + 1, count_kept(c, c->best), goals, worst->result->row->name, reached,
+             goal);
+    free(goal);
+    free(reached);
+}
+
 /* Measures an attempt's errors; earlier attempts and their twins are reused. */
 static void measure(control *c, attempt *a)
 {
@@ -100,6 +140,8 @@ static void measure(control *c, attempt *a)
             runs[known.count++] = c->kept[i].record.own[k];
     }
     a->record.choice = c->choice;
+    a->record.now = c->now;
+    a->record.attempts = c->attempts + 1;
     a->run.stopped =
         !accuracy_measure(&a->record, a->run.run, c->scene.engine, c->scene.watch, &known);
     c->twins += a->record.twins;
@@ -116,6 +158,7 @@ static void try_settings(control *c, attempt *next)
     c->scene.donor = c->best && c->best->run.good ? c->best->run.pipeline : NULL;
     for (size_t i = 0; i < c->open.count; i++)
         changed[c->open.knobs[i].stage - c->asked->stages] = true;
+    tell_attempt(c);
     accuracy_twin_run(&next->run, &c->scene, sets, count, &place, changed);
     accuracy_open_leave_idle(&c->open, next->run.report, place);
     next->at = c->open.at;
@@ -132,11 +175,6 @@ static void attempt_free(attempt *a)
     a->record.choice = NULL; /* shared by all attempts */
     accuracy_free(&a->record);
     accuracy_twin_free(&a->run);
-}
-
-static bool is_missed(const control *c, const accuracy_error *e)
-{
-    return !isnan(e->goal) && !(e->reached <= goal_of(c, e));
 }
 
 /* Order at which an error falls; 0 if it grows. */
@@ -243,14 +281,6 @@ static bool try_next(control *c)
     return false;
 }
 
-static size_t count_kept(const control *c, const attempt *a)
-{
-    size_t kept = 0;
-    for (size_t i = 0; a->run.good && i < a->record.count; i++)
-        kept += !isnan(a->record.errors[i].goal) && !is_missed(c, &a->record.errors[i]);
-    return kept;
-}
-
 /* Moves the best attempt to the end: the one that meets most goals, and the latest among equals.
    Finer settings for one output can reveal a larger error in another, so the best is not always the
    last. */
@@ -319,8 +349,10 @@ static void list_spent(const control *c, accuracy_record *record)
 static void adopt(control *c, accuracy_record *record)
 {
     ff_pipeline *asked = record->answer;
+    char *now = record->now;
     accuracy_open_move(&c->open, c->best->at);
     *record = c->best->record;
+    record->now = now;
     list_spent(c, record);
     record->twin = memory_alloc(sizeof *record->twin);
     *record->twin = c->best->run;
@@ -354,7 +386,8 @@ bool accuracy_control(accuracy_record *record, const ff_run *run, ff_engine *eng
 {
     ff_pipeline *pipeline = ff_run_pipeline(run);
     control c = {.scene = {.file = run, .engine = engine, .start = pipeline, .watch = watch},
-                 .asked = pipeline};
+                 .asked = pipeline,
+                 .now = record->now};
     accuracy_open_list(&c.open, pipeline);
     bool finished = search(&c);
     if (finished) {

@@ -16,6 +16,8 @@ static const ff_param row = {.name = "accuracy",
                              .max = 100,
                              .choices = "measured"};
 
+static const char all_key[] = "all", check_key[] = "check", by_twins[] = "twins";
+
 static const ff_node *node_of(const ff_run *run)
 {
     const ff_node *node = ff_node_get(ff_run_root(run), row.name);
@@ -33,10 +35,17 @@ bool accuracy_is_asked(const ff_run *run)
     return node_of(run) != NULL;
 }
 
+bool accuracy_has_check(const ff_run *run)
+{
+    const ff_node *node = node_of(run);
+    return node && node->kind == FF_MAP && ff_node_get(node, check_key);
+}
+
 bool accuracy_has_goals(const ff_run *run)
 {
     const ff_node *node = node_of(run);
-    return node && !is_measured(node);
+    const size_t others = accuracy_has_check(run) ? 1 : 0;
+    return node && !is_measured(node) && (node->kind != FF_MAP || node->count > others);
 }
 
 ff_place accuracy_place(const ff_run *run)
@@ -86,8 +95,9 @@ double accuracy_goal(const ff_run *run, const ff_stage *stage, const ff_result *
     const ff_port *of = NULL;
     if (node && node->kind == FF_MAP) {
         char *path = memory_print_text("%s.%s", stage->name, result->row->name);
-        node = ff_node_get(node, path);
-        of = result->row;
+        const ff_node *own = ff_node_get(node, path);
+        node = own ? own : ff_node_get(node, all_key);
+        of = own ? result->row : NULL;
         free(path);
     }
     ff_report *unused = ff_report_new();
@@ -170,6 +180,13 @@ static bool check_name(const ff_node *map, size_t item, char *const *names, size
     return false;
 }
 
+static void check_word(const ff_node *node, ff_report *report)
+{
+    if (node->kind != FF_SCALAR || strcmp(node->text, by_twins) != 0)
+        ff_error(report, FF_FAULT_INPUT, node->place, "write check: twins",
+                 "accuracy.check: only \"twins\" can be said here");
+}
+
 /* The output's row; it exists. */
 static const ff_port *port_of(const ff_pipeline *pipeline, const char *path)
 {
@@ -191,7 +208,11 @@ bool accuracy_check(ff_run *run)
     if (node->kind != FF_MAP)
         read_goal(node, NULL, row.name, report);
     for (size_t i = 0; node->kind == FF_MAP && i < node->count; i++)
-        if (check_name(node, i, names, count, report))
+        if (!strcmp(node->keys[i], all_key))
+            read_goal(node->items[i], NULL, all_key, report);
+        else if (!strcmp(node->keys[i], check_key))
+            check_word(node->items[i], report);
+        else if (check_name(node, i, names, count, report))
             read_goal(node->items[i], port_of(pipeline, node->keys[i]), node->keys[i], report);
     if (count == 0 && ff_report_errors(report) == errors)
         ff_warn(report, node->place,

@@ -2,6 +2,8 @@
 /*
  * The errors that a file asks for: `accuracy: measured`, one goal for all outputs as in `accuracy:
  * 2 %`, or one goal each as in `accuracy: {film.h_min: 2 %, scuffing.flash_temperature: 0.5 K}`.
+ * Two keys are no outputs: `all: 2 %` is the goal of the others, `check: twins` has the answer
+ * checked.
  */
 #ifndef ACCURACY_GOALS_H
 #define ACCURACY_GOALS_H
@@ -10,6 +12,8 @@
 
 /* True if the file asks for errors. */
 bool accuracy_is_asked(const ff_run *run);
+/* True if the file says `check: twins`: the answer is held against a finer twin. */
+bool accuracy_has_check(const ff_run *run);
 /* True if the file states a goal. */
 bool accuracy_has_goals(const ff_run *run);
 /* True if a scalar or a series is asked for; the errors of other outputs cannot be measured. */

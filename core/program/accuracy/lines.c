@@ -170,9 +170,14 @@ static char *print_error(const accuracy_error *e, double error, int digits)
                        : memory_print_text("%.*g %%", digits, 100 * error);
 }
 
+char *accuracy_print_error(const accuracy_error *of, double error)
+{
+    return isnan(error) ? memory_print_text("not known") : print_error(of, error, 2);
+}
+
 char *accuracy_print_reached(const accuracy_error *e)
 {
-    return e->bar ? print_error(e, e->reached, 2) : memory_print_text("not known");
+    return accuracy_print_error(e, e->bar ? e->reached : (double)NAN);
 }
 
 char *accuracy_print_goal(const accuracy_error *e)
@@ -180,14 +185,16 @@ char *accuracy_print_goal(const accuracy_error *e)
     return isnan(e->goal) ? memory_print_text("%s", "") : print_error(e, e->goal, 3);
 }
 
-static void add_line(const accuracy_error *e, ff_stage *stage)
+static void add_line(const accuracy_error *e, bool checked, ff_stage *stage)
 {
     double limit = isnan(e->goal) ? doubtful_above : e->goal;
+    const bool held = !checked || e->apart <= e->reached;
     char *name = memory_print_text("%s_error", e->result->row->name);
     char *error = accuracy_print_reached(e), *rest = accuracy_describe(e);
-    char *text = memory_print_text("measured: %s%s%s", error, *rest ? "; " : "", rest);
-    ff_add_quality(stage, name, e->reached, limit, e->reached <= limit ? FF_GOOD : FF_DOUBTFUL,
-                   text);
+    char *text = memory_print_text("measured: %s%s%s%s", error, *rest ? "; " : "", rest,
+                                   held ? "" : "; a finer twin is farther away");
+    ff_add_quality(stage, name, e->reached, limit,
+                   held && e->reached <= limit ? FF_GOOD : FF_DOUBTFUL, text);
     free(text);
     free(rest);
     free(error);
@@ -198,5 +205,6 @@ void accuracy_tell(const accuracy_record *record, const ff_pipeline *answer)
 {
     drop_estimates(record, answer);
     for (size_t i = 0; i < record->count; i++)
-        add_line(&record->errors[i], &answer->stages[record->errors[i].stage - answer->stages]);
+        add_line(&record->errors[i], record->checked,
+                 &answer->stages[record->errors[i].stage - answer->stages]);
 }

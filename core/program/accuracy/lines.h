@@ -12,6 +12,8 @@ void accuracy_tell(const accuracy_record *record, const ff_pipeline *answer);
 /* Prints "0.54 %", as the goal does "0.31 K", or "not known" if no twin can tell the error; to be
    freed. */
 char *accuracy_print_reached(const accuracy_error *error);
+/* Prints an error as the goal is stated, "0.54 %" or "0.31 K"; to be freed. */
+char *accuracy_print_error(const accuracy_error *of, double error);
 /* Prints the goal; "" if there is none; to be freed. */
 char *accuracy_print_goal(const accuracy_error *error);
 /* Prints "at few points up to 3 %; film.cells 0.3 %, tooth.points 0.1 %; order 2.1", or the parts

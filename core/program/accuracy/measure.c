@@ -271,6 +271,40 @@ bool accuracy_measure(accuracy_record *record, const ff_run *run, ff_engine *eng
     return !t.stopped;
 }
 
+/* Difference of the answer and the twin, stated as the goal is; NaN if they cannot be compared. */
+static double difference(const accuracy_twins *t, const accuracy_error *e,
+                         const accuracy_twin *twin)
+{
+    const double *numbers = numbers_of_twin(t, e, twin);
+    const ff_result *result = e->result, *along = accuracy_axis_of(t->answer, e->stage, result);
+    const accuracy_series answer = {result->rank, result->count, along ? along->data : NULL,
+                                    result->data, e->zero,       e->absolute};
+    double *off = take(t, result->count, sizeof *off), largest;
+    if (!numbers)
+        return NAN;
+    for (size_t i = 0; i < result->count; i++)
+        off[i] = fabs(numbers[i] - result->data[i]);
+    return accuracy_relative(off, &answer, &largest);
+}
+
+bool accuracy_check_twin(accuracy_record *record, const ff_run *run, ff_engine *engine,
+                         const ff_observer *watch)
+{
+    const ff_run *file = record->twin ? record->twin->run : run;
+    accuracy_twins t = {
+        .record = record,
+        .answer = record->answer,
+        .scene = {.file = file, .engine = engine, .start = record->answer, .watch = watch}};
+    accuracy_twin finer = {.good = false};
+    accuracy_twins_run_finer(&t, &finer);
+    record->checked = finer.good;
+    for (size_t i = 0; finer.good && i < record->count; i++)
+        record->errors[i].apart = difference(&t, &record->errors[i], &finer);
+    const bool stopped = finer.stopped;
+    accuracy_twin_free(&finer);
+    return !stopped;
+}
+
 void accuracy_free(accuracy_record *record)
 {
     for (size_t i = 0; i < record->own_count; i++) {

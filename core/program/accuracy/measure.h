@@ -28,6 +28,9 @@ typedef struct accuracy_known {
     double share; /* of a goal that an error must meet: else a second twin tells it better */
 } accuracy_known;
 
+/* Room for what is being run, in words for a progress line. */
+enum { ACCURACY_NOW = 100 };
+
 /* Most twins of one answer. */
 enum { ACCURACY_OWN = 3 };
 
@@ -44,6 +47,7 @@ typedef struct accuracy_error {
                              is not known */
     double largest;       /* largest along a series, relative to the number there */
     double order;         /* observed order; NaN if none was seen */
+    double apart;         /* difference from a finer twin, as `reached`, if the record is checked */
     bool by_stage;        /* the stage's own estimate, which is larger than what the twins show */
     accuracy_part *parts; /* largest first; empty if no twin separates them */
     size_t part_count;
@@ -79,7 +83,9 @@ typedef struct accuracy_record {
     struct accuracy_twin *own[ACCURACY_OWN]; /* twins that were run for it */
     size_t own_count;
     struct accuracy_choice
-        *choice; /* Choice of models, whose errors count with the rest; NULL if none was made. */
+        *choice;  /* Choice of models, whose errors count with the rest; NULL if none was made. */
+    bool checked; /* a finer twin was run, and `apart` is known */
+    char *now;    /* given: receives what is being run, ACCURACY_NOW characters at most; or NULL */
     memory_arena arena;
 } accuracy_record;
 
@@ -90,6 +96,13 @@ typedef struct accuracy_record {
  */
 bool accuracy_measure(accuracy_record *record, const ff_run *run, ff_engine *engine,
                       const ff_observer *watch, const accuracy_known *known);
+/*
+ * Holds the answer of a measured record against a twin whose settings are all a level finer, as
+ * `accuracy: {check: twins}` asks. If it fails, the record says why. Returns false if the observer
+ * stopped it.
+ */
+bool accuracy_check_twin(accuracy_record *record, const ff_run *run, ff_engine *engine,
+                         const ff_observer *watch);
 void accuracy_free(accuracy_record *record);
 
 /* NULL if the output's error was not measured. */

@@ -18,7 +18,7 @@ const char *accuracy_setting_at(const ff_stage *stage, size_t param, double leve
     const ff_param *row = bound->row;
     char *text = NULL;
     if (row->type == FF_INT) {
-        double count = floor((double)bound->value.integer * exp2(-levels));
+        double count = floor((double)bound->value.integer * exp2(-levels) + 1e-6);
         if (count >= 1 && count < 1e15 && is_allowed(row, count))
             text = memory_print_text("%s.%s=%.0f", stage->name, row->name, count);
     } else {

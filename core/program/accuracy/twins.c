@@ -9,6 +9,7 @@
 #include "twins.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -75,6 +76,10 @@ static void run_twin(accuracy_twins *t, int at, size_t finer, accuracy_twin *twi
 {
     const char **sets = memory_alloc((t->count + 1) * sizeof *sets);
     bool *changed = memory_alloc((t->answer->count + 1) * sizeof *changed);
+    if (t->record->now)
+        snprintf(t->record->now, ACCURACY_NOW, "%s errors of attempt %zu",
+                 at < 0 ? "a finer twin tells the" : "a coarser twin tells the",
+                 t->record->attempts);
     t->scene.donor = finer == SIZE_MAX ? t->answer : t->quarter->pipeline;
     if (list_sets(t, at, finer, sets, changed)) {
         accuracy_twin_run(twin, &t->scene, sets, t->count, NULL, changed);
@@ -154,6 +159,12 @@ bool accuracy_twins_find(accuracy_twins *t)
     if (!t->half || (!t->known && !t->quarter))
         t->twice = find_twin(t, twice);
     return t->half || t->twice;
+}
+
+void accuracy_twins_run_finer(accuracy_twins *t, accuracy_twin *twin)
+{
+    list_knobs(t);
+    run_twin(t, twice, SIZE_MAX, twin);
 }
 
 void accuracy_twins_free(accuracy_twins *t)

@@ -33,6 +33,9 @@ typedef struct accuracy_twins {
  * record. If `known` is not NULL, the first call finds one twin and the second call another. False
  * if there are no more. */
 bool accuracy_twins_find(accuracy_twins *twins);
+/* Runs a twin whose settings are all a level finer. The first two members are given; the outputs
+   are those of the answer. */
+void accuracy_twins_run_finer(accuracy_twins *twins, accuracy_twin *twin);
 void accuracy_twins_free(accuracy_twins *twins);
 
 #endif

@@ -4,6 +4,7 @@
 #ifndef CLI_PROGRESS_H
 #define CLI_PROGRESS_H
 
+#include "../accuracy/measure.h"
 #include "../results/json.h"
 
 typedef struct cli_progress {
@@ -11,6 +12,7 @@ typedef struct cli_progress {
     ff_report *report;
     json_t *log; /* [{stage, level, text}]; the caller frees it */
     bool terminal;
+    char now[ACCURACY_NOW]; /* what is being run, if a run makes several; "" */
     const ff_stage
         *stage; /* has been running since `started`; its line was drawn last at `drawn` */
     double started, drawn; /* s; 0: no line is on the terminal */

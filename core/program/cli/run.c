@@ -101,7 +101,7 @@ static int run_session(cli_session *session, const cli_options *options, const r
 {
     cli_progress progress;
     cli_progress_begin(&progress, session->report);
-    accuracy_record errors = {.answer = session->pipeline};
+    accuracy_record errors = {.answer = session->pipeline, .now = progress.now};
     accuracy_want_points(session->pipeline);
     bool good =
         accuracy_is_asked(session->run)

@@ -296,6 +296,12 @@ static void print_error_row(const paper *page, const accuracy_error *e, int widt
         column += (int)strlen("not reached") + printf("%s", *rest ? "; " : "");
     }
     terminal_print_wrapped(rest, column, start);
+    if (page->errors->checked) {
+        char *apart = accuracy_print_error(e, e->apart);
+        printf("%*s%s from a twin a level finer%s\n", start, "", apart,
+               e->apart <= e->reached ? "" : ": more than the error told");
+        free(apart);
+    }
     free(goal);
     free(name);
     free(rest);

@@ -83,7 +83,7 @@ static json_t *name_file(const ff_stage *stage, const ff_result *result, const c
 }
 
 /* The numerical error: its bar has the form of the output. */
-static json_t *describe_error(const accuracy_error *e, results_arrays arrays)
+static json_t *describe_error(const accuracy_error *e, bool checked, results_arrays arrays)
 {
     json_t *parts = json_object();
     for (size_t i = 0; i < e->part_count; i++) {
@@ -96,6 +96,8 @@ static json_t *describe_error(const accuracy_error *e, results_arrays arrays)
                   study_json_real(e->goal), "order", study_json_real(e->order), "parts", parts);
     if (e->absolute)
         json_object_set_new(entry, "absolute", study_json_real(e->reached));
+    if (checked)
+        json_object_set_new(entry, "from_finer", study_json_real(e->apart));
     if (e->bar && e->result->rank && is_elsewhere(e->result, arrays))
         json_object_set_new(entry, "file", name_file(e->stage, e->result, ACCURACY_BAR, arrays));
     else if (e->bar)
@@ -126,7 +128,8 @@ static json_t *describe_output(const results_outcome *outcome, const ff_stage *s
         json_object_set_new(entry, "data", list_numbers(result));
     }
     if (error)
-        json_object_set_new(entry, "error", describe_error(error, arrays));
+        json_object_set_new(entry, "error",
+                            describe_error(error, outcome->errors->checked, arrays));
     if (accuracy_is_least(stage, result))
         json_object_set_new(entry, "at_least", json_true());
     return entry;

@@ -3,6 +3,7 @@
 import csv
 import json
 import os
+import subprocess
 
 import lab
 
@@ -320,6 +321,36 @@ class Control(lab.Lab):
         self.assertIn("the file's own settings stay: first.cells\n", said)
         said = self.call("run", "block.yaml", "-o", "block", "--set", "accuracy=1e-6 %")
         self.assertIn("no finer settings", said)
+
+    def test_a_check_by_a_finer_twin(self):
+        """Above 100 cells an error of 2 % shows that no coarser twin has."""
+        for asked in ("{check: twins}", "{all: 1 %, check: twins}", "{last.value: 1 %, check: twins}"):
+            answer = self.ask(f"accuracy={asked}")
+            error = answer["outputs"]["last.value"]["error"]
+            self.assertEqual((answer["verdict"], error["goal"]), ("good", 0.01 if "1 %" in asked else None))
+            self.assertAlmostEqual(error["from_finer"], error_of({**{f"{s}.cells": 64 for s in ("first", "last")}, "first.tolerance": "0.01 %", "last.tolerance": "0.01 %"}) / 2 * 0.75, delta=2e-5)
+            self.assertLess(error["from_finer"], error["relative"])
+        answer = self.ask("accuracy={all: 2.5 %, check: twins}", "last.shown=100")
+        self.assertEqual(answer["verdict"], "doubtful")
+        self.assertLessEqual(answer["outputs"]["last.value"]["error"]["relative"], 0.025)
+        self.assertIn("more than the error told", self.call("run", "order.yaml", "-o", "finer", "--set", "accuracy={all: 2.5 %, check: twins}", "--set", "last.shown=100"))
+        self.assertEqual(self.ask("last.shown=100", "accuracy=2.5 %")["verdict"], "good")
+        for wrong in ("{check: twin}", "{check: [twins]}"):
+            self.assertIn("write check: twins", self.call("check", "order.yaml", "--set", f"accuracy={wrong}", code=2))
+
+    def test_the_progress_says_what_is_missing(self):
+        self.write("slow.yaml", FILE.replace("last: {", "wave: {use: toy/wave, amplitude: 2 mm, work: 1.2 s}\n  last: {").replace("[last.", "[wave.total, last."))
+        leader, follower = os.openpty()
+        run = subprocess.Popen([self.program, "run", "slow.yaml", "-o", "slow"], stdout=subprocess.DEVNULL, stderr=follower)
+        os.close(follower)
+        said = b""
+        try:
+            while part := os.read(leader, 4096):
+                said += part
+        except OSError: # the program has ended
+            pass
+        self.assertEqual(run.wait(), 0)
+        self.assertIn("attempt 1, by the presets; wave (toy/wave)", said.decode())
 
     def test_a_study(self):
         self.write("study.yaml", FILE + "study: {sweep: {last.strength: [1, 30]}}\n")

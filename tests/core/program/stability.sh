@@ -191,3 +191,14 @@ expect 2 'stability: "axes" is missing' "$flankfilm" check axes.yaml
 expect 2 '"stability" and "tradeoff" exclude each other' "$flankfilm" check verges.yaml \
     --set 'study.tradeoff={}'
 expect 0 '4 cases done, 1 of them before' "$flankfilm" run motion.yaml -o shard
+
+# A cell is confirmed by a coarser case alone where that is as near as the answer says; a finer one decides the rest,
+# and what cannot be coarser has the finer one at once.
+map cost '[1 N, 10 N]' '[1 m/s]' 'bisect: 0'
+expect 4 '5 cases done' "$flankfilm" run cost.yaml -o cost
+verdict cost 1 1 converged
+verdict cost 10 1 silent
+grep -q ',1 N,1 m/s,5,' cost/table.csv
+grep -q ',10 N,1 m/s,20,' cost/table.csv
+expect 0 '2 cases done' "$flankfilm" run cost.yaml -o one --set verge.cells=1 --set 'study.stability.axes.verge.load=[1 N]'
+grep -q ',1 N,1 m/s,2,' one/table.csv

@@ -2,11 +2,11 @@
 /* Scales parameters of a case. */
 #include "context.h"
 
+#include "../../accuracy/settings.h"
 #include "../cases/case.h"
 
 #include <math.h>
 #include <stdint.h>
-#include <string.h>
 
 const ff_stage *study_find_number(const ff_pipeline *pipeline, const char *path, size_t *param)
 {
@@ -20,31 +20,27 @@ const ff_stage *study_find_number(const ff_pipeline *pipeline, const char *path,
     return stage;
 }
 
-static const char *print_scaled(study_context *context, const ff_stage *stage, size_t param,
-                                double factor)
-{
-    const ff_bound *b = &stage->params[param];
-    const char *unit = b->row->unit;
-    bool plain = !strcmp(unit, "1") || !*unit;
-    if (b->row->type == FF_INT)
-        return study_context_format(context, "%.0f",
-                                    fmax(1, round((double)b->value.integer * factor)));
-    double number = ff_unit_from_si(&stage->loaded->param_units[param], b->value.real * factor);
-    return study_context_format(context, "%.12g%s%s", number, plain ? "" : " ", plain ? "" : unit);
-}
-
-void study_scale_parameters(study_context *context, size_t number, const char *const *paths,
+bool study_scale_parameters(study_context *context, size_t number, const char *const *paths,
                             const double *factors, size_t count, const char **scaled)
 {
     study_run run = *context->run;
     study_case c;
     run.study = &context->list;
     study_case_open(&c, &run, number, NULL);
-    bool good = study_case_is_good(&c);
+    bool good = study_case_is_good(&c), all = true;
+    size_t found = 0;
     for (size_t k = 0; k < count; k++) {
         size_t param = SIZE_MAX;
         const ff_stage *stage = good ? study_find_number(c.pipeline, paths[k], &param) : NULL;
-        scaled[k] = param == SIZE_MAX ? NULL : print_scaled(context, stage, param, factors[k]);
+        scaled[k] = NULL;
+        if (param == SIZE_MAX)
+            continue;
+        const bool whole = stage->params[param].row->type == FF_INT;
+        const double levels = log2(factors[k]) / (whole ? -1 : log2(accuracy_tolerance_factor));
+        scaled[k] = accuracy_setting_at(stage, param, levels, &context->arena);
+        all = all && scaled[k];
+        found++;
     }
     study_case_close(&c);
+    return all && found > 0;
 }

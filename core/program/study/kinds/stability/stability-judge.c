@@ -2,18 +2,20 @@
 /* Judges how far the numbers of a cell can be trusted. */
 #include "stability.h"
 
+#include "../../../accuracy/compare.h"
+
 #include <math.h>
 #include <string.h>
 
 const char *const study_class_names[STUDY_CLASSES] = {
     "converged", "outside", "physical", "unchecked", "degraded", "silent", "failed", "refused"};
 const char *const study_class_texts[STUDY_CLASSES] = {
-    "every line of quality holds, and so does the refined case",
+    "every line of quality holds, and a case of other settings agrees",
     "solved as well, but outside the range of a model",
     "solved as well; what is solved is unstable itself, so that it has no one answer",
-    "the refined case failed, so nothing confirms it",
+    "cases of coarser and of finer settings failed, so nothing confirms it",
     "a line of quality warns",
-    "no line warns, yet the refined case differs by more than three estimates",
+    "no line warns, yet the finer case differs by more than three estimates",
     "no result, and the reason why",
     "the model does not take such input"};
 const char study_class_letters[STUDY_CLASSES + 1] = ".op?d!Fx";
@@ -169,8 +171,8 @@ static void judge_notes(study_cell *cell, const study_map *s, const study_outcom
     }
 }
 
-/* True if the refined case is to be compared. The difference shows how bad a degraded cell is. If
-   the model itself warns that there are several answers, the refined case need not agree. */
+/* True if the twin is to be compared. The difference shows how bad a degraded cell is. If the model
+   itself warns that there are several answers, the twin need not agree. */
 static bool is_compared(const study_cell *cell, const study_map *s, const study_outcome *answer)
 {
     return cell->class <= STUDY_DEGRADED &&
@@ -178,12 +180,12 @@ static bool is_compared(const study_cell *cell, const study_map *s, const study_
 }
 
 static void judge_claim(study_cell *cell, const study_map *s, const study_claim *claim,
-                        const study_outcome *answer, const study_outcome *refined)
+                        const study_outcome *answer, const study_outcome *twin)
 {
-    double value, finer, estimate = 0;
+    double value, other, estimate = 0;
     bool promised = false;
-    if (!output_of(s, answer, claim->output, &value) ||
-        !output_of(s, refined, claim->output, &finer))
+    accuracy_difference d;
+    if (!output_of(s, answer, claim->output, &value) || !output_of(s, twin, claim->output, &other))
         return;
     for (size_t i = 0; i < claim->estimate_count; i++) {
         const study_quality *line = line_of(answer, claim->estimates[i]);
@@ -191,7 +193,10 @@ static void judge_claim(study_cell *cell, const study_map *s, const study_claim 
         estimate += !line ? 0 : isnan(line->value) ? (double)INFINITY : fabs(line->value);
     }
     estimate = promised ? estimate : s->tolerance / most_times;
-    double difference = fabs(value - finer) / fmax(fabs(finer), 1e-300);
+    const accuracy_series one = {0, 1, NULL, &value, 0, false};
+    double difference = accuracy_compare(&one, &(accuracy_series){0, 1, NULL, &other, 0, false}, &d)
+                            ? d.typical
+                            : (double)INFINITY;
     if (cell->output &&
         difference / (estimate + rounding) <= cell->difference / (cell->estimate + rounding))
         return;
@@ -200,21 +205,21 @@ static void judge_claim(study_cell *cell, const study_map *s, const study_claim 
     cell->estimate = estimate;
 }
 
-static void judge_refined(study_cell *cell, const study_map *s, const study_outcome *answer,
-                          const study_outcome *refined)
+static void judge_twin(study_cell *cell, const study_map *s, const study_outcome *answer,
+                       const study_outcome *twin)
 {
     bool warned = cell->class == STUDY_DEGRADED;
-    if (!is_ok(refined)) {
+    if (!is_ok(twin)) {
         if (warned)
             return;
         cell->class = STUDY_UNCHECKED;
         cell->line = NULL;
         cell->why = study_context_format(s->context, "refined: %s",
-                                         *refined->reason ? refined->reason : "not run");
+                                         *twin->reason ? twin->reason : "not run");
         return;
     }
     for (size_t i = 0; i < s->claim_count; i++)
-        judge_claim(cell, s, &s->claims[i], answer, refined);
+        judge_claim(cell, s, &s->claims[i], answer, twin);
     if (warned || !cell->output || cell->difference <= most_times * cell->estimate + rounding)
         return;
     cell->class = STUDY_SILENT;
@@ -226,7 +231,7 @@ static void judge_refined(study_cell *cell, const study_map *s, const study_outc
                              100 * cell->difference, 100 * cell->estimate);
 }
 
-/* If the refined case disagrees or failed, a line that is only a note counts as a warning. */
+/* If the twin disagrees or failed, a line that is only a note counts as a warning. */
 static void judge_warned(study_cell *cell, const study_map *s, const study_outcome *answer)
 {
     study_cell warned = *cell;
@@ -237,9 +242,10 @@ static void judge_warned(study_cell *cell, const study_map *s, const study_outco
 }
 
 void study_judge(const study_map *s, study_cell *cell, const study_outcome *answer,
-                 const study_outcome *refined)
+                 const study_outcome *twin)
 {
     cell->class = STUDY_CONVERGED;
+    cell->confirmed = true;
     cell->line = cell->why = cell->output = cell->note = NULL;
     if (!is_ok(answer)) {
         cell->class = !strcmp(answer->status, "invalid") ? STUDY_REFUSED : STUDY_FAILED;
@@ -249,9 +255,10 @@ void study_judge(const study_map *s, study_cell *cell, const study_outcome *answ
     judge_notes(cell, s, answer);
     judge_lines(cell, s, answer, false);
     judge_conditions(cell, s, answer);
-    if (!refined || !is_compared(cell, s, answer))
+    if (!twin || !is_compared(cell, s, answer))
         return;
-    judge_refined(cell, s, answer, refined);
-    if (cell->class == STUDY_SILENT || cell->class == STUDY_UNCHECKED)
+    judge_twin(cell, s, answer, twin);
+    cell->confirmed = cell->class != STUDY_SILENT && cell->class != STUDY_UNCHECKED;
+    if (!cell->confirmed)
         judge_warned(cell, s, answer);
 }

@@ -232,7 +232,7 @@ void *study_map_read(study_context *context, const study_key_value *values)
         return NULL;
     map->values = NULL;
     context->grid = map->grid;
-    context->further = "and as many refined at most; then halvings";
+    context->further = "and as many coarser, finer where those differ; then halvings";
     set_columns(map);
     request_outputs(map);
     for (size_t i = 0; i < map->grid->count; i++) {

@@ -38,7 +38,7 @@ static json_t *describe_cell(const study_map *map, const study_cell *cell)
                      text_or_null(cell->output), "difference",
                      number_or_null(cell->difference, cell->output), "estimate",
                      number_or_null(cell->estimate, cell->output), "key", key_of(map, cell->number),
-                     "refined", text_or_null(key_of(map, cell->finer)));
+                     "twin", text_or_null(key_of(map, cell->twin)));
 }
 
 /* Where a boundary lies on the other axes; `shortened`: as study_map_short writes numbers. */
@@ -114,7 +114,7 @@ static void add_file(const study_map *map, study_answer *answer)
         {.of = {"difference"}, .name = "difference"},
         {.of = {"estimate"}, .name = "estimate"},
         {.of = {"key"}, .name = "key"},
-        {.of = {"refined"}, .name = "refined"},
+        {.of = {"twin"}, .name = "twin"},
         {.of = {"text"}, .name = "text", .quoted = true},
         {.of = {"note"}, .name = "note", .quoted = true},
     };

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Runs the cells of a map in rounds: the grid, its refined cases, then repeatedly cells halfway
- * between neighbours whose classes differ.
+ * Runs the cells of a map in rounds: the grid, its twins, then repeatedly cells halfway between
+ * neighbours whose classes differ. The first twin is coarser and costs a fraction of the answer:
+ * where an error falls with any order from 1 on, the error of the answer is at most what lies
+ * between the two. A finer twin, which costs several times the answer, decides the rest.
  */
 #include "stability.h"
 
@@ -18,9 +20,8 @@ static const ff_param keys[STUDY_MAP_KEYS] = {
     [MAP_ESTIMATES] = {.name = "estimates",
                        .doc = "map from outputs to the lines of quality that say their errors"},
     [MAP_REFINE] = {.name = "refine",
-                    .doc =
-                        "list of parameters to double in the case that confirms a cell, or a map "
-                        "to factors"},
+                    .doc = "list of parameters to halve in the case that confirms a cell, and to "
+                           "double where it does not, or a map to factors"},
     [MAP_BISECT] = {.name = "bisect",
                     .doc = "halvings between neighbours that differ, 0 to 40, or a map from axes"},
     [MAP_PHYSICAL] = {.name = "physical",
@@ -54,7 +55,7 @@ static study_cell *add_cell(study_map *map, const study_setting *settings)
     *cell = (study_cell){.settings = settings,
                          .halved = map->axis_count,
                          .number = STUDY_NOT_SUBMITTED,
-                         .finer = STUDY_NOT_SUBMITTED};
+                         .twin = STUDY_NOT_SUBMITTED};
     cell->at = memory_arena_alloc(&context->arena, map->axis_count * sizeof *cell->at);
     return cell;
 }
@@ -99,36 +100,35 @@ static void add_between(study_map *map, size_t axis, size_t low, size_t high)
                     &unit); /* the number as rounded by printing */
 }
 
-/* Submits the case of a cell. `finer` has values of the knobs, with NULL for one that stays; a knob
-   that is also an axis replaces its value. */
-static int64_t submit_cell(const study_map *map, const study_cell *cell, const char *const *finer)
+/* Submits the case of a cell. `scaled` has assignments of the knobs, with NULL for one that stays;
+   a knob that is also an axis replaces its value. */
+static int64_t submit_cell(const study_map *map, const study_cell *cell, const char *const *scaled)
 {
     study_context *context = map->context;
     size_t paths = context->path_count;
     study_setting *settings = memory_arena_alloc(&context->arena, paths * sizeof *settings);
     for (size_t i = 0; i < paths; i++) {
         settings[i] = i < map->axis_count ? cell->settings[i] : (study_setting){"", ""};
-        for (size_t k = 0; k < map->knob_count && finer; k++)
-            if (finer[k] && !strcmp(map->knobs[k], context->paths[i]))
-                settings[i] = (study_setting){
-                    study_context_format(context, "%s=%s", map->knobs[k], finer[k]), finer[k]};
+        for (size_t k = 0; k < map->knob_count && scaled; k++)
+            if (scaled[k] && !strcmp(map->knobs[k], context->paths[i]))
+                settings[i] = (study_setting){scaled[k], strchr(scaled[k], '=') + 1};
     }
     return (int64_t)study_submit(context, settings, 0, "", NULL);
 }
 
-/* Submits the refined case and returns its number; STUDY_NOT_SUBMITTED when nothing can be refined.
- */
-static int64_t submit_refined(const study_map *map, const study_cell *cell)
+/* Submits a twin and returns its number; STUDY_NOT_SUBMITTED if not all numbers can be scaled. */
+static int64_t submit_twin(const study_map *map, const study_cell *cell, bool finer)
 {
     study_context *context = map->context;
-    const char **finer = memory_arena_alloc(&context->arena, (map->knob_count + 1) * sizeof *finer);
-    size_t scaled = 0;
-    if (map->knob_count)
-        study_scale_parameters(context, (size_t)cell->number, map->knobs, map->factors,
-                               map->knob_count, finer);
+    const char **scaled =
+        memory_arena_alloc(&context->arena, (map->knob_count + 1) * sizeof *scaled);
+    double *factors = memory_arena_alloc(&context->arena, (map->knob_count + 1) * sizeof *factors);
     for (size_t k = 0; k < map->knob_count; k++)
-        scaled += finer[k] != NULL;
-    return scaled ? submit_cell(map, cell, finer) : STUDY_NOT_SUBMITTED;
+        factors[k] = finer ? map->factors[k] : 1 / map->factors[k];
+    return map->knob_count && study_scale_parameters(context, (size_t)cell->number, map->knobs,
+                                                     factors, map->knob_count, scaled)
+               ? submit_cell(map, cell, scaled)
+               : STUDY_NOT_SUBMITTED;
 }
 
 /* Runs the cases with the numbers from `begin` to `end` - 1 and judges the cells from `first` on.
@@ -140,13 +140,31 @@ static bool run_round(study_map *map, int64_t begin, int64_t end, size_t first)
     for (size_t i = first; i < map->count; i++) {
         study_cell *cell = &map->cells[i];
         study_judge(map, cell, study_map_outcome(map, cell->number),
-                    study_map_outcome(map, cell->finer));
+                    study_map_outcome(map, cell->twin));
     }
     return true;
 }
 
-/* Runs the cells from `first` on, then the refined cases of those that have an answer to compare.
- */
+/* Runs the coarser twins of the cells from `first` on that have an answer to compare, or the finer
+   ones of those that the coarser did not confirm or that can have no coarser one. */
+static bool run_twins(study_map *map, int64_t begin, size_t first, bool finer)
+{
+    int64_t end = begin;
+    for (size_t i = first; i < map->count; i++) {
+        study_cell *cell = &map->cells[i];
+        const bool had = cell->twin != STUDY_NOT_SUBMITTED;
+        if (had ? cell->confirmed : cell->class > STUDY_DEGRADED)
+            continue;
+        const int64_t twin = submit_twin(map, cell, finer);
+        if (twin == STUDY_NOT_SUBMITTED)
+            continue;
+        cell->twin = twin;
+        end = twin + 1;
+    }
+    return run_round(map, begin, end, first) && (finer || run_twins(map, end, first, true));
+}
+
+/* Runs the cells from `first` on and their twins. */
 static bool run_cells(study_map *map, size_t first)
 {
     int64_t begin = 0, end = (int64_t)map->grid->count;
@@ -158,16 +176,7 @@ static bool run_cells(study_map *map, size_t first)
         }
     if (first == map->count)
         return true;
-    if (!run_round(map, begin, end, first))
-        return false;
-    begin = end;
-    for (size_t i = first; i < map->count; i++) {
-        study_cell *cell = &map->cells[i];
-        cell->finer =
-            cell->class <= STUDY_DEGRADED ? submit_refined(map, cell) : STUDY_NOT_SUBMITTED;
-        end = cell->finer == STUDY_NOT_SUBMITTED ? end : cell->finer + 1;
-    }
-    return run_round(map, begin, end, first);
+    return run_round(map, begin, end, first) && run_twins(map, end, first, false);
 }
 
 static void find_boundaries(study_map *map)

@@ -2,7 +2,8 @@
 /*
  * A map of where a pipeline can be trusted. Its cells are cases on a grid and, between neighbours
  * that are judged differently, cases that halve the distance. Each is judged by the quality that
- * its stages report, and by a second case with finer numerical parameters.
+ * its stages report, and by a twin: a case with coarser numerical parameters and, if that one does
+ * not confirm the answer, a case with finer ones.
  */
 #ifndef STUDY_STABILITY_H
 #define STUDY_STABILITY_H
@@ -33,9 +34,9 @@ enum study_class {
     STUDY_CONVERGED,
     STUDY_OUTSIDE,   /* solved well, but outside the range of a model */
     STUDY_PHYSICAL,  /* solved well, but what is solved is unstable */
-    STUDY_UNCHECKED, /* the refined case failed */
+    STUDY_UNCHECKED, /* both twins failed */
     STUDY_DEGRADED,  /* a line of quality warns */
-    STUDY_SILENT,    /* no line warns, but the refined case differs too much */
+    STUDY_SILENT,    /* no line warns, but the finer twin differs too much */
     STUDY_FAILED,
     STUDY_REFUSED, /* the input is outside what a model takes */
     STUDY_CLASSES
@@ -51,7 +52,8 @@ typedef struct study_cell {
     const study_setting *settings; /* what it assigns, one for each axis */
     double *at;                    /* the number on each axis that is a range, else its point */
     size_t halved; /* axis on which it lies between two others; axis_count when it is on the grid */
-    int64_t number, finer; /* numbers of its case and of the refined one, or STUDY_NOT_SUBMITTED */
+    int64_t number, twin; /* numbers of its case and of its last twin, or STUDY_NOT_SUBMITTED */
+    bool confirmed;       /* the twin agrees, or the letter does not depend on one */
     enum study_class class;
     const char *line;    /* the line or output that decides the class; NULL for none */
     double value, limit; /* of that line or output */
@@ -93,7 +95,7 @@ typedef struct study_map {
     study_claim *claims;
     size_t claim_count;
     const char **knobs; /* "stage.parameter" */
-    double *factors;    /* by which a refined case scales them */
+    double *factors;    /* by which the finer twin scales them; the coarser one divides */
     size_t knob_count;
     study_condition *physical; /* what says that the machine is unstable, not the numerics */
     size_t physical_count;
@@ -116,10 +118,10 @@ typedef struct study_map {
 /* stability-read.c: reads the keys and submits the cells of the grid; NULL after an error. */
 void *study_map_read(study_context *context, const study_key_value *values);
 
-/* stability-judge.c: decides the class of a cell from what its case gave and the refined one, which
-   is NULL when there is none yet. */
+/* stability-judge.c: decides the class of a cell from what its case gave and its twin, which is
+   NULL when there is none yet. */
 void study_judge(const study_map *map, study_cell *cell, const study_outcome *answer,
-                 const study_outcome *refined);
+                 const study_outcome *twin);
 /* Returns what the case of that number gave; NULL for STUDY_NOT_SUBMITTED. */
 const study_outcome *study_map_outcome(const study_map *map, int64_t number);
 
