@@ -233,7 +233,7 @@ static bool read_range(reading *r, const ff_node *map, const char *path)
     bool drawn = !points && r->sampled;
     int64_t count = 0;
     span s;
-    if (!study_check_keys(map, path, known, r->report) || !read_span(r, map, path, &s))
+    if (!study_check_keys(map, "study", path, known, r->report) || !read_span(r, map, path, &s))
         return false;
     if (!points && !drawn)
         return refuse(r, map->place, NULL, "a range wants \"points\"", path);
@@ -329,7 +329,7 @@ static bool read_sample(reading *r, const ff_node *map)
                       "values that have a tolerance are inputs of \"uncertainty\"", "sample");
     if (map->kind != FF_MAP || !points)
         return refuse(r, map->place, NULL, "expected {sobol: NUMBER OF POINTS, seed: 1}", "sample");
-    if (!study_check_keys(map, "sample", known, r->report) ||
+    if (!study_check_keys(map, "study", "sample", known, r->report) ||
         !read_count(r, points, "sobol", 1, &count) ||
         (seed && !read_count(r, seed, "seed", 0, &number)))
         return false;

@@ -14,8 +14,8 @@ static void list_keys(char *text, size_t size, const char *const *known)
         length += (size_t)snprintf(text + length, size - length, "%s%s", i ? ", " : "", known[i]);
 }
 
-bool study_check_keys(const ff_node *map, const char *where, const char *const *known,
-                      ff_report *report)
+bool study_check_keys(const ff_node *map, const char *whose, const char *where,
+                      const char *const *known, ff_report *report)
 {
     char takes[200];
     list_keys(takes, sizeof takes, known);
@@ -28,7 +28,7 @@ bool study_check_keys(const ff_node *map, const char *where, const char *const *
         if (found || !strncmp(map->keys[i], "x-", 2))
             continue;
         good = ff_error(report, FF_FAULT_INPUT, map->key_places[i], near ? NULL : takes,
-                        "study: %s%sunknown key \"%.80s\"%s%s%s", where, *where ? ": " : "",
+                        "%s: %s%sunknown key \"%.80s\"%s%s%s", whose, where, *where ? ": " : "",
                         map->keys[i], near ? "; did you mean \"" : "", near ? near : "",
                         near ? "\"?" : "");
     }

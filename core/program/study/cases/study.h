@@ -79,10 +79,10 @@ extern const char *const study_keys[];
 /* Reads a study without a driver; NULL after an error. */
 study_definition *study_read(const ff_node *node, ff_report *report);
 
-/* Reports every key that is not in the list, which NULL ends. Keys that begin with "x-" are
- * allowed. */
-bool study_check_keys(const ff_node *map, const char *where, const char *const *known,
-                      ff_report *report);
+/* Reports every key that is not in the list, which NULL ends: "WHOSE: WHERE: unknown key ...". Keys
+ * that begin with "x-" are allowed. */
+bool study_check_keys(const ff_node *map, const char *whose, const char *where,
+                      const char *const *known, ff_report *report);
 /* Reads time_limit and memory_limit. */
 bool study_read_limits(study_definition *study, const ff_node *node, ff_report *report);
 

@@ -86,33 +86,14 @@ static void lay_out_planned(study_context *context, study_definition *study)
         study->points[0] = context->planned;
 }
 
-/* Reports an unknown key, with the nearest known one or the name of the driver. */
-static void refuse_key(const study_kind *kind, const char *key, ff_place place, ff_report *report)
-{
-    const char **names = memory_alloc(kind->key_count * sizeof *names);
-    for (size_t i = 0; i < kind->key_count; i++)
-        names[i] = kind->keys[i].name;
-    const char *near = ff_nearest(key, names, kind->key_count);
-    ff_error(report, FF_FAULT_INPUT, place, NULL, "%s: unknown key \"%.80s\"%s%s%s", kind->name,
-             key, near ? "; did you mean \"" : " for study/", near ? near : kind->name,
-             near ? "\"?" : "");
-    free(names);
-}
-
-static const ff_param *find_key(const study_kind *kind, const char *key)
-{
-    for (size_t i = 0; i < kind->key_count; i++)
-        if (!strcmp(kind->keys[i].name, key))
-            return &kind->keys[i];
-    return NULL;
-}
-
 static bool check_keys(const study_kind *kind, const ff_node *map, ff_report *report)
 {
     size_t errors = ff_report_errors(report);
-    for (size_t i = 0; i < map->count; i++)
-        if (strncmp(map->keys[i], "x-", 2) != 0 && !find_key(kind, map->keys[i]))
-            refuse_key(kind, map->keys[i], map->key_places[i], report);
+    const char **names = memory_alloc((kind->key_count + 1) * sizeof *names);
+    for (size_t i = 0; i < kind->key_count; i++)
+        names[i] = kind->keys[i].name;
+    study_check_keys(map, kind->name, "", names, report);
+    free(names);
     for (size_t i = 0; i < kind->key_count; i++) {
         const ff_param *key = &kind->keys[i];
         if (!(key->flags & FF_REQUIRED) || ff_node_get(map, key->name))
@@ -202,7 +183,7 @@ static const study_kind *find_kind(const ff_node *node, ff_report *report)
     for (const study_kind *const *kind = study_kinds; *kind; kind++)
         known[count++] = (*kind)->name;
     known[count] = NULL;
-    study_check_keys(node, "", known, report);
+    study_check_keys(node, "study", "", known, report);
     for (size_t i = 0; node->kind == FF_MAP && i < node->count; i++)
         for (const study_kind *const *kind = study_kinds; *kind; kind++) {
             if (strcmp(node->keys[i], (*kind)->name) != 0)
