@@ -2,10 +2,10 @@
 #include "progress.h"
 
 #include "../crash/lead.h"
+#include "../study/store/journal.h"
 
 #include <signal.h>
 #include <stdio.h>
-#include <time.h>
 #include <unistd.h>
 
 static const double first_after = 0.5; /* s of work before the line appears */
@@ -31,9 +31,7 @@ static void on_interrupt(int signal_number, siginfo_t *info, void *context)
 static int on_progress(void *ctx, const ff_stage *stage, double fraction)
 {
     cli_progress *progress = ctx;
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    double now = (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+    const double now = study_seconds_now();
     if (stage != progress->stage) {
         progress->stage = stage;
         progress->started = now;

@@ -46,7 +46,7 @@ static void print_head(FILE *out, const fit *f, const fit_law *best)
 /* "5.006 mPa s" */
 static void print_quantity(FILE *out, const fit_param *param, double si)
 {
-    double number = fit_from_si(param, si);
+    double number = ff_unit_from_si(param->unit, si);
     const char *unit = param->row->unit;
     if (!strcmp(unit, "Pa s") && number < 1) {
         number *= 1e3;

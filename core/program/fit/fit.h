@@ -102,10 +102,6 @@ const fit_law *fit_best(const fit *f);
 bool fit_law_eval(fit *f, fit_law *law, const double *values, size_t n, const double *p,
                   const double *T, double *ln_eta);
 
-/* Converts to and from the unit of the parameter's row. */
-double fit_to_si(const fit_param *param, double number);
-double fit_from_si(const fit_param *param, double si);
-
 /* The result files: a card for pipelines, and the residuals as a table. */
 void fit_write_card(const fit *f, FILE *out);
 void fit_write_residuals(const fit *f, FILE *out);

@@ -225,16 +225,6 @@ bool fit_law_eval(fit *f, fit_law *law, const double *values, size_t n, const do
     return good;
 }
 
-double fit_to_si(const fit_param *param, double number)
-{
-    return param->unit->factor * number + param->unit->offset;
-}
-
-double fit_from_si(const fit_param *param, double si)
-{
-    return (si - param->unit->offset) / param->unit->factor;
-}
-
 void fit_free(fit *f)
 {
     for (size_t i = 0; i < f->law_count; i++) {

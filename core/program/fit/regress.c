@@ -51,7 +51,7 @@ static bool fail(fit_law *law, const char *format, ...)
 static const char *print_value(const fit_param *param, double si, char out[64])
 {
     bool bare = !strcmp(param->row->unit, "1") || !*param->row->unit;
-    snprintf(out, 64, "%.4g%s%s", fit_from_si(param, si), bare ? "" : " ",
+    snprintf(out, 64, "%.4g%s%s", ff_unit_from_si(param->unit, si), bare ? "" : " ",
              bare ? "" : param->row->unit);
     return out;
 }
@@ -125,7 +125,7 @@ static bool choose_free(fit_search *s)
             param->found = FIT_HELD;
         } else if (param->asked == FIT_PRESET && param->row->type == FF_REAL &&
                    !strcmp(param->row->name, "pressure_cap") &&
-                   s->data->highest >= param->unit->factor * param->row->min) {
+                   s->data->highest >= ff_unit_to_si(param->unit, param->row->min)) {
             s->values[i] = param->value = s->data->highest;
             param->found = FIT_HELD;
         }
@@ -333,7 +333,7 @@ static void note_range(const fit_search *s)
     for (size_t i = 0; i < s->count; i++) {
         const fit_axis *axis = &s->axes[i];
         const fit_param *param = param_of(s, axis->param);
-        double number = fit_from_si(param, param->value);
+        double number = ff_unit_from_si(param->unit, param->value);
         const ff_param *row = param->row;
         if (row->low < row->high && (number < row->low || number > row->high))
             add_note(s->law, "%s is outside of its calibrated range, %g to %g%s%s.", row->name,

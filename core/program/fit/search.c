@@ -25,10 +25,10 @@ fit_axis fit_axis_of(const fit_param *param, size_t index)
 {
     const ff_param *row = param->row;
     bool limited = row->min < row->max, calibrated = row->low < row->high;
-    double min = limited ? fit_to_si(param, row->min) : -HUGE_VAL;
-    double max = limited ? fit_to_si(param, row->max) : HUGE_VAL;
-    double from = calibrated ? fit_to_si(param, row->low) : min;
-    double to = calibrated ? fit_to_si(param, row->high) : max;
+    double min = limited ? ff_unit_to_si(param->unit, row->min) : -HUGE_VAL;
+    double max = limited ? ff_unit_to_si(param->unit, row->max) : HUGE_VAL;
+    double from = calibrated ? ff_unit_to_si(param->unit, row->low) : min;
+    double to = calibrated ? ff_unit_to_si(param->unit, row->high) : max;
     fit_axis axis = {.param = index, .log = min >= 0 && to > 0, .least = min};
     if (!isfinite(from) || !isfinite(to)) {
         from = axis.log ? 0 : -fabs(param->unit->factor);

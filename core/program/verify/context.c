@@ -7,7 +7,6 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 ff_engine *verify_open_engine(const char *root)
@@ -108,13 +107,6 @@ bool verify_read_param(verify_context *context, size_t param, const char *text, 
                                      context->messages);
     *message = ff_report_count(context->messages) ? ff_report_at(context->messages, 0)->text : NULL;
     return good;
-}
-
-double verify_now(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
 uint64_t verify_data_outputs(const ff_model *model)

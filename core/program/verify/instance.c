@@ -56,7 +56,7 @@ static int32_t progress(void *ctx, const ff_stage *stage, double fraction)
 {
     verify_instance *instance = ctx;
     (void)stage, (void)fraction;
-    if (instance->stop_at > 0 && verify_now() > instance->stop_at)
+    if (instance->stop_at > 0 && study_seconds_now() > instance->stop_at)
         instance->asked_to_stop = true;
     return instance->asked_to_stop;
 }

@@ -6,6 +6,8 @@
 
 #include "verify.h"
 
+#include "../study/store/journal.h"
+
 #include <flankfilm/conformance.h>
 
 #include <limits.h>
@@ -114,7 +116,6 @@ bool verify_skip(verify_context *context, const char *format, ...) FF_PRINTF(2, 
 bool verify_read_param(verify_context *context, size_t param, const char *text, ff_value *value,
                        const char **message);
 
-double verify_now(void);                             /* s */
 uint64_t verify_data_outputs(const ff_model *model); /* one bit for each of the first 64 */
 
 /* setup.c: what an instance is made of and fed with. */

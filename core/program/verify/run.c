@@ -230,11 +230,11 @@ static void conclude(verify_outcome *outcome, int status, bool late, FILE *captu
  * was late. */
 static bool await(pid_t pid, double limit, int *status)
 {
-    double end = verify_now() + limit;
+    double end = study_seconds_now() + limit;
     const struct timespec pause = {.tv_nsec = 1000000};
     siginfo_t info = {.si_pid = 0};
     while (waitid(P_PID, (id_t)pid, &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == 0 &&
-           verify_now() < end)
+           study_seconds_now() < end)
         nanosleep(&pause, NULL);
     kill(-pid, SIGKILL);
     waitpid(pid, status, 0);
@@ -244,7 +244,7 @@ static bool await(pid_t pid, double limit, int *status)
 static void run_test(const session *s, const test *t, verify_result *result)
 {
     const struct rlimit no_core = {0, 0};
-    double begin = verify_now();
+    double begin = study_seconds_now();
     int status = 0;
     verify_outcome *outcome =
         mmap(NULL, sizeof *outcome, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
@@ -266,7 +266,7 @@ static void run_test(const session *s, const test *t, verify_result *result)
     setpgid(pid, pid);
     bool late = pid > 0 && await(pid, s->request->limit, &status);
     conclude(outcome, status, late, capture, s->request, result);
-    result->seconds = verify_now() - begin;
+    result->seconds = study_seconds_now() - begin;
     fclose(capture);
     munmap(outcome, sizeof *outcome);
 }

@@ -39,7 +39,7 @@ bool verify_find_served(verify_context *c, verify_instance *instance, const veri
 {
     const ff_result *result;
     *served = memory_copy_text("", 0);
-    for (size_t i = 0; i < c->model->output_count && verify_now() < end; i++) {
+    for (size_t i = 0; i < c->model->output_count && study_seconds_now() < end; i++) {
         const ff_port *row = ff_model_output(c->model, i);
         if (row->service)
             continue;
@@ -72,13 +72,13 @@ static char *list_given(const verify_instance *instance)
 verify_setup *verify_find_work(verify_context *c, verify_instance *instance, char **served)
 {
     enum { TRIES = 40 };
-    double end = verify_now() + 5;
-    for (int i = 0; i < (c->given ? 1 : TRIES) && verify_now() < end; i++) {
+    double end = study_seconds_now() + 5;
+    for (int i = 0; i < (c->given ? 1 : TRIES) && study_seconds_now() < end; i++) {
         verify_setup *setup = verify_open_accepted(c, instance, false);
         if (!setup)
             return NULL;
         if (!c->given)
-            instance->stop_at = verify_now() + PATIENCE;
+            instance->stop_at = study_seconds_now() + PATIENCE;
         verify_step(c, "evaluate");
         ff_status status = verify_instance_run(instance, NULL, setup);
         if (!verify_instance_is_sound(instance, status))

@@ -23,12 +23,6 @@ verify_setup *verify_setup_new(verify_context *context)
     return setup;
 }
 
-static double to_si(const verify_setup *setup, size_t param, double number)
-{
-    const ff_unit *unit = &setup->context->loaded->param_units[param];
-    return unit->factor * number + unit->offset;
-}
-
 static void draw_reals(const verify_setup *setup, size_t param, verify_random *random,
                        verify_range range, ff_value *value)
 {
@@ -39,7 +33,7 @@ static void draw_reals(const verify_setup *setup, size_t param, verify_random *r
     for (size_t i = 0; i < value->count; i++) {
         double number = verify_draw_number(row, random, range);
         number = row->flags & FF_WHOLE ? round(number) : number;
-        reals[i] = to_si(setup, param, number);
+        reals[i] = ff_unit_to_si(&setup->context->loaded->param_units[param], number);
     }
     if (row->flags & FF_INCREASING)
         memory_sort(reals, value->count, sizeof *reals);
@@ -61,7 +55,8 @@ static void draw_value(verify_setup *setup, size_t param, verify_random *random,
         ff_word_at(row->choices, (size_t)value->integer, word, sizeof word);
         value->text = strdup(word);
     } else if (row->type == FF_REAL) {
-        value->real = to_si(setup, param, verify_draw_number(row, random, range));
+        value->real = ff_unit_to_si(&setup->context->loaded->param_units[param],
+                                    verify_draw_number(row, random, range));
     } else if (row->type == FF_INT) {
         value->integer = (int64_t)round(verify_draw_number(row, random, range));
     } else if (row->type == FF_BOOL) {

@@ -125,9 +125,9 @@ bool verify_test_leaks(verify_context *c)
         return false;
     verify_instance_close(&instance);
     size_t before = 0;
-    double end = verify_now() + 1;
+    double end = study_seconds_now() + 1;
     int lives = 0;
-    for (; lives < LIVES && (lives <= WARM || verify_now() < end); lives++) {
+    for (; lives < LIVES && (lives <= WARM || study_seconds_now() < end); lives++) {
         if (lives == WARM)
             before = in_use();
         if (!live(setup))
@@ -152,8 +152,8 @@ bool verify_test_allocations(verify_context *c)
     if (!c->redirected)
         return verify_skip(c, "its calls of malloc cannot be redirected");
     bool good = true;
-    double end = verify_now() + 1;
-    for (size_t nth = 1; nth < MOST && good && verify_now() < end; nth++) {
+    double end = study_seconds_now() + 1;
+    for (size_t nth = 1; nth < MOST && good && study_seconds_now() < end; nth++) {
         verify_step(c, "create, set and ready with allocation number %zu failing", nth);
         verify_allocations_fail(nth);
         ff_status status = verify_instance_open(&instance, setup);
@@ -171,8 +171,8 @@ bool verify_test_limits(verify_context *c)
 {
     enum { DRAWS = 300 };
     bool good = true;
-    double end = verify_now() + 1;
-    for (int i = 0; i < DRAWS && good && verify_now() < end; i++) {
+    double end = study_seconds_now() + 1;
+    for (int i = 0; i < DRAWS && good && study_seconds_now() < end; i++) {
         verify_setup *setup = verify_setup_new(c);
         verify_instance instance;
         verify_setup_draw_params(setup, &c->random, i % 2 ? VERIFY_PHYSICAL : VERIFY_CALIBRATED);
@@ -191,7 +191,7 @@ bool verify_test_environment(verify_context *c)
 {
     verify_instance instance;
     verify_setup *setup = verify_open_accepted(c, &instance, false);
-    instance.stop_at = verify_now() + 1;
+    instance.stop_at = study_seconds_now() + 1;
     if (!setup)
         return false;
     verify_step(c, "evaluate");

@@ -11,8 +11,8 @@ bool verify_test_inputs(verify_context *c)
 {
     enum { DRAWS = 60 };
     bool good = true;
-    double end = verify_now() + 1;
-    for (int i = 0; i < DRAWS && good && verify_now() < end; i++) {
+    double end = study_seconds_now() + 1;
+    for (int i = 0; i < DRAWS && good && study_seconds_now() < end; i++) {
         verify_instance instance;
         if (c->given && i > 0)
             verify_setup_draw_inputs(c->given, &c->random);
@@ -20,7 +20,7 @@ bool verify_test_inputs(verify_context *c)
         if (!setup)
             return false;
         verify_step(c, "evaluate with random inputs, draw %d", i);
-        instance.stop_at = verify_now() + PATIENCE;
+        instance.stop_at = study_seconds_now() + PATIENCE;
         ff_status status = verify_instance_run(&instance, NULL, setup);
         good = verify_instance_is_sound(&instance, status);
         verify_instance_close(&instance);
@@ -35,7 +35,7 @@ bool verify_test_wanted(verify_context *c)
     verify_setup *setup = verify_find_work(c, &instance, &served);
     if (!setup)
         return false;
-    bool good = verify_find_served(c, &instance, setup, &served, verify_now() + 2);
+    bool good = verify_find_served(c, &instance, setup, &served, study_seconds_now() + 2);
     verify_instance_close(&instance);
     return good;
 }

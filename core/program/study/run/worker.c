@@ -17,7 +17,6 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <malloc.h>
-#include <math.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -102,8 +101,8 @@ static void add_costs(const study_case *c, double spent, json_t *record)
     double saved = 0;
     for (size_t i = 0; c->pipeline && i < c->pipeline->count; i++)
         saved += c->pipeline->stages[i].reused ? c->pipeline->stages[i].work : 0;
-    json_object_set_new(record, "processor", json_real(round(spent * 1e6) / 1e6));
-    json_object_set_new(record, "processor_saved", json_real(round(saved * 1e6) / 1e6));
+    json_object_set_new(record, "processor", study_json_seconds(spent));
+    json_object_set_new(record, "processor_saved", study_json_seconds(saved));
 }
 
 /* Returns the answer for an overwritten plugin: the path of its file. */
