@@ -17,6 +17,14 @@ static void print_cell(const char *text)
     printf(" |");
 }
 
+static void print_heading(const char *title, const char *first)
+{
+    printf("\n## %s\n\n| %s | write | preset | limits | only one of the group | meaning |\n"
+           "|---|---|---|---|---|---|\n",
+           title, first);
+}
+
+/* Prints a row for a parameter, or for a column of a table. */
 static void print_param(const ff_param *row)
 {
     char type[400], limits[200];
@@ -33,21 +41,6 @@ static void print_param(const ff_param *row)
     printf(" ");
     if (row->instead)
         printf("(replaced by the wire `%s`) ", row->instead);
-    print_cell(row->doc);
-    printf("\n");
-}
-
-static void print_column(const ff_param *row)
-{
-    char limits[200];
-    catalogue_print_limits(row, limits, sizeof limits);
-    printf("| `%s` | ", row->name);
-    print_cell(row->unit);
-    printf(" ");
-    print_cell(limits);
-    printf(" ");
-    print_cell(row->group ? row->group : row->flags & FF_REQUIRED ? "required" : "");
-    printf(" ");
     print_cell(row->doc);
     printf("\n");
 }
@@ -75,17 +68,13 @@ static void print_page(const ff_model *model)
 {
     printf("# %s\n\n%s\n", model->id, model->summary);
     if (model->param_count)
-        printf("\n## Parameters\n\n"
-               "| parameter | write | preset | limits | only one of the group | meaning |\n"
-               "|---|---|---|---|---|---|\n");
+        print_heading("Parameters", "parameter");
     for (size_t i = 0; i < model->param_count; i++)
         print_param(ff_model_param(model, i));
     if (ff_model_columns(model))
-        printf("\n## Columns of its table\n\n"
-               "| column | unit | limits | required, or one of the group | meaning |\n"
-               "|---|---|---|---|---|\n");
+        print_heading("Columns of its table", "column");
     for (size_t i = 0; i < ff_model_columns(model); i++)
-        print_column(ff_model_column(model, i));
+        print_param(ff_model_column(model, i));
     if (model->input_count)
         printf(
             "\n## Inputs\n\nWritten `wire.output`: the wire is a key of the stage, the output is "

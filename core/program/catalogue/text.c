@@ -26,6 +26,7 @@ static void print_indented(const char *text, int indent)
     terminal_print_wrapped(text, indent, indent);
 }
 
+/* Prints a parameter, or a column of a table. */
 static void print_param(const ff_param *row)
 {
     char type[400], limits[200];
@@ -40,21 +41,6 @@ static void print_param(const ff_param *row)
         printf("%s the wire %s", row->flags & FF_REQUIRED ? ", or" : ", replaced by", row->instead);
     if (row->preset)
         printf(", preset %s", row->preset);
-    if (row->group)
-        printf(", one of the group %s", row->group);
-    if (*limits)
-        printf("; %s", limits);
-    printf("\n");
-    print_indented(row->doc, NAME + 3);
-}
-
-static void print_column(const ff_param *row)
-{
-    char limits[200];
-    catalogue_print_limits(row, limits, sizeof limits);
-    printf("  %-*s %s", NAME, row->name, row->unit);
-    if (row->flags & FF_REQUIRED && !row->group)
-        printf(", required");
     if (row->group)
         printf(", one of the group %s", row->group);
     if (row->flags & FF_INCREASING)
@@ -92,7 +78,7 @@ static void print_page(const catalogue_entry *entry)
     if (ff_model_columns(model))
         printf("\ncolumns of its table, in any order and unit: \"NAME [UNIT]\"\n");
     for (size_t i = 0; i < ff_model_columns(model); i++)
-        print_column(ff_model_column(model, i));
+        print_param(ff_model_column(model, i));
     if (model->input_count)
         printf("\ninputs (wire.output of the feeding stage)\n");
     for (size_t i = 0; i < model->input_count; i++)
