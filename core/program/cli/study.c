@@ -2,7 +2,6 @@
 /* The commands run and plan for studies. */
 #include "../terminal/terminal.h"
 #include "command.h"
-#include "service.h"
 #include "spectrum.h"
 
 #include "../memory/memory.h"
@@ -14,7 +13,6 @@
 #include "../study/kinds/answer/number.h"
 #include "../terminal/answer.h"
 
-#include <flankfilm/executor.h>
 #include <sched.h>
 #include <stdlib.h>
 #include <string.h>
@@ -290,15 +288,13 @@ static void note_files(const study_definition *study, const char *directory)
 /* Opens what the run needs beside the file; false after an error. */
 static bool begin_run(study_run *run, cli_session *session, const cli_options *options, teller *t)
 {
-    const void *table;
     run->progress = options->json ? NULL : tell_progress;
     run->enter = enter;
     run->describe = describe;
     run->say = say;
     run->ctx = t;
     if (cli_option(options, "executor"))
-        run->executor = cli_service_open(session->engine, options, "executor", FF_EXECUTOR_ID,
-                                         &table, session->report);
+        run->executor = cli_executor_open(session->engine, options, session->report);
     return ff_report_errors(session->report) == 0 && begin_rows(run, options, session->report);
 }
 
