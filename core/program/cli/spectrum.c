@@ -1,18 +1,31 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "spectrum.h"
 
+#include "../study/cases/spectrum.h"
+#include "../study/kinds/answer/answer.h"
 #include "../study/kinds/answer/number.h"
 #include "../study/kinds/answer/text.h"
-#include "../study/store/journal.h"
-#include "../terminal/terminal.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-const char cli_spectrum_files[] = "spectrum.json, spectrum.figure.json, ";
+enum { TEXT = STUDY_QUANTITY_SIZE, BOTH = STUDY_ON_TERMINAL | STUDY_ON_PAGE };
 
-enum { TEXT = STUDY_QUANTITY_SIZE, NAME = 32, MEAN = 14, EXTREME = 23 }; /* columns */
+static const study_column columns[] = {
+    {.of = {"output"}, .name = "output", .head = "", .width = -1},
+    {.of = {"unit"}, .name = "unit"},
+    {.of = {"mean"}, .name = "mean"},
+    {.of = {"lowest"}, .name = "lowest"},
+    {.of = {"lowest_row"}, .name = "lowest_row"},
+    {.of = {"highest"}, .name = "highest"},
+    {.of = {"highest_row"}, .name = "highest_row"},
+    {.of = {"energy"}, .name = "energy [J]"},
+    {.of = {"in words", "mean"}, .head = "mean over time", .width = -1},
+    {.of = {"in words", "lowest"}, .head = "lowest", .width = -1},
+    {.of = {"in words", "highest"}, .head = "highest", .width = -1},
+    {.of = {"in words", "energy"}, .head = "energy", .width = -1},
+};
 
 static const char *last_word(const char *path)
 {
@@ -67,7 +80,7 @@ static void write_time(const json_t *sums, char out[TEXT])
         write_number(time, (study_readable){1.0 / 3600, 0, "h"}, out);
 }
 
-/* The table of the page: a list of name, mean, lowest, highest and energy for each output. */
+/* Returns {output, unit, mean, lowest, highest, ... in words} of each output. */
 static json_t *rows_of(const json_t *sums)
 {
     json_t *rows = json_array(), *of;
@@ -80,109 +93,84 @@ static json_t *rows_of(const json_t *sums)
         write_extreme(of, "lowest", unit, low);
         write_extreme(of, "highest", unit, high);
         write_energy(study_number_of(of, "energy"), energy);
-        json_array_append_new(rows, json_pack("[s, s, s, s, s]", name, mean, low, high, energy));
+        json_t *row = json_copy(of);
+        json_object_del(row, "values");
+        json_object_set_new(row, "output", json_string(name));
+        json_object_set_new(row, "in words",
+                            json_pack("{s:s, s:s, s:s, s:s}", "mean", mean, "lowest", low,
+                                      "highest", high, "energy", energy));
+        json_array_append_new(rows, row);
     }
     return rows;
 }
 
-static const char *cell_of(const json_t *row, size_t column)
+static long long integer_of(const json_t *map, const char *key)
 {
-    return json_string_value(json_array_get(row, column));
+    return (long long)json_integer_value(json_object_get(map, key));
 }
 
-static void print_rows(const json_t *rows)
-{
-    size_t i;
-    const json_t *row;
-    printf("  %-*s %-*s %-*s %s\n", NAME, "", MEAN, "mean over time", EXTREME, "lowest", "highest");
-    json_array_foreach(rows, i, row)
-    {
-        char line[5 * TEXT];
-        snprintf(line, sizeof line, "%-*s %-*s %-*s %s", NAME, cell_of(row, 0), MEAN,
-                 cell_of(row, 1), EXTREME, cell_of(row, 2), cell_of(row, 3));
-        terminal_print_cut(line, printf("  "));
-    }
-    json_array_foreach(rows, i, row) if (*cell_of(row, 4))
-        printf("  %s sums to %s\n", cell_of(row, 0), cell_of(row, 4));
-}
-
-static void print_below(const json_t *sums)
+static void say_below(study_answer *answer, const json_t *sums)
 {
     size_t i;
     json_t *one;
     json_array_foreach(json_object_get(sums, "below"), i, one)
     {
         char limit[TEXT];
-        const char *name = json_string_value(json_object_get(one, "output"));
+        const char *name = study_text_of(one, "output");
         double value = study_number_of(one, "limit");
-        write_number(value,
-                     study_readable_output(last_word(name),
-                                           json_string_value(json_object_get(one, "unit")),
-                                           fabs(value)),
-                     limit);
-        printf("  %s is below %s for %.4g %% of the time, in %lld of %lld rows\n", name, limit,
-               100 * study_number_of(one, "share"),
-               (long long)json_integer_value(json_object_get(one, "rows")),
-               (long long)json_integer_value(json_object_get(sums, "rows")));
+        write_number(
+            value, study_readable_output(last_word(name), study_text_of(one, "unit"), fabs(value)),
+            limit);
+        study_answer_say(answer, BOTH, 4,
+                         "  %s is below %s for %.4g %% of the time, in %lld of %lld rows", name,
+                         limit, 100 * study_number_of(one, "share"), integer_of(one, "rows"),
+                         integer_of(sums, "rows"));
     }
 }
 
-/* Prints which stages were evaluated once for several rows. */
-static void print_stages(const json_t *sums)
+/* Says which stages were evaluated once for several rows. */
+static void say_stages(study_answer *answer, const json_t *sums)
 {
     const char *name;
     json_t *of;
     json_object_foreach(json_object_get(sums, "stages"), name, of)
     {
-        json_int_t computed = json_integer_value(json_object_get(of, "computed"));
-        json_int_t reused = json_integer_value(json_object_get(of, "reused"));
+        const long long computed = integer_of(of, "computed"), reused = integer_of(of, "reused");
         if (reused > 0)
-            printf("  %s: %lld of %lld rows computed it, %lld took it over from a row with the "
-                   "same inputs\n",
-                   name, (long long)computed, (long long)(computed + reused), (long long)reused);
+            study_answer_say(answer, STUDY_ON_TERMINAL, 4,
+                             "  %s: %lld of %lld rows computed it, %lld took it over from a row "
+                             "with the same inputs",
+                             name, computed, computed + reused, reused);
     }
 }
 
-/* Prints for how much of the time there are no numbers, and why. */
-static void print_left_out(const json_t *sums)
+/* Says for how much of the time there are no numbers, and why. */
+static void say_left_out(study_answer *answer, const json_t *sums)
 {
     const json_t *refused = json_object_get(sums, "refused");
     double stated = study_number_of(sums, "stated"), share = study_number_of(refused, "share");
     double failed = study_number_of(sums, "missing") - share;
-    json_int_t empty = json_integer_value(json_object_get(sums, "empty"));
+    const long long empty = integer_of(sums, "empty"), rows = integer_of(sums, "rows");
     if (fabs(stated - 1) > 1e-9)
-        printf("  the shares of the time sum to %.6g %%: each is taken as its part of that sum\n",
-               100 * stated);
+        study_answer_say(answer, BOTH, 4,
+                         "  the shares of the time sum to %.6g %%: each is taken as its part of "
+                         "that sum",
+                         100 * stated);
     if (empty > 0)
-        printf("  %lld of %lld classes take no time: they are left out, and no row counts them\n",
-               (long long)empty,
-               (long long)(empty + json_integer_value(json_object_get(sums, "rows"))));
+        study_answer_say(answer, BOTH, 4,
+                         "  %lld of %lld classes take no time: they are left out, and no row "
+                         "counts them",
+                         empty, empty + rows);
     if (share > 0)
-        printf("  for %.3g %% of the time, in %lld of %lld rows, nothing can be computed, and the "
-               "sums "
-               "do not count it; row %lld: %s\n",
-               100 * share, (long long)json_integer_value(json_object_get(refused, "rows")),
-               (long long)json_integer_value(json_object_get(sums, "rows")),
-               (long long)json_integer_value(json_object_get(refused, "row")),
-               json_string_value(json_object_get(refused, "reason")));
+        study_answer_say(answer, BOTH, 4,
+                         "  for %.3g %% of the time, in %lld of %lld rows, nothing can be "
+                         "computed, and the sums do not count it; row %lld: %s",
+                         100 * share, integer_of(refused, "rows"), rows, integer_of(refused, "row"),
+                         study_text_of(refused, "reason"));
     if (failed > 1e-12)
-        printf("  rows of %.3g %% of the time gave no numbers: nothing above counts them\n",
-               100 * failed);
-}
-
-void cli_spectrum_print(const json_t *sums)
-{
-    char time[TEXT];
-    write_time(sums, time);
-    printf("\nOver the spectrum: %lld rows%s%s\n",
-           (long long)json_integer_value(json_object_get(sums, "rows")), *time ? ", " : "", time);
-    json_t *rows = rows_of(sums);
-    print_rows(rows);
-    json_decref(rows);
-    print_below(sums);
-    print_stages(sums);
-    print_left_out(sums);
-    putchar('\n');
+        study_answer_say(answer, BOTH, 4,
+                         "  rows of %.3g %% of the time gave no numbers: nothing above counts them",
+                         100 * failed);
 }
 
 /* A row of a spectrum, for sorting by the value of an output. */
@@ -217,9 +205,10 @@ static json_t *curve_of(const study_run *run, const json_t *values, study_readab
                      "line", "x", x, "y", y);
 }
 
-static json_t *figures_of(const study_run *run, const json_t *sums)
+/* Draws for each output how long it is below a value; returns the first drawing, or NULL. */
+static json_t *draw(study_answer *answer, const study_run *run, const json_t *sums)
 {
-    json_t *all = json_array(), *of;
+    json_t *first = NULL, *of;
     const char *name;
     json_object_foreach(json_object_get(sums, "outputs"), name, of)
     {
@@ -230,40 +219,41 @@ static json_t *figures_of(const study_run *run, const json_t *sums)
                  unit.unit);
         if (!values)
             continue;
-        json_t *tables = json_array();
-        if (json_array_size(all) == 0)
-            json_array_append_new(tables,
-                                  json_pack("{s:s, s:[s, s, s, s, s], s:o}", "summary",
-                                            "over the spectrum", "head", "", "mean over time",
-                                            "lowest", "highest", "energy", "rows", rows_of(sums)));
-        json_array_append_new(
-            all, json_pack("{s:s, s:s+, s:i, s:{s:s}, s:{s:s}, s:[], s:[o], s:o}", "sort", "curves",
-                           "title", name, ": for how long it is below", "height", 260, "x", "label",
-                           "time below (%)", "y", "label", label, "marks", "curves",
-                           curve_of(run, values, unit), "tables", tables));
+        json_t *made = study_answer_draw(
+            answer, json_pack("{s:s, s:s+, s:i, s:{s:s}, s:{s:s}, s:[], s:[o]}", "sort", "curves",
+                              "title", name, ": for how long it is below", "height", 260, "x",
+                              "label", "time below (%)", "y", "label", label, "marks", "curves",
+                              curve_of(run, values, unit)));
+        first = first ? first : made;
     }
-    return all;
+    return first;
 }
 
-static bool write_json(const study_run *run, const char *name, const json_t *json,
-                       ff_report *report)
+bool cli_spectrum_sum(const study_run *run, study_context *context)
 {
-    char *text = json_dumps(json, JSON_INDENT(1) | JSON_REAL_PRECISION(12));
-    bool good =
-        study_write_file(run->directory, name, text,
-                         "the journal has all rows; the same command writes the file", report);
-    free(text);
-    return good;
-}
-
-bool cli_spectrum_sum(const study_run *run, json_t **sums, ff_report *report)
-{
-    *sums = study_spectrum_sums(run, run->keys, report);
-    if (!*sums)
+    char time[TEXT];
+    json_t *sums = study_spectrum_sums(run, run->keys, context->report);
+    if (!sums)
         return false;
-    json_t *figures = figures_of(run, *sums);
-    bool good = write_json(run, "spectrum.json", *sums, report) &&
-                write_json(run, "spectrum.figure.json", figures, report);
-    json_decref(figures);
-    return good;
+    context->name = "spectrum";
+    context->run = run;
+    study_answer answer = {.context = context, .file = "spectrum", .value = sums, .digits = 12};
+    write_time(sums, time);
+    study_answer_say(&answer, STUDY_ON_TERMINAL, 0, "%s", "");
+    study_answer_say(&answer, STUDY_ON_TERMINAL, 0, "Over the spectrum: %lld rows%s%s",
+                     integer_of(sums, "rows"), *time ? ", " : "", time);
+    study_answer_add(&answer, &(study_table){.summary = "over the spectrum",
+                                             .columns = columns,
+                                             .column_count = sizeof columns / sizeof *columns,
+                                             .rows = rows_of(sums),
+                                             .forms = STUDY_IN_FILE | BOTH,
+                                             .digits = 12,
+                                             .indent = 2,
+                                             .figure = draw(&answer, run, sums)});
+    say_below(&answer, sums);
+    say_stages(&answer, sums);
+    say_left_out(&answer, sums);
+    study_answer_say(&answer, STUDY_ON_TERMINAL, 0, "%s", "");
+    study_answer_close(&answer);
+    return study_context_write(context, run->directory);
 }

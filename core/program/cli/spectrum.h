@@ -1,14 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Sums over the rows of a load spectrum, for the terminal and in files. */
+/* Sums over the rows of a load spectrum, as an answer. */
 #ifndef CLI_SPECTRUM_H
 #define CLI_SPECTRUM_H
 
-#include "../study/cases/spectrum.h"
+#include "../study/run/context.h"
 
-extern const char cli_spectrum_files[]; /* "spectrum.json, spectrum.figure.json, " */
-
-/* Sums over the rows and writes the files; false after an error. `sums` is to be released. */
-bool cli_spectrum_sum(const study_run *run, json_t **sums, ff_report *report);
-void cli_spectrum_print(const json_t *sums);
+/* Sums over the rows, and puts into the context what is said, the files and the facts. False after
+ * an error in its report. */
+bool cli_spectrum_sum(const study_run *run, study_context *context);
 
 #endif

@@ -34,9 +34,9 @@ typedef struct teller {
     const char *directory;
     bool driven; /* the study's driver, if it has one, has run */
     bool entered;
-    char *replaced; /* how the inputs of earlier results differ, or NULL */
-    char *removed;  /* files derived from earlier results that are gone, or NULL */
-    json_t *sums;   /* over the rows of a spectrum, or NULL */
+    char *replaced;     /* how the inputs of earlier results differ, or NULL */
+    char *removed;      /* files derived from earlier results that are gone, or NULL */
+    study_context sums; /* over the rows of a spectrum; without files before they are there */
     bool terminal;
     double told; /* s after the start, of the last progress line */
 } teller;
@@ -198,6 +198,22 @@ static void tell_verdicts(const study_definition *study, const study_counters *c
     free(verdicts);
 }
 
+/* What the driver of the study found, or the sums over its rows. */
+static const study_context *found(const teller *t)
+{
+    const study_context *driven = study_found(t->session->study);
+    return driven ? driven : &t->sums;
+}
+
+/* Returns "map.csv, map.json, ", to be freed. */
+static char *list_files(const study_context *of)
+{
+    char *text = memory_print_text("%s", "");
+    for (size_t i = 0; i < of->file_count; i++)
+        memory_add_text(&text, "%s, ", of->files[i].name);
+    return text;
+}
+
 /* Prints which derived files are gone, except those that have been written again. */
 static void print_removed(char *removed, const char *files)
 {
@@ -218,12 +234,9 @@ static void tell_end(const teller *t, const study_counters *counters, bool good,
 {
     const study_definition *study = t->session->study;
     const char *directory = t->directory;
-    char *files = study->driver ? study_files(study)
-                                : memory_print_text("%s", t->sums ? cli_spectrum_files : "");
+    char *files = list_files(found(t));
     terminal_print_messages(report, stderr, terminal_colour(stderr));
     cli_print_savings(&counters->savings);
-    if (t->sums)
-        cli_spectrum_print(t->sums);
     if (t->replaced)
         printf("the table of an earlier run is replaced (%s); its cases stay in the journal\n",
                t->replaced);
@@ -242,7 +255,6 @@ static void tell_end(const teller *t, const study_counters *counters, bool good,
 
 static void answer_end(const teller *t, const study_counters *counters, int code, ff_report *report)
 {
-    const study_definition *study = t->session->study;
     const char *directory = t->directory;
     bool good = code == EXIT_SUCCESS || code == CLI_EXIT_CASES;
     json_t *answer = results_json_answer(good ? "ok" : "error", code, report);
@@ -253,10 +265,7 @@ static void answer_end(const teller *t, const study_counters *counters, int code
                   (json_int_t)counters->failed, "stages", cli_json_savings(&counters->savings),
                   "directory", results_json_text(directory)));
     study_tally_describe(&counters->tally, answer);
-    if (study->driver && study_facts(study))
-        json_object_update(answer, study_facts(study));
-    if (t->sums)
-        json_object_set(answer, "spectrum", t->sums);
+    json_object_update(answer, found(t)->facts);
     results_json_print(answer);
 }
 
@@ -271,18 +280,14 @@ static bool settle_driver(const study_run *run, bool *driven, ff_report *report)
                     "costs are measured, one case at a time: it cannot be spread");
 }
 
-/* Notes the driver's files, which are removed if its cases change, as files derived from results
- * are. */
-static void note_files(const study_definition *study, const char *directory)
+/* Notes these files, which are removed if the cases change, as files derived from results are. */
+static void note_files(const study_context *of, const char *directory)
 {
-    char *rest = NULL;
-    char *files = study->driver ? study_files(study) : memory_print_text("%s", cli_spectrum_files);
-    for (char *name = strtok_r(files, ", ", &rest); name; name = strtok_r(NULL, ", ", &rest)) {
-        char *path = memory_print_text("%s/%s", directory, name);
+    for (size_t i = 0; i < of->file_count; i++) {
+        char *path = memory_print_text("%s/%s", directory, of->files[i].name);
         results_made_note(directory, path, path);
         free(path);
     }
-    free(files);
 }
 
 /* Opens what the run needs beside the file; false after an error. */
@@ -322,7 +327,6 @@ static bool is_strict_about(const study_counters *counters, const cli_options *o
 /* Runs the study and prints its progress and results; returns the exit code. */
 static int run_and_tell(const study_run *run, teller *t, ff_report *report)
 {
-    const study_definition *study = run->study;
     const cli_options *options = t->options;
     study_counters counters = {.total = 0};
     study_signals before;
@@ -332,8 +336,8 @@ static int run_and_tell(const study_run *run, teller *t, ff_report *report)
                                    : study_execute(run, &counters, report));
     study_signals_restore(&before);
     if (good && counters.leads && run->keys)
-        good = cli_spectrum_sum(run, &t->sums, report);
-    int verdict = driven ? study_verdict(study) : -1;
+        good = cli_spectrum_sum(run, &t->sums);
+    int verdict = driven ? found(t)->verdict : -1;
     bool bad = verdict < 0 ? counters.failed > 0 : verdict == FF_BAD;
     const bool strict = is_strict_about(&counters, options, report, false);
     bad = bad || strict;
@@ -346,8 +350,8 @@ static int run_and_tell(const study_run *run, teller *t, ff_report *report)
         tell_or_answer(t, &counters, good, code, report);
     if (good && strict && !options->json && counters.leads)
         is_strict_about(&counters, options, report, true);
-    if (good && (driven || t->sums))
-        note_files(study, t->directory);
+    if (good)
+        note_files(found(t), t->directory);
     study_tally_free(&counters.tally);
     return code;
 }
@@ -358,6 +362,7 @@ int cli_run_study(cli_session *session, const cli_options *options)
     char input[20];
     study_run run = run_of(session, options, directory);
     teller t = {.session = session,
+                .sums = {.report = session->report},
                 .options = options,
                 .input = {.file = options->operand,
                           .sets = options->sets,
@@ -376,7 +381,7 @@ int cli_run_study(cli_session *session, const cli_options *options)
                    ? run_and_tell(&run, &t, session->report)
                    : cli_refuse(session->report, options, "nothing was run");
     ff_instance_close(run.executor);
-    json_decref(t.sums);
+    study_context_free(&t.sums);
     free(run.keys);
     free(t.replaced);
     free(t.removed);

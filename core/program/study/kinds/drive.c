@@ -315,11 +315,7 @@ bool study_drive(const study_run *run, study_counters *counters, ff_report *repo
     bool good = study_open_cases(&own, report) && driver->kind->cases(driver->study);
     if (good)
         give_answer(driver);
-    good = good && study_write_submitted(context);
-    for (size_t i = 0; good && i < context->file_count; i++)
-        good =
-            study_write_file(run->directory, context->files[i].name, context->files[i].text,
-                             "the journal has all cases; the same command writes the file", report);
+    good = good && study_write_submitted(context) && study_context_write(context, run->directory);
     context->run = NULL;
     return good && ff_report_errors(report) == 0;
 }
@@ -371,22 +367,7 @@ const char *study_further(const study_definition *study)
     return study->driver ? study->driver->context.further : "";
 }
 
-json_t *study_facts(const study_definition *study)
+const study_context *study_found(const study_definition *study)
 {
-    return study->driver->context.facts;
-}
-
-int study_verdict(const study_definition *study)
-{
-    return study->driver->context.verdict;
-}
-
-char *study_files(const study_definition *study)
-{
-    const study_context *context = &study->driver->context;
-    char *text = memory_print_text("%s", "");
-    for (size_t i = 0; i < context->file_count; i++) {
-        memory_add_text(&text, "%s, ", context->files[i].name);
-    }
-    return text;
+    return study->driver ? &study->driver->context : NULL;
 }

@@ -28,11 +28,7 @@ bool study_drive(const study_run *run, study_counters *counters, ff_report *repo
 /* Tells what a run would do. For a study with a driver these are also the cases that the driver
  * would submit by the results that it has already. */
 void study_plan_run(const study_run *run, study_plan *plan);
-/* Returns the answer of a study with a driver: members for `run --json`, or NULL. */
-json_t *study_facts(const study_definition *study);
-/* Its verdict, FF_GOOD or FF_BAD; -1 when its cases decide. */
-int study_verdict(const study_definition *study);
-/* Returns the names of its files, "map.csv, map.figure.json, ", to be freed. */
-char *study_files(const study_definition *study);
+/* What the driver of a study found: facts, files and verdict. NULL without a driver. */
+const study_context *study_found(const study_definition *study);
 
 #endif

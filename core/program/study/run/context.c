@@ -82,3 +82,13 @@ FILE *study_context_file(study_context *context, const char *name)
     file->name = name;
     return memory_require(open_memstream(&file->text, &file->length));
 }
+
+bool study_context_write(const study_context *context, const char *directory)
+{
+    bool good = true;
+    for (size_t i = 0; good && i < context->file_count; i++)
+        good = study_write_file(directory, context->files[i].name, context->files[i].text,
+                                "the journal has all cases; the same command writes the file",
+                                context->report);
+    return good;
+}

@@ -143,6 +143,8 @@ bool study_is_map(const ff_node *node);
 void study_context_print_line(const study_context *context, int indent, const char *line);
 /* Opens a file of the study, which the caller writes and closes. */
 FILE *study_context_file(study_context *context, const char *name);
+/* Writes these files into the directory; false after an error in the report. */
+bool study_context_write(const study_context *context, const char *directory);
 
 /* submit.c: adds a case and returns its number 0, 1, ... `settings` has one entry for each path
  * of the context, whose texts live as long as the context. Cases that differ only in `repeat`
