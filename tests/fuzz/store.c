@@ -118,8 +118,8 @@ static void read_view(void)
     for (size_t v = 0; view && v < view->variable_count; v++)
         for (size_t c = 0; c < view->case_count && c < 4; c++) {
             ff_array array;
-            if (view->load(view->ctx, v, c, &array) == FF_OK)
-                view->release(view->ctx, &array);
+            if (results_view_load(view, v, c, &array))
+                results_view_release(&array);
         }
     results_view_close(view);
     fuzz_print(report);

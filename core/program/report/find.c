@@ -74,13 +74,14 @@ ff_array report_load(report_page *page, int variable, size_t index)
     ff_array array = {.data = NULL};
     if (variable < 0 || page->failed)
         return array;
-    page->failed = page->view->load(page->view->ctx, (size_t)variable, index, &array) != FF_OK;
+    page->failed = !results_view_load(page->view, (size_t)variable, index, &array);
     return array;
 }
 
 void report_release(report_page *page, ff_array *array)
 {
-    page->view->release(page->view->ctx, array);
+    (void)page;
+    results_view_release(array);
 }
 
 size_t report_array_size(const ff_array *array)

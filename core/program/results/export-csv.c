@@ -82,12 +82,12 @@ static bool put_scalars(const table *t, size_t index)
         ff_array array;
         if (view->variables[v]->rank != 0)
             continue;
-        if (view->load(view->ctx, v, index, &array) != FF_OK)
+        if (!results_view_load(view, v, index, &array))
             return false;
         fputc(',', t->out);
         if (array.data)
             put_number(t->out, array.data[0]);
-        view->release(view->ctx, &array);
+        results_view_release(&array);
     }
     return true;
 }
@@ -207,7 +207,7 @@ static bool load_column(const table *t, columns *c, size_t k, size_t index, cons
     bool fits = results_view_full_shape(view, c->variables[k], index, own);
     for (uint32_t d = 0; fits && d < view->variables[c->variables[k]]->rank; d++)
         fits = own[d] == shape[from + d];
-    return !fits || view->load(view->ctx, c->variables[k], index, &c->arrays[k]) == FF_OK;
+    return !fits || results_view_load(view, c->variables[k], index, &c->arrays[k]);
 }
 
 static bool put_case(const table *t, columns *c, size_t index)
@@ -223,7 +223,7 @@ static bool put_case(const table *t, columns *c, size_t index)
     if (any && good)
         put_points(t, c, index, shape);
     for (size_t k = 0; any && k < c->count; k++)
-        view->release(view->ctx, &c->arrays[k]);
+        results_view_release(&c->arrays[k]);
     return good;
 }
 

@@ -60,10 +60,7 @@ static json_t *assignments_of(const results_reader *reader, size_t index)
     json_t *set = json_object();
     for (size_t k = 0; k < reader->axes.count; k++) {
         const results_view_axis *axis = reader->axes.rows[k];
-        size_t below = 1;
-        for (size_t d = axis->dimension + 1; d < reader->view.dimension_count; d++)
-            below *= reader->view.lengths[d];
-        size_t point = index / below % reader->view.lengths[axis->dimension];
+        size_t point = results_view_point(&reader->view, index, axis->dimension);
         json_object_set_new(set, axis->path, json_string(axis->words[point]));
     }
     return set;
@@ -207,7 +204,7 @@ bool results_view_read_study(results_reader *reader)
         json_decref(study);
         return refuse(reader, "lists no case: rows of standard input stand there when they ended");
     }
-    reader->view.study = 1;
+    reader->view.study = true;
     results_view_add_head(reader, study);
     good = read_lengths(reader, json_object_get(study, "lengths"));
     json_array_foreach(json_object_get(study, "axes"), i, entry) good =

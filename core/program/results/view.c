@@ -21,21 +21,6 @@ size_t results_view_point(const results_view *view, size_t index, size_t dimensi
     return index % view->lengths[dimension];
 }
 
-bool results_view_full_shape(const results_view *view, size_t variable, size_t index,
-                             size_t shape[4])
-{
-    assert(variable < view->variable_count);
-    size_t found[4] = {0};
-    int32_t rank = view->shape(view->ctx, variable, index, found);
-    uint32_t i, absent, full = view->variables[variable]->rank;
-    if (rank < 0 || (uint32_t)rank > full)
-        return false;
-    absent = full - (uint32_t)rank;
-    for (i = 0; i < full; i++)
-        shape[i] = i < absent ? 1 : found[i - absent];
-    return true;
-}
-
 bool results_view_is_coordinate(const results_view_variable *series,
                                 const results_view_variable *other, uint32_t dim)
 {
@@ -46,6 +31,12 @@ bool results_view_is_coordinate(const results_view_variable *series,
     return series->stage == other->stage && !strcmp(series->dims[0], other->dims[dim]) &&
            (!strcmp(series->output, series->dims[0]) || !strcmp(series->unit, "s") ||
             !strcmp(series->unit, "rad"));
+}
+
+/* The view is the first member of its reader. */
+static results_reader *reader_of(const results_view *view)
+{
+    return (results_reader *)(size_t)view;
 }
 
 static const results_output *output_of(const results_reader *reader, size_t variable, size_t index)
@@ -59,12 +50,18 @@ static const results_output *output_of(const results_reader *reader, size_t vari
     return NULL;
 }
 
-static int32_t shape_of(void *ctx, size_t variable, size_t index, size_t shape[4])
+bool results_view_full_shape(const results_view *view, size_t variable, size_t index,
+                             size_t shape[4])
 {
-    const results_output *output = output_of(ctx, variable, index);
-    for (uint32_t i = 0; output && i < output->rank; i++)
-        shape[i] = output->shape[i];
-    return output ? (int32_t)output->rank : -1;
+    assert(variable < view->variable_count);
+    const results_output *output = output_of(reader_of(view), variable, index);
+    const uint32_t full = view->variables[variable]->rank;
+    if (!output || output->rank > full)
+        return false;
+    const uint32_t absent = full - output->rank;
+    for (uint32_t i = 0; i < full; i++)
+        shape[i] = i < absent ? 1 : output->shape[i - absent];
+    return true;
 }
 
 typedef struct loaded {
@@ -175,25 +172,24 @@ static loaded *read_scalar(const results_output *output)
     return made;
 }
 
-static ff_status load(void *ctx, size_t variable, size_t index, ff_array *array)
+bool results_view_load(const results_view *view, size_t variable, size_t index, ff_array *array)
 {
-    results_reader *reader = ctx;
+    results_reader *reader = reader_of(view);
     const results_output *output = output_of(reader, variable, index);
     *array = (ff_array){.data = NULL};
     if (!output)
-        return FF_OK;
+        return true;
     loaded *made = output->rank ? read_array(reader, index, output) : read_scalar(output);
     if (!made)
-        return FF_NOCONV;
+        return false;
     if (output->rank)
         memcpy(made->shape, output->shape, output->rank * sizeof *output->shape);
     *array = (ff_array){.data = made->data, .shape = made->shape, .rank = output->rank};
-    return FF_OK;
+    return true;
 }
 
-static void release(void *ctx, ff_array *array)
+void results_view_release(ff_array *array)
 {
-    (void)ctx;
     if (array->data)
         free((char *)(size_t)array->data - offsetof(loaded, data));
     *array = (ff_array){.data = NULL};
@@ -239,10 +235,6 @@ static void read_figures(results_reader *reader)
 static void finish_view(results_reader *reader)
 {
     results_view *view = &reader->view;
-    view->ctx = reader;
-    view->shape = shape_of;
-    view->load = load;
-    view->release = release;
     view->fact_count = reader->facts.count;
     view->facts = results_view_take_rows(reader, &reader->facts);
     view->citation_count = reader->citations.count;
@@ -307,7 +299,7 @@ void results_view_close(const results_view *view)
 {
     if (!view)
         return;
-    results_reader *reader = view->ctx;
+    results_reader *reader = reader_of(view);
     free(reader->per_case);
     free(reader->outputs);
     arrays_reader_close(&reader->logs);

@@ -108,9 +108,8 @@ typedef struct results_view_figures {
 } results_view_figures;
 
 typedef struct results_view {
-    void *ctx; /* first argument of the functions below */
     const char *title;
-    int32_t study; /* 0: a single run */
+    bool study; /* false: a single run */
 
     const results_view_fact *const *facts;
     size_t fact_count;
@@ -127,13 +126,6 @@ typedef struct results_view {
     const results_view_case *const *cases;
     size_t case_count; /* product of lengths */
 
-    /* Rank and lengths of a variable in a case, without reading it; -1: the case lacks it. */
-    int32_t (*shape)(void *ctx, size_t variable, size_t index, size_t shape[4]);
-    /* Its numbers, until release; data is NULL when the case lacks it. What is not finite is NaN.
-       A failure has been reported: return its status. */
-    ff_status (*load)(void *ctx, size_t variable, size_t index, ff_array *array);
-    void (*release)(void *ctx, ff_array *array); /* data may be NULL */
-
     const char
         *summary; /* of the verdicts: "12 good, 104 doubtful (inlet heating 88, lambda 61)" */
     const results_view_figures *const *figures;
@@ -146,6 +138,10 @@ size_t results_view_point(const results_view *view, size_t index, size_t dimensi
    False: the case lacks the variable. */
 bool results_view_full_shape(const results_view *view, size_t variable, size_t index,
                              size_t shape[4]);
+/* Reads the numbers of a variable in a case, to be released; data is NULL if the case lacks it.
+   What is not finite is NaN. False after an error. */
+bool results_view_load(const results_view *view, size_t variable, size_t index, ff_array *array);
+void results_view_release(ff_array *array); /* data may be NULL */
 /* Whether a series is what dimension `dim` of another variable is plotted against: `against` says
    so, or it runs along that dimension and is named like it, or is a time or an angle. */
 bool results_view_is_coordinate(const results_view_variable *series,
