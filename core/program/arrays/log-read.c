@@ -2,10 +2,10 @@
 /* Reads logs of arrays. */
 #include "record.h"
 
+#include "../memory/file.h"
 #include "../memory/memory.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -36,15 +36,13 @@ static int open_log(int directory, const char *name, off_t *size, char why[ARRAY
 {
     struct stat info;
     char title[ARRAYS_LOG_HEAD];
-    int fd = openat(directory, name, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* O_NONBLOCK: opening a
-                                                                            pipe does not wait */
-    if (fd < 0 || fstat(fd, &info) != 0)
-        snprintf(why, ARRAYS_WHY, "%s", strerror(errno));
-    else if (!S_ISREG(info.st_mode))
-        snprintf(why, ARRAYS_WHY, "it is not a file");
-    else if (info.st_size < ARRAYS_LOG_HEAD)
+    const char *unopened;
+    int fd = file_open(directory, name, &unopened);
+    if (fd < 0)
+        snprintf(why, ARRAYS_WHY, "%s", unopened);
+    else if (fstat(fd, &info) != 0 || info.st_size < ARRAYS_LOG_HEAD)
         snprintf(why, ARRAYS_WHY, "it is not a log of arrays");
-    else if (!arrays_read_at(fd, title, sizeof title, 0))
+    else if (!file_read(fd, title, sizeof title, 0))
         snprintf(why, ARRAYS_WHY, "%s", strerror(errno));
     else if (arrays_log_check_title(title, why)) {
         *size = info.st_size;
@@ -116,8 +114,8 @@ bool arrays_reader_read(arrays_reader *reader, const char *name, off_t offset,
     int fd = reader->logs[log].fd;
     size_t size = head.count * sizeof *out;
     off_t numbers = offset + (off_t)head.size;
-    if (!arrays_read_at(fd, found, head.size, offset) || !arrays_read_at(fd, out, size, numbers) ||
-        !arrays_read_at(fd, &told, sizeof told, numbers + (off_t)size)) {
+    if (!file_read(fd, found, head.size, offset) || !file_read(fd, out, size, numbers) ||
+        !file_read(fd, &told, sizeof told, numbers + (off_t)size)) {
         snprintf(why, ARRAYS_WHY, "%s", strerror(errno));
         return false;
     }

@@ -2,26 +2,14 @@
 /* Appends to a log of arrays. */
 #include "record.h"
 
+#include "../memory/file.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <sys/uio.h>
 #include <unistd.h>
-
-static bool write_at(int fd, const void *data, size_t size, off_t at)
-{
-    const char *from = data;
-    while (size > 0) {
-        ssize_t written = pwrite(fd, from, size, at);
-        if (written == 0 || (written < 0 && errno != EINTR))
-            return false;
-        from += written > 0 ? written : 0;
-        at += written > 0 ? written : 0;
-        size -= written > 0 ? (size_t)written : 0;
-    }
-    return true;
-}
 
 /* Forces the names in a directory to the disk. File systems that do not support this keep names on
    their own, or never. */
@@ -44,7 +32,7 @@ static bool write_title(arrays_log *log, int directory)
     char title[ARRAYS_LOG_HEAD];
     arrays_log_title(title);
     log->end = ARRAYS_LOG_HEAD;
-    return ftruncate(log->fd, 0) == 0 && write_at(log->fd, title, sizeof title, 0) &&
+    return ftruncate(log->fd, 0) == 0 && file_write(log->fd, title, sizeof title, 0) &&
            arrays_force(log->fd) && sync_names(directory);
 }
 
@@ -59,7 +47,7 @@ static bool enter_log(arrays_log *log, int directory, off_t end, char why[ARRAYS
         return false;
     if (info.st_size < ARRAYS_LOG_HEAD)
         return write_title(log, directory);
-    if (!arrays_read_at(log->fd, title, sizeof title, 0) || !arrays_log_check_title(title, why))
+    if (!file_read(log->fd, title, sizeof title, 0) || !arrays_log_check_title(title, why))
         return false;
     log->end = end < info.st_size ? end : info.st_size / 8 * 8;
     if (log->end < ARRAYS_LOG_HEAD)
@@ -98,9 +86,9 @@ bool arrays_log_append(arrays_log *log, const arrays_label *label, const double 
         {head.bytes, head.size}, {(double *)(uintptr_t)data, size}, {&sum, sizeof sum}};
     bool good = pwritev(log->fd, parts, 3, at) == (ssize_t)whole ||
                 /* a partial write sets no errno: a second attempt does */
-                (write_at(log->fd, head.bytes, head.size, at) &&
-                 write_at(log->fd, data, size, at + (off_t)head.size) &&
-                 write_at(log->fd, &sum, sizeof sum, at + (off_t)(head.size + size)));
+                (file_write(log->fd, head.bytes, head.size, at) &&
+                 file_write(log->fd, data, size, at + (off_t)head.size) &&
+                 file_write(log->fd, &sum, sizeof sum, at + (off_t)(head.size + size)));
     if (good)
         log->end = at + (off_t)whole;
     return good;

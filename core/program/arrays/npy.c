@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "npy.h"
 
+#include "../memory/file.h"
+
 #include <assert.h>
-#include <errno.h>
-#include <fcntl.h>
 #include <math.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -64,21 +64,6 @@ void arrays_npy_write(FILE *stream, const double *data, const size_t *shape, uin
         fwrite(data, sizeof *data, count, stream);
 }
 
-static bool read_fully(int fd, void *out, size_t size)
-{
-    char *at = out;
-    while (size > 0) {
-        ssize_t got = read(fd, at, size);
-        if (got < 0 && errno == EINTR)
-            continue;
-        if (got <= 0)
-            return false;
-        at += got;
-        size -= (size_t)got;
-    }
-    return true;
-}
-
 /* Returns the text after 'key': in the header; "" if the key is missing. */
 static const char *value_of(const char *header, const char *key)
 {
@@ -128,14 +113,14 @@ static bool check_header(const char *header, const char *shape, char why[ARRAYS_
 static bool read_header(int fd, char header[LONGEST_HEADER], size_t *length, char why[ARRAYS_WHY])
 {
     unsigned char start[PREAMBLE];
-    if (!read_fully(fd, start, sizeof start) || memcmp(start, magic, MAGIC) != 0)
+    if (!file_read(fd, start, sizeof start, -1) || memcmp(start, magic, MAGIC) != 0)
         snprintf(why, ARRAYS_WHY, "it is not a .npy file");
     else if (start[MAGIC] != 1 || start[MAGIC + 1] != 0)
         snprintf(why, ARRAYS_WHY, "it is of version %d.%d of the format, not 1.0", start[MAGIC],
                  start[MAGIC + 1]);
     else if ((*length = start[MAGIC + 2] + 256U * start[MAGIC + 3]) >= LONGEST_HEADER)
         snprintf(why, ARRAYS_WHY, "its header is longer than %d bytes", LONGEST_HEADER);
-    else if (!read_fully(fd, header, *length))
+    else if (!file_read(fd, header, *length, -1))
         snprintf(why, ARRAYS_WHY, "it ends within its header");
     else
         return true;
@@ -163,21 +148,18 @@ static bool check_file(int fd, const size_t *shape, uint32_t rank, char why[ARRA
     size_t length = 0;
     struct stat info;
     print_shape(shape, rank, expected, sizeof expected);
-    if (fstat(fd, &info) != 0 || !S_ISREG(info.st_mode)) {
-        snprintf(why, ARRAYS_WHY, "it is not a file");
-        return false;
-    }
-    return read_header(fd, header, &length, why) && check_header(header, expected, why) &&
+    return fstat(fd, &info) == 0 && read_header(fd, header, &length, why) &&
+           check_header(header, expected, why) &&
            check_size(&info, PREAMBLE + length, shape, rank, why);
 }
 
 int arrays_npy_open(int directory, const char *name, const size_t *shape, uint32_t rank,
                     char why[ARRAYS_WHY])
 {
-    int fd = openat(directory, name, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* O_NONBLOCK: opening a
-                                                                            pipe does not wait */
+    const char *unopened;
+    int fd = file_open(directory, name, &unopened);
     if (fd < 0)
-        snprintf(why, ARRAYS_WHY, "%s", strerror(errno));
+        snprintf(why, ARRAYS_WHY, "%s", unopened);
     if (fd < 0 || check_file(fd, shape, rank, why))
         return fd;
     close(fd);
@@ -193,7 +175,7 @@ void arrays_npy_clean(double *numbers, size_t count)
 
 bool arrays_npy_read(int fd, double *out, size_t count)
 {
-    bool good = read_fully(fd, out, count * sizeof *out);
+    bool good = file_read(fd, out, count * sizeof *out, -1);
     if (good)
         arrays_npy_clean(out, count);
     close(fd);

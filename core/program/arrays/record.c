@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__,
                "the numbers are written as they stand in memory");
@@ -58,22 +56,4 @@ bool arrays_log_check_title(const char title[ARRAYS_LOG_HEAD], char why[ARRAYS_W
         snprintf(why, ARRAYS_WHY, "it is of format %s of such logs; this flankfilm reads %d",
                  format, ARRAYS_LOG_FORMAT);
     return false;
-}
-
-bool arrays_read_at(int fd, void *out, size_t size, off_t at)
-{
-    char *to = out;
-    while (size > 0) {
-        ssize_t got = pread(fd, to, size, at);
-        if (got < 0 && errno == EINTR)
-            continue;
-        if (got <= 0) {
-            errno = got < 0 ? errno : EIO;
-            return false;
-        }
-        to += got;
-        at += got;
-        size -= (size_t)got;
-    }
-    return true;
 }

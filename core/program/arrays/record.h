@@ -29,6 +29,4 @@ void arrays_log_title(char title[ARRAYS_LOG_HEAD]);
 /* Checks the start of a log; false with what is wrong. */
 bool arrays_log_check_title(const char title[ARRAYS_LOG_HEAD], char why[ARRAYS_WHY]);
 
-bool arrays_read_at(int fd, void *out, size_t size, off_t at);
-
 #endif

@@ -1,15 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Answers rows from standard input with one line of JSON each, in the order in which they end. */
 #include "../study/cases/rows.h"
+#include "../memory/file.h"
 #include "../memory/memory.h"
 #include "../results/json.h"
 #include "../terminal/answer.h"
 #include "command.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 /* Returns {name: value in SI}; null for a number that is not finite, as in the record. */
 static json_t *values_of(const json_t *outputs)
@@ -28,17 +27,6 @@ static void take_over(json_t *line, const json_t *record, const char *name)
         json_object_set(line, name, value);
 }
 
-static bool write_line(const char *text, size_t length)
-{
-    for (size_t done = 0; done < length;) {
-        ssize_t written = write(terminal_answer_file(), text + done, length - done);
-        if (written < 0 && errno != EINTR)
-            return false;
-        done += written > 0 ? (size_t)written : 0;
-    }
-    return true;
-}
-
 bool cli_answer_row(size_t index, const json_t *set, const json_t *record, bool known)
 {
     static const char *const members[] = {"key",   "status", "verdict", "reasons",
@@ -50,7 +38,7 @@ bool cli_answer_row(size_t index, const json_t *set, const json_t *record, bool 
     json_object_set_new(line, "outputs", values_of(json_object_get(record, "outputs")));
     char *text = json_dumps(line, JSON_COMPACT | JSON_REAL_PRECISION(RESULTS_JSON_DIGITS));
     char *whole = memory_print_text("%s\n", text);
-    bool good = write_line(whole, strlen(whole));
+    bool good = file_write(terminal_answer_file(), whole, strlen(whole), -1);
     free(whole);
     free(text);
     json_decref(line);

@@ -3,6 +3,7 @@
 #include "json.h"
 
 #include "../accuracy/models.h"
+#include "../memory/file.h"
 #include "../memory/memory.h"
 #include "../study/kinds/kinds.h"
 #include "../study/store/hash.h"
@@ -166,7 +167,7 @@ static bool check(const char *directory, const char *name, const results_input *
 static bool begins_alike(const char *directory, const results_input *input)
 {
     char words[64], found[64] = "", *path = memory_print_text("%s/result.json", directory);
-    int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK), length;
+    int file = file_open(AT_FDCWD, path, NULL), length;
     free(path);
     length = snprintf(words, sizeof words, "{\"format\":%d,\"key\":\"%016llx\"", RESULTS_FORMAT,
                       (unsigned long long)input->key);

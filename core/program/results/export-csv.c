@@ -3,6 +3,7 @@
 
 #include "../study/kinds/answer/number.h"
 
+#include "../memory/file.h"
 #include "../memory/memory.h"
 #include "../study/cases/csv.h"
 
@@ -315,8 +316,7 @@ static bool copy_table(table *t, const char *directory, const char *figures)
 {
     char *stem = memory_print_text("%.*s", (int)strcspn(figures, "."), figures), block[4096];
     char *path = memory_print_text("%s/%s.csv", directory, stem);
-    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* no pipe */
-    FILE *from = fd < 0 ? NULL : fdopen(fd, "r");
+    FILE *from = file_stream(AT_FDCWD, path);
     bool good = !from || begin_table(t, stem);
     for (size_t length; good && from && (length = fread(block, 1, sizeof block, from)) > 0;)
         fwrite(block, 1, length, t->out);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "folder.h"
 
+#include "../memory/file.h"
 #include "../study/kinds/kinds.h"
 
 #include <dirent.h>
@@ -9,7 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 enum { LONGEST_NAME = 255, LONGEST_PART = LONGEST_NAME + 20 };
@@ -128,8 +128,7 @@ static bool read_kind(const char *line, char kind[LONGEST_NAME])
 /* Reads the names of the earlier files; false when the directory has no manifest of ours. */
 static bool read_manifest(results_folder *folder, char kind[LONGEST_NAME])
 {
-    int fd = folder->fd < 0 ? -1 : openat(folder->fd, manifest, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    FILE *stream = fd < 0 ? NULL : fdopen(fd, "r");
+    FILE *stream = folder->fd < 0 ? NULL : file_stream(folder->fd, manifest);
     if (!stream)
         return false;
     char line[LONGEST_NAME + 2];

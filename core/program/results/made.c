@@ -2,6 +2,7 @@
 #include "made.h"
 #include "folder.h"
 
+#include "../memory/file.h"
 #include "../memory/memory.h"
 
 #include <fcntl.h>
@@ -73,8 +74,7 @@ char *results_made_remove(const char *directory)
 {
     char *list = memory_print_text("%s/%s", directory, list_name);
     char *names = memory_print_text("%s", ""), *line = NULL;
-    int fd = open(list, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* no pipe */
-    FILE *stream = fd < 0 ? NULL : fdopen(fd, "r");
+    FILE *stream = file_stream(AT_FDCWD, list);
     size_t size = 0;
     while (stream && getline(&line, &size, stream) > 0) {
         line[strcspn(line, "\n")] = '\0';

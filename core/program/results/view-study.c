@@ -3,10 +3,11 @@
  */
 #include "view-tables.h"
 
+#include "../memory/file.h"
+
 #include "../study/store/records.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -69,8 +70,7 @@ static json_t *assignments_of(const results_reader *reader, size_t index)
 /* table.csv knows the key of each case; there is none before the end of the first run. */
 static void read_keys(results_reader *reader)
 {
-    int fd = openat(reader->directory, "table.csv", O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    FILE *stream = fd < 0 ? NULL : fdopen(fd, "r");
+    FILE *stream = file_stream(reader->directory, "table.csv");
     char *line = NULL, key[STUDY_KEY_SIZE];
     size_t size = 0, number;
     while (stream && getline(&line, &size, stream) > 0)

@@ -2,6 +2,8 @@
 #include "view.h"
 #include "view-tables.h"
 
+#include "../memory/file.h"
+
 #include <assert.h>
 #include <dirent.h>
 #include <errno.h>
@@ -206,7 +208,7 @@ static int is_figures(const struct dirent *entry)
 static void read_figure(results_reader *reader, const char *name)
 {
     enum { MOST = 1 << 21 };
-    int fd = openat(reader->directory, name, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    int fd = file_open(reader->directory, name, NULL);
     char *text = memory_alloc(MOST);
     ssize_t length = fd >= 0 ? read(fd, text, MOST) : -1;
     if (length > 0 && length < MOST && !memchr(text, 0, (size_t)length)) {

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "answer.h"
 
-#include <errno.h>
+#include "../memory/file.h"
+
 #include <fcntl.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -35,12 +36,7 @@ bool terminal_answer_end(void)
 {
     if (!stream)
         return true;
-    bool good = fclose(stream) == 0;
-    for (size_t done = 0; good && done < length;) {
-        ssize_t written = write(file, text + done, length - done);
-        good = written >= 0 || errno == EINTR;
-        done += written > 0 ? (size_t)written : 0;
-    }
+    bool good = fclose(stream) == 0 && file_write(file, text, length, -1);
     free(text);
     stream = NULL;
     return close(file) == 0 && good;

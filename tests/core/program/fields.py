@@ -96,7 +96,7 @@ class Fields(lab.Lab):
     def test_not_a_file(self):
         self.put(None)
         os.mkfifo("bad/wave.field.npy")
-        self.assertIn("it is not a file", self.call("export", "bad", "--to", "csv", code=2))
+        self.assertIn("it is not a regular file", self.call("export", "bad", "--to", "csv", code=2))
 
     def test_names(self):
         """A name in result.json leads nowhere else."""

@@ -6,6 +6,7 @@
  */
 #include "case.h"
 
+#include "../../memory/file.h"
 #include "../store/journal.h"
 
 #include <errno.h>
@@ -30,8 +31,7 @@ static off_t find_end(int directory, const study_run *run, const char *name)
     size_t size = 0, length = strlen(name);
     off_t end = 0;
     study_journal_name(run->shard, run->shards, journal);
-    int fd = openat(directory, journal, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    FILE *stream = fd < 0 ? NULL : fdopen(fd, "r");
+    FILE *stream = file_stream(directory, journal);
     while (stream && getline(&line, &size, stream) > 0) {
         const char *at = strstr(line, log_head);
         at = at ? at + sizeof log_head - 1 : "";

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "csv.h"
 
+#include "../../memory/file.h"
 #include "../../memory/memory.h"
 
 #include <errno.h>
@@ -21,22 +22,15 @@ static bool is_blank(char c)
 static const char *read_file(int fd, ff_source *source)
 {
     struct stat info;
-    ssize_t got = 1;
-    if (fd < 0 || fstat(fd, &info) != 0)
+    if (fstat(fd, &info) != 0)
         return strerror(errno);
-    if (!S_ISREG(info.st_mode))
-        return S_ISDIR(info.st_mode) ? strerror(EISDIR) : "it is not a regular file";
     if (info.st_size > LARGEST_FILE)
         return "it has more than 256 MiB";
     free(source->text);
-    source->text = memory_alloc((size_t)info.st_size + 1);
-    while (source->length < (size_t)info.st_size && got != 0) {
-        got = read(fd, source->text + source->length, (size_t)info.st_size - source->length);
-        if (got < 0 && errno != EINTR)
-            return strerror(errno);
-        source->length += got > 0 ? (size_t)got : 0;
-    }
-    source->text[source->length] = '\0';
+    source->length = (size_t)info.st_size;
+    source->text = memory_alloc(source->length + 1);
+    if (!file_read(fd, source->text, source->length, -1))
+        return strerror(errno);
     return strlen(source->text) == source->length ? NULL
                                                   : "it holds a character 0, so that it is no text";
 }
@@ -44,15 +38,16 @@ static const char *read_file(int fd, ff_source *source)
 const char *study_csv_open(study_csv *table, const char *path)
 {
     const char *slash = strrchr(path, '/');
-    /* so that opening a pipe does not block */
-    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    const char *why = NULL;
+    int fd = file_open(AT_FDCWD, path, &why);
     *table =
         (study_csv){.source = {.name = memory_copy_text(path, strlen(path)),
                                .text = memory_copy_text("", 0),
                                .directory = slash ? memory_copy_text(path, (size_t)(slash - path) +
                                                                                (slash == path))
                                                   : memory_copy_text(".", 1)}};
-    const char *why = read_file(fd, &table->source);
+    if (fd >= 0)
+        why = read_file(fd, &table->source);
     table->at = table->source.text;
     if (!strncmp(table->at, "\xef\xbb\xbf", 3))
         table->at += 3;

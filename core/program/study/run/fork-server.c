@@ -3,8 +3,9 @@
  * an answer for each case. */
 #include "workers.h"
 
+#include "../../memory/file.h"
+
 #include <errno.h>
-#include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -42,7 +43,7 @@ static _Noreturn void serve(const study_run *run, int from, int to)
     signal(SIGUSR1, SIG_IGN);
     for (;;) {
         if (!pool.workers || has_input(from, 0)) {
-            if (!study_read_all(from, &task, sizeof task))
+            if (!file_read(from, &task, sizeof task, -1))
                 break;
             if (!pool.workers)
                 open_pool(&pool, run, from, to);
@@ -52,8 +53,7 @@ static _Noreturn void serve(const study_run *run, int from, int to)
         if (state == FF_TASK_NONE)
             continue;
         answer_head head = {.task = task, .size = strlen(pool.answer) + 1, .state = state};
-        if (!study_write_all(to, &head, sizeof head) ||
-            !study_write_all(to, pool.answer, head.size))
+        if (!file_write(to, &head, sizeof head, -1) || !file_write(to, pool.answer, head.size, -1))
             break;
     }
     study_pool_kill(&pool);
@@ -83,7 +83,7 @@ bool study_fork_server_start(study_fork_server *server, const study_run *run)
 void study_fork_server_start_chain(study_fork_server *server, size_t chain)
 {
     /* If the fork server has ended, study_fork_server_wait will notice. */
-    study_write_all(server->to, &chain, sizeof chain);
+    file_write(server->to, &chain, sizeof chain, -1);
 }
 
 int study_fork_server_wait(study_fork_server *server, int milliseconds, size_t *task)
@@ -91,10 +91,10 @@ int study_fork_server_wait(study_fork_server *server, int milliseconds, size_t *
     answer_head head;
     if (!has_input(server->from, milliseconds))
         return FF_TASK_NONE;
-    if (!study_read_all(server->from, &head, sizeof head))
+    if (!file_read(server->from, &head, sizeof head, -1))
         return FF_TASK_GONE;
     server->answer = memory_resize(server->answer, head.size);
-    if (!study_read_all(server->from, server->answer, head.size))
+    if (!file_read(server->from, server->answer, head.size, -1))
         return FF_TASK_GONE;
     *task = head.task;
     return head.state;

@@ -8,6 +8,7 @@
 #include "../../arrays/log.h"
 #include "../../crash/hunger.h"
 #include "../../crash/lead.h"
+#include "../../memory/file.h"
 #include "../cases/chain.h"
 #include "../cases/rows.h"
 #include "../cases/walk.h"
@@ -71,18 +72,6 @@ static void limit_processes(void)
     setrlimit(RLIMIT_NPROC, &limit);
 }
 
-bool study_write_all(int fd, const void *data, size_t size)
-{
-    for (const char *at = data; size > 0;) {
-        ssize_t written = write(fd, at, size);
-        if (written < 0 && errno != EINTR)
-            return false;
-        at += written > 0 ? written : 0;
-        size -= written > 0 ? (size_t)written : 0;
-    }
-    return true;
-}
-
 bool study_open_pipes(int to[2], int from[2])
 {
     if (pipe2(to, O_CLOEXEC) != 0)
@@ -141,7 +130,7 @@ static bool run_case(const study_worker *worker, study_walk *walk, size_t index,
     study_walk_next(walk);
     memcpy(worker->shared->key, walk->c.key, sizeof walk->c.key);
     char *line = answer_case(walk, index, memory, start, &record);
-    bool sent = study_write_all(to, line, strlen(line));
+    bool sent = file_write(to, line, strlen(line), -1);
     study_walk_leave(walk, record);
     json_decref(record);
     free(line);
@@ -158,29 +147,17 @@ static void keep_memory(void)
     mallopt(M_MMAP_THRESHOLD, MMAP);
 }
 
-bool study_read_all(int fd, void *data, size_t size)
-{
-    for (char *at = data; size > 0;) {
-        ssize_t got = read(fd, at, size);
-        if (got == 0 || (got < 0 && errno != EINTR))
-            return false;
-        at += got > 0 ? got : 0;
-        size -= got > 0 ? (size_t)got : 0;
-    }
-    return true;
-}
-
 static bool take_case(const study_run *run, int from, size_t *index)
 {
     size_t length;
-    if (!study_read_all(from, index, sizeof *index))
+    if (!file_read(from, index, sizeof *index, -1))
         return false;
     if (!run->study->streams)
         return true;
-    if (!study_read_all(from, &length, sizeof length))
+    if (!file_read(from, &length, sizeof length, -1))
         return false;
     char *row = memory_alloc(length + 1);
-    bool whole = study_read_all(from, row, length);
+    bool whole = file_read(from, row, length, -1);
     if (whole)
         study_rows_put(run->study->rows, *index, row);
     free(row);
@@ -304,9 +281,9 @@ bool study_worker_send_case(study_worker *worker, const study_run *run, size_t i
     worker->since = study_seconds_now();
     worker->stops = 0;
     worker->length = 0;
-    return study_write_all(worker->to, &index, sizeof index) &&
-           (!row || (study_write_all(worker->to, &length, sizeof length) &&
-                     study_write_all(worker->to, row, length)));
+    return file_write(worker->to, &index, sizeof index, -1) &&
+           (!row || (file_write(worker->to, &length, sizeof length, -1) &&
+                     file_write(worker->to, row, length, -1)));
 }
 
 int study_worker_read(study_worker *worker)

@@ -34,10 +34,7 @@ bool study_worker_send_case(study_worker *worker, const study_run *run, size_t i
 /* Returns 1 if the answer in worker->line is complete, 0 if it is not yet, -1 if the worker is
  * gone. */
 int study_worker_read(study_worker *worker);
-/* Open a pair of pipes; write or read all of the data. False after an error, or at the end. */
-bool study_open_pipes(int to[2], int from[2]);
-bool study_write_all(int fd, const void *data, size_t size);
-bool study_read_all(int fd, void *data, size_t size);
+bool study_open_pipes(int to[2], int from[2]); /* false after an error */
 /* Ends a worker and the processes that its plugins have started. */
 void study_worker_kill(const study_worker *worker);
 /* Whether it has ended, even if a process that it started holds its pipe open. */

@@ -2,6 +2,7 @@
 /* Writes files of a study beside its journal. If writing fails, the earlier file stays. */
 #include "journal.h"
 
+#include "../../memory/file.h"
 #include "../../memory/memory.h"
 
 #include <dirent.h>
@@ -9,7 +10,6 @@
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 const char study_description[] = "study.json";
@@ -59,18 +59,12 @@ bool study_write_file(const char *directory, const char *name, const char *text,
 
 json_t *study_read_json(int directory, const char *name, json_error_t *error)
 {
-    struct stat about;
-    /* so that opening a pipe does not block */
-    int fd = openat(directory, name, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    bool regular = fd >= 0 && fstat(fd, &about) == 0 && S_ISREG(about.st_mode);
-    FILE *stream = regular ? fdopen(fd, "r") : NULL;
-    json_t *root = stream ? json_loadf(stream, 0, error) : NULL;
-    if (!stream)
-        snprintf(error->text, sizeof error->text, "%s",
-                 fd < 0 || regular ? strerror(errno) : "it is not a regular file");
-    if (stream)
-        fclose(stream);
-    else if (fd >= 0)
+    const char *why;
+    int fd = file_open(directory, name, &why);
+    if (fd < 0)
+        snprintf(error->text, sizeof error->text, "%s", why);
+    json_t *root = fd < 0 ? NULL : json_loadfd(fd, 0, error);
+    if (fd >= 0)
         close(fd);
     return root;
 }

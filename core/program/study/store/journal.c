@@ -7,6 +7,7 @@
 #include "hash.h"
 
 #include "../../arrays/log.h"
+#include "../../memory/file.h"
 #include "../../memory/memory.h"
 
 #include <dirent.h>
@@ -264,15 +265,11 @@ bool study_journal_append(study_journal *journal, const char *line, size_t lengt
 {
     if (!is_as_left(journal, report))
         return false;
-    for (size_t done = 0; done < length;) {
-        ssize_t written = write(journal->fd, line + done, length - done);
-        if (written < 0 && errno != EINTR) {
-            int cause = errno;
-            if (ftruncate(journal->fd, journal->end) != 0)
-                cause = errno; /* the next run drops the incomplete line */
-            return refuse_write(cause, report);
-        }
-        done += written > 0 ? (size_t)written : 0;
+    if (!file_write(journal->fd, line, length, -1)) {
+        int cause = errno;
+        if (ftruncate(journal->fd, journal->end) != 0)
+            cause = errno; /* the next run drops the incomplete line */
+        return refuse_write(cause, report);
     }
     journal->end += (off_t)length;
     return study_seconds_now() - journal->synced <= 1 || force(journal, report);

@@ -5,7 +5,7 @@
 
 #include "hash.h"
 
-#include "../../arrays/record.h"
+#include "../../memory/file.h"
 #include "../../memory/memory.h"
 
 #include <dirent.h>
@@ -164,7 +164,7 @@ static bool read_kept(int fd, const ff_pipeline *pipeline, const ff_stage *stage
         return false;
     size_t size = (size_t)info.st_size;
     char *text = memory_alloc(size);
-    bool whole = arrays_read_at(fd, text, size, 0);
+    bool whole = file_read(fd, text, size, 0);
     memcpy(&sum, text, sizeof sum);
     whole =
         whole && sum == study_hash(STUDY_HASH_START ^ FORM, text + sizeof sum, size - sizeof sum);
