@@ -62,12 +62,12 @@ static bool write_file(const char *path, const char *ending, const char *begins,
 {
     results_target target = {
         .path = memory_print_text("%s%s", path, ending), .begins = begins, .report = report};
-    FILE *out = results_target_open(&target, false) ? fopen(target.part, "we") : NULL;
-    if (out && with)
-        report_write_figures(out, with, "Designs compared", text);
-    else if (out)
-        fputs(text, out);
-    const bool good = results_target_end(&target, out);
+    bool good = results_target_open(&target, false);
+    if (good && with)
+        report_write_figures(target.file.out, with, "Designs compared", text);
+    else if (good)
+        fputs(text, target.file.out);
+    good = good && results_target_commit(&target);
     results_target_close(&target);
     return good;
 }

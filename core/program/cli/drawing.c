@@ -119,13 +119,15 @@ static void set_end(ff_run *run, const study_toleranced *t, bool high)
 }
 
 /* Takes the numbers of a run. The first run gives the values; later ones widen their ranges. */
-static void take(drawing *d, const ff_stage *stage, bool first)
+static void take(drawing *d, ff_run *run, bool first)
 {
     for (size_t i = 0; i < ROWS; i++) {
-        int output = ff_model_find_output(stage->loaded->model, rows[i].output);
-        const ff_result *result = &stage->results[output];
+        const ff_result *result;
         drawing_numbers *n = &d->numbers[i];
-        n->count = result->count < 2 ? result->count : 2;
+        char *path = memory_print_text("%s.%s", d->stage, rows[i].output);
+        const bool there = ff_run_result(run, path, &result) == FF_OK;
+        n->count = !there ? 0 : result->count < 2 ? result->count : 2;
+        free(path);
         for (size_t g = 0; g < n->count; g++) {
             double value = result->data[g];
             n->value[g] = first ? value : n->value[g];
@@ -174,7 +176,7 @@ static bool evaluate(drawing *d, long corner)
     const ff_stage *stage = pipeline ? ff_stage_of(pipeline, d->stage, &rest) : NULL;
     bool good = stage && !run_has_errors(run) && run_start(run, NULL);
     if (good)
-        take(d, stage, corner < 0);
+        take(d, run, corner < 0);
     if (good && corner < 0)
         keep_words(d, stage);
     if (!good)

@@ -39,7 +39,7 @@ static bool write_page(const results_view *view, const results_target *target,
     report_template *with = report_template_open(cli_option(options, "template"), target->report);
     const cli_words best = cli_option_words(options, "best");
     const bool good =
-        with && report_write(view, with, best.words, best.count, target->part, target->report);
+        with && report_write(view, with, best.words, best.count, target->file.part, target->report);
     report_template_close(with);
     return good;
 }
@@ -101,11 +101,11 @@ static bool write_to(const form *to, const results_view *view, const cli_options
     bool good = (*to->suffix || holds_no_run(target->path, target->report)) &&
                 results_target_open(target, !*to->suffix) &&
                 (to->write ? to->write(view, target, options)
-                           : cli_beside("flankfilm-netcdf", options->operand, target->part,
+                           : cli_beside("flankfilm-netcdf", options->operand, target->file.part,
                                         target->report));
     if (good)
         results_made_note(options->operand, target->path,
-                          target->part ? target->part : target->path);
+                          target->file.part ? target->file.part : target->path);
     return good && results_target_commit(target);
 }
 
@@ -162,16 +162,15 @@ static bool write_figures(const char *from, const cli_options *options, results_
     bool good = json_is_array(figures) || ff_error(target->report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
                                                    "\"%s\" does not describe figures: %s", from,
                                                    figures ? "it is no list" : error.text);
-    FILE *out =
-        good && with && results_target_open(target, false) ? fopen(target->part, "we") : NULL;
-    if (out) {
+    good = good && with && results_target_open(target, false);
+    if (good) {
         char *text = json_dumps(figures, JSON_COMPACT);
-        report_write_figures(out, with, from, text);
+        report_write_figures(target->file.out, with, from, text);
         free(text);
     }
     json_decref(figures);
     report_template_close(with);
-    return good && with && results_target_end(target, out);
+    return good && results_target_commit(target);
 }
 
 static int report_figures(const cli_options *options)

@@ -72,10 +72,10 @@ int cli_schema(const cli_options *options)
     list(&models, engine, NULL, target.report);
     if (options->operand) {
         target.path = memory_print_text("%s", options->operand);
-        FILE *out = results_target_open(&target, false) ? fopen(target.part, "we") : NULL;
-        if (out)
-            catalogue_print_schema(&models, CLI_VERSION, out);
-        results_target_end(&target, out);
+        if (results_target_open(&target, false)) {
+            catalogue_print_schema(&models, CLI_VERSION, target.file.out);
+            results_target_commit(&target);
+        }
     } else {
         catalogue_print_schema(&models, CLI_VERSION, stdout);
         putchar('\n');

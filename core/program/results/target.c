@@ -47,7 +47,6 @@ static bool may_replace(const results_target *target)
                             target->path);
 }
 
-/* The temporary file stands beside the file, since both must be of the same file system. */
 static bool open_file(results_target *target)
 {
     if (!may_replace(target))
@@ -55,13 +54,10 @@ static bool open_file(results_target *target)
     const char *slash = strrchr(target->path, '/');
     char *parent =
         slash ? memory_print_text("%.*s", (int)(slash - target->path + 1), target->path) : NULL;
-    bool good = !parent || study_make_path(parent);
+    if (!parent || study_make_path(parent))
+        target->file = study_file_begin(NULL, target->path);
     free(parent);
-    target->part = memory_print_text("%s.%ld.part", target->path, (long)getpid());
-    int fd = good ? open(target->part, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666) : -1;
-    if (fd >= 0)
-        close(fd);
-    return fd >= 0 ||
+    return target->file.out ||
            ff_error(target->report, FF_FAULT_INPUT, FF_NOWHERE, "name another file with -o",
                     "\"%s\" cannot be written: %s", target->path, strerror(errno));
 }
@@ -76,41 +72,15 @@ bool results_target_open(results_target *target, bool directory)
     return target->folder != NULL;
 }
 
-/* Forces a file to the disk. */
-static bool sync_file(const char *path)
-{
-    int fd = open(path, O_RDONLY | O_CLOEXEC);
-    bool good = fd >= 0 && fsync(fd) == 0;
-    if (fd >= 0)
-        close(fd);
-    return good;
-}
-
 bool results_target_commit(results_target *target)
 {
-    if (target->folder)
-        return results_folder_commit(target->folder);
-    return (sync_file(target->part) && rename(target->part, target->path) == 0) ||
-           ff_error(target->report, FF_FAULT_RUN, FF_NOWHERE, NULL, "\"%s\" cannot be written: %s",
-                    target->path, strerror(errno));
-}
-
-bool results_target_end(results_target *target, FILE *out)
-{
-    errno = 0;
-    bool good = out && ferror(out) == 0;
-    good = out && fclose(out) == 0 && good;
-    if (!good && ff_report_errors(target->report) == 0)
-        ff_error(target->report, FF_FAULT_RUN, FF_NOWHERE, NULL, "\"%s\" could not be written: %s",
-                 target->path, strerror(errno ? errno : EIO));
-    return good && results_target_commit(target);
+    return target->folder ? results_folder_commit(target->folder)
+                          : study_file_end(&target->file, NULL, target->report);
 }
 
 void results_target_close(results_target *target)
 {
-    if (target->part)
-        unlink(target->part);
+    study_file_drop(&target->file);
     results_folder_discard(target->folder);
-    free(target->part);
     free(target->path);
 }

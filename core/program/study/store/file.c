@@ -16,7 +16,8 @@ const char study_description[] = "study.json";
 
 study_file study_file_begin(const char *directory, const char *name)
 {
-    study_file file = {.path = memory_print_text("%s/%s", directory, name)};
+    study_file file = {.path = memory_print_text("%s%s%s", directory ? directory : "",
+                                                 directory ? "/" : "", name)};
     file.part = memory_print_text("%s.%ld.part", file.path,
                                   (long)getpid()); /* other shards may write the same file */
     file.out = fopen(file.part, "we");
@@ -38,14 +39,23 @@ bool study_file_end(study_file *file, const char *hint, ff_report *report)
         cause = errno;
         good = false;
     }
-    if (!good) {
-        unlink(file->part);
+    file->out = NULL;
+    if (!good)
         ff_error(report, FF_FAULT_RUN, FF_NOWHERE, hint, "%s could not be written: %s", file->path,
                  strerror(cause));
-    }
+    study_file_drop(file);
+    return good;
+}
+
+void study_file_drop(study_file *file)
+{
+    if (file->out)
+        fclose(file->out);
+    if (file->part)
+        unlink(file->part); /* it is gone after it got its name */
     free(file->path);
     free(file->part);
-    return good;
+    *file = (study_file){.out = NULL};
 }
 
 bool study_write_file(const char *directory, const char *name, const char *text, const char *hint,

@@ -64,9 +64,11 @@ typedef struct study_file {
     int cause; /* errno of the failed opening */
 } study_file;
 
-study_file study_file_begin(const char *directory, const char *name);
+study_file study_file_begin(const char *directory, const char *name); /* NULL: a whole path */
 /* False after an error in opening or writing; hint may be NULL. */
 bool study_file_end(study_file *file, const char *hint, ff_report *report);
+/* Removes a file that has not got its name. */
+void study_file_drop(study_file *file);
 bool study_write_file(const char *directory, const char *name, const char *text, const char *hint,
                       ff_report *report);
 /* Removes files that a killed run has left unfinished. No other run may be using the directory. */
