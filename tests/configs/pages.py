@@ -9,16 +9,22 @@ import glob
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 
 flankfilm, plugins, configs = map(os.path.abspath, sys.argv[1:4])
+sys.path.insert(0, os.path.join(os.path.dirname(configs), "docs"))
+import look as screen
+
+browser = screen.Browser() if shutil.which("chromium") else None  # figures are made in one
 os.environ["FLANKFILM_PLUGIN_PATH"] = plugins
 faults = []
 
-# What a figure draws: a curve of several points, points, or an image. Frames and keys do not count.
-DRAWN = re.compile(r'"(y|values)":\[\[?(null,)*-?[0-9]')
+# The figures of which no curve and no map has a number; those that a slider moves have theirs beside them.
+EMPTY = """[...document.querySelectorAll('figure:not(.live)')].filter(node => ![...(node.figure.curves || []).map(c => c.y), ...(node.figure.values || []),
+  node.figure.cells || []].some(list => list.some(Number.isFinite))).map(node => node.textContent)"""
 WRONG = re.compile(r"\bundefined\b|\bnan\b|\binf\b|\(null\)|<td></td><td class=\"number\"></td>", re.IGNORECASE)
 
 
@@ -39,13 +45,16 @@ def call(*words):
 def look(name, path, verdict):
     with open(path, encoding="utf-8") as file:
         page = file.read().split("<script>")[0]
-    figures = re.findall(r"<figure.*?</figure>", page, re.DOTALL)
     found = [f"says {match.group()}" for match in WRONG.finditer(re.sub(r"<style.*?</style>", "", page, flags=re.DOTALL))]
-    found += ["has an empty figure: " + figure[:120] for figure in figures if not DRAWN.search(figure)]
+    figures = 0
+    if browser:
+        browser.open("file://" + os.path.abspath(path))
+        figures = browser.value("document.querySelectorAll('figure').length")
+        found += ["has an empty figure: " + words[:120] for words in browser.value(EMPTY)] + screen.wrong(browser)
     if not re.search(verdict, page):
         found.append("has no verdict")
     faults.extend(f"{name} {what}" for what in found)
-    print(f"{name}: {len(figures)} figures, {len(found)} faults")
+    print(f"{name}: {figures} figures, {len(found)} faults")
 
 
 files = sorted(glob.glob(configs + "/*.yaml"))
@@ -71,6 +80,8 @@ with tempfile.TemporaryDirectory() as lab:
         faults.append(f"study: run {ran.returncode}, report {done.returncode}: {ran.stderr}{done.stderr}")
     else:
         look("study", "study/report.html", r'</span> Of 9 cases 9 are good, (.|\n)*"note">9 good[^<]*; outside the range of a model 2 \(')
+if browser:
+    browser.close()
 if len(files) < 10:
     faults.append(f"only {len(files)} files in {configs}")
 print("\n".join(faults))

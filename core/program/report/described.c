@@ -82,13 +82,6 @@ static void put_figure(FILE *out, json_t *figure)
     json_decref(tables);
 }
 
-void report_put_figure(report_page *page, json_t *figure)
-{
-    page->figures++;
-    put_figure(page->out, figure);
-    json_decref(figure);
-}
-
 void report_put_figures(FILE *out, const char *json)
 {
     json_t *figures = json_loads(json, 0, NULL), *figure;

@@ -1,10 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "page.h"
 
-#include "../memory/memory.h"
-
 #include <stdarg.h>
-#include <stdlib.h>
 #include <string.h>
 
 void report_put_text(FILE *out, const char *text)
@@ -55,19 +52,4 @@ void report_put_badge(FILE *out, const char *verdict)
     const char *colour = strcmp(verdict, "failed") != 0 ? verdict : "bad";
     if (*verdict)
         report_print(out, "<span class=\"badge %s\">%s</span>", colour, verdict);
-}
-
-void report_part_begin(report_page *page, report_part *part)
-{
-    *part = (report_part){.page = page->out, .figures = page->figures};
-    page->out = memory_require(open_memstream(&part->text, &part->size));
-}
-
-void report_part_end(report_page *page, report_part *part)
-{
-    fclose(page->out);
-    if (page->figures > part->figures)
-        fwrite(part->text, 1, part->size, part->page);
-    free(part->text);
-    page->out = part->page;
 }

@@ -21,9 +21,8 @@ typedef struct report_page {
     const report_sought *goals;
     size_t goal_count;
     FILE *out;
-    bool failed;    /* the results could not be read; the view has reported why */
-    size_t figures; /* number of figures so far */
-    bool thinned;   /* something is drawn with fewer points than it has */
+    bool failed;  /* the results could not be read; the view has reported why */
+    bool thinned; /* something is drawn with fewer points than it has */
 } report_page;
 
 /* page.c: writes text with the special characters of HTML escaped. */
@@ -34,16 +33,6 @@ void report_put_cell(FILE *out, const char *text); /* the same in a cell of a ta
 
 /* Writes a verdict in its colour; "" writes nothing. */
 void report_put_badge(FILE *out, const char *verdict);
-
-/* A part of the page that is kept only when it holds a figure. */
-typedef struct report_part {
-    FILE *page;
-    char *text;
-    size_t size, figures;
-} report_part;
-
-void report_part_begin(report_page *page, report_part *part);
-void report_part_end(report_page *page, report_part *part);
 
 /* units.c writes numbers as engineers read them. `name` is that of an output or a parameter: it
    tells a temperature from a rise of it. */
@@ -65,17 +54,22 @@ const char *report_plain_name(const char *path, char out[REPORT_TEXT_SIZE]);
 /* Returns the value of an axis as the user wrote it, unless that is long. */
 const char *report_axis_word(const results_view_axis *axis, size_t point,
                              char out[REPORT_TEXT_SIZE]);
-/* Names a case by what varies, "lower, 100 N m", apart from dimensions a and b (SIZE_MAX and -1 for
-   none). */
-void report_name_case(const results_view *view, size_t index, size_t a, int b,
-                      char out[REPORT_TEXT_SIZE]);
+/* Returns the value of an input as a number: of one with several values, such as the relief of two
+   gears, that which it was given in words; NaN when it has none. */
+double report_axis_number(const results_view_axis *axis, size_t point);
+/* Returns the unit in which it is written; of numbers, their SI unit. */
+const char *report_axis_unit(const results_view_axis *axis);
+/* Names a value of an axis: numbers need a name where several are varied, words speak for
+   themselves. */
+const char *report_name_value(const results_view *view, const results_view_axis *axis,
+                              const char *value, char out[REPORT_TEXT_SIZE]);
+/* Names a case by what varies, "lower, 100 N m". */
+void report_name_case(const results_view *view, size_t index, char out[REPORT_TEXT_SIZE]);
 /* Names a case by what varies along some dimensions alone; `named`: with the names of numbers. */
 void report_name_point(const results_view *view, size_t index, const bool *dims, bool named,
                        char out[REPORT_TEXT_SIZE]);
-/* Returns the case of combination k of some dimensions, at the first point of the others; and that
-   of all dimensions but a and b, which may be -1. */
+/* Returns the case of combination k of some dimensions, at the first point of the others. */
 size_t report_case_of(const results_view *view, const bool *dims, size_t k);
-size_t report_first_case(const results_view *view, size_t k, size_t a, int b);
 void report_label(const char *words, const study_readable *unit, char out[REPORT_TEXT_SIZE]);
 
 /* find.c: finds parts of the results; -1 when they are missing. */
@@ -108,68 +102,11 @@ typedef struct report_marks {
 extern const char *const report_mark_names[REPORT_MARKS];
 report_marks report_find_marks(report_page *page, size_t index);
 
-/* figure.c writes the description of a figure, which script.js draws. */
-typedef struct report_curve {
-    double *x, *y; /* in the units of the figure; owned */
-    double *bar;   /* error of each y, at least 0; owned, or NULL */
-    size_t count;
-    int colour, dash; /* numbers of a colour and of a dash pattern; any number */
-    bool dots, bars;  /* points or columns instead of a line */
-    double width;     /* of a column */
-    char live[4];     /* name by which script.js changes it, or "" */
-    char label[REPORT_TEXT_SIZE];
-} report_curve;
-
-enum { REPORT_MOST_CURVES = 16 };
-typedef struct report_plot {
-    char title[REPORT_TEXT_SIZE], x_label[REPORT_TEXT_SIZE], y_label[REPORT_TEXT_SIZE];
-    report_curve curves[REPORT_MOST_CURVES];
-    size_t count;
-    double marks[REPORT_MARKS];
-    const char *mark_names[REPORT_MARKS];
-    size_t mark_count;
-    const char (*x_names)[REPORT_TEXT_SIZE]; /* what stands at x = 0, 1, ...; NULL: numbers */
-    double x0, x1, y0, y1;                   /* ranges of the axes, where x0 < x1, y0 < y1 */
-    const char *limit_name; /* of a limit, drawn at y = limit; NULL: there is none */
-    double limit;
-    bool from_zero;
-    bool decades, y_decades; /* along x and y, whose values are above 0 */
-    const char *class;       /* of the figure, or NULL */
-} report_plot;
-
-/* Copies the numbers in the units of the figure; returns the curve, or NULL when there is no room.
- */
-report_curve *report_plot_add(report_plot *plot, const study_readable *x_unit, const double *x,
-                              const study_readable *y_unit, const double *y, size_t count);
-/* Finds a curve that is no further from such numbers than a share of its range; NULL: none. */
-report_curve *report_plot_find(report_plot *plot, const study_readable *unit, const double *y,
-                               size_t count, double share);
-/* Gives a curve the error bars of its numbers, which are drawn as a band. */
-void report_curve_bar(report_curve *curve, const study_readable *y_unit, const double *bar);
-void report_plot_write(report_page *page, const report_plot *plot);
-void report_plot_free(report_plot *plot);
-
 /* described.c writes a value, which it takes, as text in which HTML finds no tag: < occurs within
    strings alone. */
 void report_put_json(FILE *out, json_t *value);
 /* Writes a list of descriptions: drawings with their sentences and tables. */
 void report_put_figures(FILE *out, const char *json);
-/* Writes one, which it takes, and counts it. */
-void report_put_figure(report_page *page, json_t *figure);
-
-/* Values over two axes as colours. */
-typedef struct report_map {
-    char title[REPORT_TEXT_SIZE], value_label[REPORT_TEXT_SIZE];
-    char x_label[REPORT_TEXT_SIZE], y_label[REPORT_TEXT_SIZE];
-    size_t columns, rows;
-    const double *x, *y;     /* in the units of the figure, as all numbers here */
-    const double *values;    /* rows of columns; NaN: none */
-    double low, high;        /* the range of the colours */
-    double mark;             /* a line is drawn between cells below and above it; NaN: none */
-    const int32_t *standing; /* of each cell to the limits of the file */
-    int best;                /* the cell that is best; -1: none */
-} report_map;
-void report_map_write(report_page *page, const report_map *map);
 
 /* section-quality.c: the worst of the lines of one name over all cases, the first case that has it,
    how many cases have that verdict, and how many have the line. */
@@ -197,12 +134,11 @@ typedef struct report_scalar {
 /* Loads it; values are to be freed. */
 report_scalar report_load_scalar(report_page *page, size_t variable);
 
-/* section-sample.c */
+/* sample.c: whether the points stand in no order along any input, and each counts as much. */
 bool report_is_sample(const results_view *view);
 /* Returns the finite values in order, to be freed; percent is 0 to 100, count above 0. */
 double *report_sort(const double *values, size_t count, size_t *kept);
 double report_percentile(const double *list, size_t count, double percent);
-void report_write_sample(const report_scalar *scalar);
 
 /* section-limits.c: the number that a limit of an output names, in SI; NaN: none does. */
 double report_limit_bound(const results_view *view, size_t variable);
@@ -230,8 +166,6 @@ int report_sense_of(const report_page *page, size_t variable);
    limit do not count. `same` counts other cases with that value. */
 size_t report_find_extreme(const report_scalar *scalar, const bool *dims, size_t count,
                            size_t first, int sense, bool met, size_t *same);
-/* The cell that is best of a map over dimensions x and y, whose first case is given; -1: none. */
-ptrdiff_t report_best_of(const report_scalar *scalar, size_t first, size_t x, size_t y);
 /* Reads "OUTPUT=least" and "OUTPUT=largest"; false with an error in the report. */
 bool report_read_sought(const results_view *view, const char *const *best, size_t count,
                         report_sought *out, ff_report *report);
@@ -247,13 +181,12 @@ void report_write_limits(report_page *page);
 /* Writes a cell with how a case stands to them, in its colour. */
 void report_put_standing(report_page *page, size_t index);
 void report_write_verdict(report_page *page);
-void report_write_speed(report_page *page);
-void report_write_series(report_page *page);
-void report_write_snapshots(report_page *page);
 void report_write_study(report_page *page);
 void report_write_quality(report_page *page);
 /* Writes what the user has given, stage by stage. */
 void report_write_inputs(report_page *page);
 void report_write_origin(report_page *page);
+/* data.c: the numbers that the template draws. */
+void report_write_data(report_page *page);
 
 #endif

@@ -24,6 +24,9 @@ static const char *const figure_style[] = {
 static const char *const figure_script[] = {
 #include "figure.js.inc"
     NULL};
+static const char *const choice_script[] = {
+#include "choose.js.inc"
+    NULL};
 static const char *const page_script[] = {
 #include "script.js.inc"
     NULL};
@@ -35,12 +38,10 @@ static const unsigned char library[] = {
 static const struct {
     const char *name;
     const char *const *lines;
-} parts[] = {{"layout.html", layout},
-             {"figure.css", figure_style},
-             {"page.css", page_style},
-             {"figure.js", figure_script},
-             {"script.js", page_script}};
-enum { LAYOUT, FIGURE_STYLE, PAGE_STYLE, FIGURE_SCRIPT, PAGE_SCRIPT, PARTS };
+} parts[] = {{"layout.html", layout},      {"figure.css", figure_style},
+             {"page.css", page_style},     {"figure.js", figure_script},
+             {"choose.js", choice_script}, {"script.js", page_script}};
+enum { LAYOUT, FIGURE_STYLE, PAGE_STYLE, FIGURE_SCRIPT, CHOICE_SCRIPT, PAGE_SCRIPT, PARTS };
 
 typedef struct text {
     char *text;
@@ -52,7 +53,8 @@ struct report_template {
     text style, script; /* what stands in the page's elements */
 };
 
-static const char names_of_parts[] = "layout.html, figure.css, page.css, figure.js, script.js";
+static const char names_of_parts[] = "layout.html, figure.css, page.css, figure.js, "
+                                     "choose.js, script.js";
 
 static text join(const char *const *lines)
 {
@@ -129,7 +131,8 @@ static void assemble(report_template *made)
     out = memory_require(open_memstream(&made->script.text, &made->script.length));
     fputc('\n', out);
     fwrite(library, 1, sizeof library - 1, out);
-    fprintf(out, "%s%s", made->parts[FIGURE_SCRIPT].text, made->parts[PAGE_SCRIPT].text);
+    fprintf(out, "%s%s%s", made->parts[FIGURE_SCRIPT].text, made->parts[CHOICE_SCRIPT].text,
+            made->parts[PAGE_SCRIPT].text);
     fclose(out);
 }
 
@@ -211,18 +214,24 @@ void report_write_figures(FILE *out, const report_template *with, const char *ti
     free(page.text);
 }
 
+/* Where the template draws series and fields. */
+static void write_along(report_page *page)
+{
+    fputs("<div class=\"chosen\" id=\"along\"></div>\n", page->out);
+}
+
 static void write_sections(report_page *page)
 {
     static void (*const sections[])(report_page *) = {
-        report_write_verdict,   report_write_speed,   report_write_study,  report_write_series,
-        report_write_snapshots, report_write_quality, report_write_origin,
+        report_write_verdict, report_write_study,  write_along,
+        report_write_quality, report_write_origin, report_write_data,
     };
     for (size_t i = 0; i < sizeof sections / sizeof *sections && !page->failed; i++)
         sections[i](page);
     if (page->thinned)
-        fputs("<p class=\"note\">Long curves are drawn with the first, lowest, highest and last "
-              "point of each column of the drawing, maps and fields with fewer points than they "
-              "have. <code>flankfilm export</code> gives all numbers.</p>\n",
+        fputs("<p class=\"note\">Long curves are drawn with the first, lowest, highest and last of "
+              "each run of points, maps and fields with fewer points than they have. "
+              "<code>flankfilm export</code> gives all numbers.</p>\n",
               page->out);
 }
 

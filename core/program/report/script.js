@@ -252,12 +252,14 @@
       return c.style !== 'bars' && !c.live && figures.finite(c[axis]).every(function (v) { return v > 0; });
     });
   }
+  /* That of a figure which a study has described lies in the page; those of the page's own numbers are made. */
+  function descriptionOf(node) { return node.figure || (node.figure = JSON.parse(node.querySelector('script').textContent)); }
   function begin(node, number) {
-    var f = {node: node, figure: JSON.parse(node.querySelector('script').textContent), box: make('div', 'plot')};
+    var f = {node: node, figure: descriptionOf(node), box: make('div', 'plot')};
     var buttons = make('span', 'buttons'), figure = f.figure;
     figure.title = node.querySelector('figcaption').textContent;
     node.querySelector('figcaption').appendChild(buttons);
-    node.insertBefore(f.box, node.querySelector('details'));
+    node.insertBefore(f.box, node.querySelector('.note, details'));
     f.whole = button('whole', buttons, function () { zoom(f); });
     f.whole.hidden = true;
     if (figure.sort === 'curves' && positive(figure, 'y'))
@@ -298,53 +300,96 @@
   }
   /* Without the library, the numbers of a figure as a table of at most so many rows. */
   function tabulate(node) {
-    var rows = numbers(JSON.parse(node.querySelector('script').textContent)), step = Math.ceil(rows.length / 40);
+    var rows = numbers(descriptionOf(node)), step = Math.ceil(rows.length / 40);
     node.appendChild(tableOf(rows[0], rows.slice(1).filter(function (_, i) { return i % step === 0; })));
   }
 
-  /* Snapshots: the slider names an instant of the first stage; others show their nearest one. */
-  function floats(base64) { /* of the little-endian machines that browsers run on */
-    return new Float32Array(Uint8Array.from(atob(base64), function (c) { return c.charCodeAt(0); }).buffer);
-  }
+  /* The parts of the page that are chosen from its numbers. */
   function closest(list, value) {
     var best = 0;
     for (var i = 1; i < list.length; i++)
       if (Math.abs(list[i] - value) < Math.abs(list[best] - value)) best = i;
     return best;
   }
-  function animate(section) {
-    var data = JSON.parse(section.querySelector('.frames').textContent), timer = null;
-    var slider = section.querySelector('input'), play = section.querySelector('.play');
-    data.stages.forEach(function (stage) {
-      Object.keys(stage).forEach(function (key) { if (key !== 'name' && typeof stage[key] === 'string') stage[key] = floats(stage[key]); });
-      if (stage.r) stage.o = stage.r.map(function (r, i) { return r + stage.h[i]; });
-    });
-    function extremes(stage, frame) {
-      var p = 0, h = Infinity;
-      for (var i = frame * stage.cells; i < (frame + 1) * stage.cells; i++) {
-        p = Math.max(p, stage.p[i]);
-        h = Math.min(h, stage.h[i]);
+  function player(section, chosen) {
+    var bar = make('p', 'player'), slider = make('input');
+    slider.type = 'range';
+    slider.min = 0;
+    slider.max = chosen.stages[0].frames - 1;
+    slider.value = chosen.start;
+    slider.setAttribute('aria-label', 'instant of the engagement');
+    button('play', bar, function () {}).className = 'play';
+    bar.appendChild(slider);
+    bar.appendChild(make('output'));
+    section.appendChild(bar);
+    section.classList.add('snapshots');
+    section.chosen = chosen;
+  }
+  function put(list, into) {
+    list.forEach(function (one) {
+      if (one.folded) {
+        var details = make('details', 'broad'), inside = make('div', 'figures');
+        details.appendChild(make('summary', '', one.folded));
+        details.appendChild(inside);
+        put(one.figures, inside);
+        into.appendChild(details);
+        return;
       }
-      return stage.name + ': least film ' + figures.text(h) + ' ' + data.h + ', highest pressure ' + figures.text(p) + ' ' + data.p;
+      var node = make('figure', one.class), caption = make('figcaption');
+      caption.appendChild(make('span', '', one.title));
+      node.appendChild(caption);
+      if (one.note) node.appendChild(make('p', 'note', one.note));
+      node.figure = one;
+      into.appendChild(node);
+    });
+  }
+  function choose() {
+    var lying = document.getElementById('data'), data = lying && JSON.parse(lying.textContent);
+    if (!data) return;
+    data.tabled = !!document.querySelector('.grids');
+    choice.sections(data).forEach(function (chosen) {
+      var section = make('section'), into = make('div', 'figures'), within = section;
+      if (chosen.folded) {
+        within = make('details');
+        within.appendChild(make('summary', '', chosen.title));
+        section.appendChild(within);
+      } else {
+        section.appendChild(make('h2', '', chosen.title));
+      }
+      if (chosen.stages) player(section, chosen);
+      if (chosen.note) within.appendChild(make('p', 'note', chosen.note));
+      if (chosen.stages) section.appendChild(make('p', 'extremes'));
+      within.appendChild(into);
+      put(chosen.figures, into);
+      document.getElementById(chosen.at).appendChild(section);
+      if (chosen.at === 'over' && data.tabled) document.querySelector('.grids').closest('details').open = false; /* the figures have it */
+    });
+  }
+  /* The slider names an instant of the first stage; others show their nearest one. */
+  function animate(section) {
+    var chosen = section.chosen, timer = null, stages = chosen.stages;
+    var slider = section.querySelector('input'), play = section.querySelector('.play');
+    function frameOf(stage) { return stage === stages[0] ? Number(slider.value) : closest(stage.at, stages[0].at[slider.value]); }
+    function part(stage, field) {
+      var start = frameOf(stage) * stage.cells;
+      return figures.finite(Array.from(stage.values[field].subarray(start, start + stage.cells)));
     }
     function update() {
-      var now = data.stages[0].at[slider.value];
+      var now = stages[0].at[slider.value];
       shown.forEach(function (f) {
         if (!section.contains(f.node)) return;
         f.figure.curves.forEach(function (curve, k) {
-          var stage = data.stages[Number(curve.live.slice(1))], first = stage === data.stages[0];
-          var frame = first ? Number(slider.value) : closest(stage.at, now), start = frame * stage.cells;
-          curve.x = Array.from(stage.x);
-          curve.y = Array.from(stage[curve.live[0]].subarray(start, start + stage.cells), function (v) { return isFinite(v) ? v : null; });
+          var stage = stages[curve.live[1]], start = frameOf(stage) * stage.cells;
+          curve.y = Array.from(stage.values[curve.live[0]].subarray(start, start + stage.cells), function (v) { return isFinite(v) ? v : null; });
           f.view.data('c' + k, figures.points(curve, f.figure));
         });
         f.view.runAsync();
       });
-      section.querySelector('.extremes').textContent = data.stages.map(function (stage, k) {
-        return extremes(stage, k ? closest(stage.at, now) : Number(slider.value));
+      section.querySelector('.extremes').textContent = stages.map(function (stage) {
+        return stage.stage + ': least film ' + figures.text(Math.min.apply(null, part(stage, 'film'))) + ' ' + stages[0].of('film').unit +
+          ', highest pressure ' + figures.text(Math.max.apply(null, part(stage, 'pressure'))) + ' ' + stages[0].of('pressure').unit;
       }).join('; ');
-      section.querySelector('output').textContent = data.unit ?
-        (data.unit === 'deg' ? 'roll angle ' : 'time ') + figures.text(now) + ' ' + data.unit : 'instant ' + figures.text(now);
+      section.querySelector('output').textContent = chosen.time.label + ' ' + figures.text(now) + (chosen.time.unit ? ' ' + chosen.time.unit : '');
     }
     function stop() {
       clearInterval(timer);
@@ -429,8 +474,9 @@
     });
   }
   window.addEventListener('load', function () {
-    var nodes = all('figure');
     all('.inputs').forEach(pair);
+    choose();
+    var nodes = all('figure');
     if (window.vega) {
       nodes.forEach(function (node, i) {
         try { begin(node, i); } catch (e) { node.appendChild(make('small', '', 'This figure cannot be drawn: ' + e.message)); }

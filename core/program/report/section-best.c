@@ -85,22 +85,6 @@ size_t report_find_extreme(const report_scalar *f, const bool *dims, size_t coun
     return best;
 }
 
-ptrdiff_t report_best_of(const report_scalar *f, size_t first, size_t x, size_t y)
-{
-    const results_view *view = f->page->view;
-    const int sense = report_sense_of(f->page, f->variable);
-    bool *dims = memory_alloc(view->dimension_count * sizeof *dims);
-    const size_t count = view->lengths[x] * view->lengths[y];
-    size_t same;
-    dims[x] = dims[y] = true;
-    const size_t c =
-        sense == 0 ? SIZE_MAX : report_find_extreme(f, dims, count, first, sense, true, &same);
-    free(dims);
-    return c == SIZE_MAX ? -1
-                         : (ptrdiff_t)(results_view_point(view, c, y) * view->lengths[x] +
-                                       results_view_point(view, c, x));
-}
-
 /* Writes "0.1832 um at 4 um, [30 deg, 22 deg]". */
 static void put_extreme(const report_scalar *f, const report_sides *s, size_t first, int sense,
                         const char *word, bool met)

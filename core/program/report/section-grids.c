@@ -143,7 +143,6 @@ bool report_write_grids(const report_scalar *scalar)
             "the least to the largest of each table</p>\n<div class=\"grids\">\n",
             view->variables[scalar->variable]->name, scalar->label, path_of(view, p.across),
             p.down < 0 ? "" : "; down: ", p.down < 0 ? "" : path_of(view, p.down));
-        page->figures++;
     }
     for (size_t k = 0; good && k < panels && k < MOST_PANELS; k++) {
         char name[REPORT_TEXT_SIZE];

@@ -8,243 +8,40 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_LINES = 8, MOST_MAPS = 6, MOST_ROWS = 400, MOST_FAILED = 100 };
+enum { MOST_ROWS = 400, MOST_FAILED = 100 };
 
-/* Whether the values of an axis rise or fall: along others a line would run to and fro. */
-static bool is_in_order(const results_view *view, const results_view_axis *axis)
-{
-    bool rises = true, falls = true;
-    for (size_t i = 1; i < view->lengths[axis->dimension]; i++) {
-        rises = rises && axis->values[i] >= axis->values[i - 1];
-        falls = falls && axis->values[i] <= axis->values[i - 1];
-    }
-    return rises || falls;
-}
-
-/* Finds the numeric axis with the most points that is not of dimension `other`. */
-static int main_axis(const results_view *view, int other)
-{
-    int best = -1;
-    size_t points = 1;
-    for (size_t a = 0; a < view->axis_count; a++) {
-        const results_view_axis *axis = view->axes[a];
-        if (axis->values && (int)axis->dimension != other &&
-            view->lengths[axis->dimension] > points && is_in_order(view, axis)) {
-            best = (int)a;
-            points = view->lengths[axis->dimension];
-        }
-    }
-    return best;
-}
-
-static size_t stride_of(const results_view *view, size_t dimension)
-{
-    size_t stride = 1;
-    for (size_t d = dimension + 1; d < view->dimension_count; d++)
-        stride *= view->lengths[d];
-    return stride;
-}
-
-/* Writes the label of an axis and returns its unit. */
-static study_readable show_axis(const results_view *view, const results_view_axis *axis,
-                                char label[REPORT_TEXT_SIZE])
-{
-    double size = 0;
-    char words[REPORT_TEXT_SIZE];
-    for (size_t i = 0; i < view->lengths[axis->dimension]; i++)
-        size = fmax(size, fabs(axis->values[i]));
-    study_readable unit = report_unit_for(axis->path, axis->unit, size);
-    report_label(report_plain_name(axis->path, words), &unit, label);
-    return unit;
-}
-
-/* Says whether values are spaced as by `spacing: log`, over a factor of five at least. */
-static bool is_geometric(const double *values, size_t count)
-{
-    bool good = count > 2 && values[0] > 0 && fabs(log(values[count - 1] / values[0])) > log(5);
-    double ratio = good ? values[1] / values[0] : 0;
-    for (size_t i = 2; i < count && good; i++)
-        good = fabs(values[i] / values[i - 1] / ratio - 1) < 1e-6;
-    return good;
-}
-
-static void draw_lines(const report_scalar *f, const results_view_axis *axis, size_t combinations)
-{
-    const results_view *view = f->page->view;
-    size_t points = view->lengths[axis->dimension], stride = stride_of(view, axis->dimension);
-    double *y = memory_alloc(points * sizeof *y);
-    report_plot plot = {.count = 0};
-    plot.decades = is_geometric(axis->values, points);
-    study_readable unit = show_axis(view, axis, plot.x_label);
-    snprintf(plot.title, sizeof plot.title, "%s", f->title);
-    snprintf(plot.y_label, sizeof plot.y_label, "%s", f->label);
-    plot.limit_name = report_limit_asked(view, f->variable);
-    plot.limit = report_convert(&f->unit, report_limit_bound(view, f->variable));
-    for (size_t k = 0; k < combinations && k < MOST_LINES; k++) {
-        size_t first = report_first_case(view, k, axis->dimension, -1);
-        bool any = false;
-        for (size_t i = 0; i < points; i++) {
-            y[i] = f->values[first + i * stride];
-            any = any || isfinite(y[i]);
-        }
-        if (!any)
-            continue;
-        char name[REPORT_TEXT_SIZE];
-        report_name_case(view, first, axis->dimension, -1, name);
-        /* both chains of a sweep are one where there is one motion */
-        report_curve *curve = report_plot_find(&plot, &f->unit, y, points, 1e-3);
-        if (curve) {
-            size_t length = strlen(curve->label);
-            snprintf(curve->label + length, sizeof curve->label - length, " and %.80s", name);
-            continue;
-        }
-        curve = report_plot_add(&plot, &unit, axis->values, &f->unit, y, points);
-        if (curve) {
-            curve->dash = (int)k;
-            snprintf(curve->label, sizeof curve->label, "%s", name);
-        }
-    }
-    report_plot_write(f->page, &plot);
-    if (combinations > MOST_LINES)
-        fprintf(f->page->out, "<p class=\"note\">The first %d of %zu combinations.</p>\n",
-                MOST_LINES, combinations);
-    report_plot_free(&plot);
-    free(y);
-}
-
-static void draw_map(const report_scalar *f, const results_view_axis *x, const results_view_axis *y,
-                     size_t first)
-{
-    const results_view *view = f->page->view;
-    char rest[REPORT_TEXT_SIZE];
-    report_map map = {.columns = view->lengths[x->dimension], .rows = view->lengths[y->dimension]};
-    double *xs = memory_alloc(map.columns * sizeof *xs), *ys = memory_alloc(map.rows * sizeof *ys);
-    double *values = memory_alloc(map.columns * map.rows * sizeof *values);
-    int32_t *standing = memory_alloc(map.columns * map.rows * sizeof *standing);
-    study_readable x_unit = show_axis(view, x, map.x_label),
-                   y_unit = show_axis(view, y, map.y_label);
-    report_name_case(view, first, x->dimension, (int)y->dimension, rest);
-    snprintf(map.title, sizeof map.title, *rest ? "%.100s (%.90s)" : "%.100s%s", f->title, rest);
-    snprintf(map.value_label, sizeof map.value_label, "%s", f->label);
-    for (size_t i = 0; i < map.columns; i++)
-        xs[i] = report_convert(&x_unit, x->values[i]);
-    for (size_t k = 0; k < map.rows; k++) {
-        ys[k] = report_convert(&y_unit, y->values[k]);
-        for (size_t i = 0; i < map.columns; i++) {
-            const size_t c =
-                first + i * stride_of(view, x->dimension) + k * stride_of(view, y->dimension);
-            values[k * map.columns + i] = report_convert(&f->unit, f->values[c]);
-            standing[k * map.columns + i] = report_standing(view, c);
-        }
-    }
-    map.x = xs;
-    map.y = ys;
-    map.values = values;
-    map.low = report_convert(&f->unit, f->low);
-    map.high = report_convert(&f->unit, f->high);
-    map.mark = report_convert(&f->unit, report_limit_bound(view, f->variable));
-    map.best = (int)report_best_of(f, first, x->dimension, y->dimension);
-    map.standing = standing;
-    report_map_write(f->page, &map);
-    free(xs);
-    free(ys);
-    free(values);
-    free(standing);
-}
-
-static void draw_maps(const report_scalar *f, const results_view_axis *x,
-                      const results_view_axis *y)
-{
-    const results_view *view = f->page->view;
-    size_t count = view->case_count / view->lengths[x->dimension] / view->lengths[y->dimension];
-    for (size_t k = 0; k < count && k < MOST_MAPS; k++)
-        draw_map(f, x, y, report_first_case(view, k, x->dimension, (int)y->dimension));
-    if (count > MOST_MAPS)
-        fprintf(f->page->out, "<p class=\"note\">The first %d of %zu combinations.</p>\n",
-                MOST_MAPS, count);
-}
-
-/* Draws points that have no order: those of cases that differ in words. */
-static void draw_dots(const report_scalar *f)
-{
-    const results_view *view = f->page->view;
-    report_plot plot = {.count = 0};
-    double *x = memory_alloc(view->case_count * sizeof *x);
-    const study_readable unit = {1, 0, ""};
-    snprintf(plot.x_label, sizeof plot.x_label, "case");
-    for (size_t c = 0; c < view->case_count; c++)
-        x[c] = (double)(c + 1);
-    snprintf(plot.title, sizeof plot.title, "%s", f->title);
-    snprintf(plot.y_label, sizeof plot.y_label, "%s", f->label);
-    report_curve *curve = report_plot_add(&plot, &unit, x, &f->unit, f->values, view->case_count);
-    if (curve)
-        curve->dots = true;
-    report_plot_write(f->page, &plot);
-    report_plot_free(&plot);
-    free(x);
-}
-
-static void draw_scalar(const report_scalar *f)
-{
-    const results_view *view = f->page->view;
-    int x = main_axis(view, -1);
-    if (report_is_sample(view)) {
-        report_write_sample(f);
-        return;
-    }
-    if (x < 0) {
-        draw_dots(f);
-        return;
-    }
-    const results_view_axis *axis = view->axes[x];
-    size_t combinations = view->case_count / view->lengths[axis->dimension];
-    int y = main_axis(view, (int)axis->dimension);
-    bool map = y >= 0 && view->lengths[view->axes[y]->dimension] >= 4;
-    map = map && (combinations > MOST_LINES || combinations == 1 ||
-                  view->lengths[view->axes[y]->dimension] > MOST_LINES / 2);
-    const bool fits = map ? view->case_count / view->lengths[axis->dimension] /
-                                    view->lengths[view->axes[y]->dimension] <=
-                                MOST_MAPS
-                          : combinations <= MOST_LINES;
-    if (!fits && report_is_sweep(view) && report_write_grids(f))
-        return;
-    if (map)
-        draw_maps(f, axis, view->axes[y]);
-    else
-        draw_lines(f, axis, combinations);
-}
-
-/* Says whether the study has figures of its own and its cases are in no order, such as the rows of
-   a load spectrum: the numbers of the cases would be a meaningless axis. */
-static bool has_own_figures(const results_view *view)
-{
-    return view->figures_count > 0 && main_axis(view, -1) < 0 && !report_is_sample(view);
-}
-
-static bool over_speed(const results_view *view)
-{
-    int x = main_axis(view, -1);
-    return x >= 0 && (!strcmp(view->axes[x]->unit, "Hz") || !strcmp(view->axes[x]->unit, "rad/s"));
-}
-
-/* Draws the transmission errors, or all other scalars. */
-static void write_scalars(report_page *page, const char *title, bool errors)
+/* Writes each scalar as small tables, if the cases are a sweep that has room in them: the template
+   draws what a figure can hold. */
+static void write_grids(report_page *page)
 {
     const results_view *view = page->view;
-    report_part part;
-    report_part_begin(page, &part);
-    report_print(page->out, "<section><h2>%s</h2>\n<div class=\"figures\">\n", title);
+    size_t varied = 0, length = 0;
+    char *text = NULL;
+    FILE *whole = page->out;
+    if (!report_is_sweep(view))
+        return;
+    for (size_t d = 0; d < view->dimension_count; d++)
+        varied += view->lengths[d] > 1;
+    page->out = memory_require(open_memstream(&text, &length));
     for (size_t v = 0; v < view->variable_count; v++) {
-        if (view->variables[v]->rank != 0 ||
-            (!strncmp(view->variables[v]->output, "dte_", 4) && over_speed(view)) != errors)
+        if (view->variables[v]->rank != 0)
             continue;
         report_scalar f = report_load_scalar(page, v);
         if (f.high > f.low) /* the table of verdicts has the constants */
-            draw_scalar(&f);
+            report_write_grids(&f);
         free(f.values);
     }
-    fputs("</div></section>\n", page->out);
-    report_part_end(page, &part);
+    fclose(page->out);
+    page->out = whole;
+    if (length > 0) {
+        report_print(page->out,
+                     "<section><details%s><summary>In numbers, over what is varied"
+                     "</summary>\n",
+                     varied > 2 ? " open" : "");
+        fwrite(text, 1, length, page->out);
+        fputs("</details></section>\n", page->out);
+    }
+    free(text);
 }
 
 static void write_failed(report_page *page)
@@ -355,10 +152,8 @@ void report_write_study(report_page *page)
     if (!page->view->study)
         return;
     write_figures(page);
-    if (!has_own_figures(page->view)) {
-        write_scalars(page, "Transmission error against speed", true);
-        write_scalars(page, "Over what is varied", false);
-    }
+    fputs("<div class=\"chosen\" id=\"over\"></div>\n", page->out);
+    write_grids(page);
     write_failed(page);
     write_table(page);
 }

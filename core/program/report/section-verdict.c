@@ -308,7 +308,7 @@ static void write_span(const report_scalar *f)
         while (!(f->values[at] == ends[side]))
             at++;
         put_value(f, ends[side]);
-        report_name_case(f->page->view, at, SIZE_MAX, -1, words);
+        report_name_case(f->page->view, at, words);
         report_put_cell(f->page->out, words);
     }
     fputs("</tr>\n", f->page->out);

@@ -107,17 +107,36 @@ void report_label(const char *words, const study_readable *unit, char out[REPORT
     snprintf(out, REPORT_TEXT_SIZE, *unit->unit ? "%s (%s)" : "%s", words, unit->unit);
 }
 
-/* Numbers need a name where several are varied; words speak for themselves. */
-static const char *name_of_number(const results_view_axis *axis, const char *value, bool several,
-                                  char out[REPORT_TEXT_SIZE])
+double report_axis_number(const results_view_axis *axis, size_t point)
 {
     double number;
     const char *end;
-    out[0] = '\0';
-    if (several && ff_number_parse(value, &number, &end)) {
-        char words[REPORT_TEXT_SIZE];
-        snprintf(out, REPORT_TEXT_SIZE, "%.60s ", report_plain_name(axis->path, words));
-    }
+    if (axis->values)
+        return axis->values[point];
+    return ff_number_parse(axis->words[point], &number, &end) ? number : (double)NAN;
+}
+
+const char *report_axis_unit(const results_view_axis *axis)
+{
+    double number;
+    const char *end;
+    if (axis->values)
+        return axis->unit;
+    return ff_number_parse(axis->words[0], &number, &end) ? end + strspn(end, " ") : "";
+}
+
+const char *report_name_value(const results_view *view, const results_view_axis *axis,
+                              const char *value, char out[REPORT_TEXT_SIZE])
+{
+    double number;
+    const char *end;
+    size_t varied = 0;
+    char words[REPORT_TEXT_SIZE];
+    for (size_t k = 0; k < view->axis_count; k++)
+        varied += view->lengths[view->axes[k]->dimension] > 1;
+    const bool named = varied > 1 && ff_number_parse(value, &number, &end);
+    snprintf(out, REPORT_TEXT_SIZE, "%.60s%s%.80s",
+             named ? report_plain_name(axis->path, words) : "", named ? " " : "", value);
     return out;
 }
 
@@ -126,34 +145,23 @@ void report_name_point(const results_view *view, size_t index, const bool *dims,
 {
     size_t length = 0;
     char word[REPORT_TEXT_SIZE], name[REPORT_TEXT_SIZE];
-    size_t varied = 0;
-    for (size_t k = 0; k < view->axis_count; k++)
-        varied += view->lengths[view->axes[k]->dimension] > 1;
     out[0] = '\0';
     for (size_t k = 0; k < view->axis_count && length < REPORT_TEXT_SIZE; k++) {
         const results_view_axis *axis = view->axes[k];
         size_t d = axis->dimension;
         const char *value = report_axis_word(axis, results_view_point(view, index, d), word);
         if (dims[d] && view->lengths[d] > 1 && *value)
-            length += (size_t)snprintf(
-                out + length, REPORT_TEXT_SIZE - length, "%s%s%.80s", length ? ", " : "",
-                name_of_number(axis, value, named && varied > 1, name), value);
+            length += (size_t)snprintf(out + length, REPORT_TEXT_SIZE - length, "%s%s",
+                                       length ? ", " : "",
+                                       named ? report_name_value(view, axis, value, name) : value);
     }
 }
 
-/* Marks all dimensions but a and b; to be freed. */
-static bool *dims_without(const results_view *view, size_t a, int b)
+void report_name_case(const results_view *view, size_t index, char out[REPORT_TEXT_SIZE])
 {
     bool *dims = memory_alloc((view->dimension_count + 1) * sizeof *dims);
     for (size_t d = 0; d < view->dimension_count; d++)
-        dims[d] = d != a && (int)d != b;
-    return dims;
-}
-
-void report_name_case(const results_view *view, size_t index, size_t a, int b,
-                      char out[REPORT_TEXT_SIZE])
-{
-    bool *dims = dims_without(view, a, b);
+        dims[d] = true;
     report_name_point(view, index, dims, true, out);
     free(dims);
 }
@@ -167,13 +175,5 @@ size_t report_case_of(const results_view *view, const bool *dims, size_t k)
         index += k % view->lengths[d] * stride;
         k /= view->lengths[d];
     }
-    return index;
-}
-
-size_t report_first_case(const results_view *view, size_t k, size_t a, int b)
-{
-    bool *dims = dims_without(view, a, b);
-    const size_t index = report_case_of(view, dims, k);
-    free(dims);
     return index;
 }

@@ -115,7 +115,12 @@ class Report(lab.Lab):
         with open(os.path.dirname(lab.__file__) + "/report.js", encoding="utf-8") as script:
             self.assertEqual(self.browser.value(script.read()), [])
         self.assertEqual(look.wrong(self.browser), [])
-        return self.browser.value("document.documentElement.outerHTML"), self.browser.value("document.querySelectorAll('figure').length")
+        self.drawn = json.loads(self.browser.value("JSON.stringify([...document.querySelectorAll('figure')].map(f => f.figure))"))
+        return self.browser.value("document.documentElement.outerHTML"), len(self.drawn)
+
+    def numbers(self, page):
+        """The numbers that lie in a page, from which its template draws."""
+        return json.loads(re.search(r'id="data">(.*?)</script>', page, re.DOTALL).group(1))
 
     def see(self, path):
         """A phone and a wide screen, light and dark, paper, and a browser that runs no scripts have the whole page."""
@@ -162,18 +167,15 @@ class Report(lab.Lab):
         return page
 
     def read_extremes(self, page):
-        """The frames of the slider hold the least film and the highest pressure of the field."""
-        frames = json.loads(re.search(r'class="frames">(.*?)</script>', page, re.DOTALL).group(1))
-        stage = frames["stages"][-1]
-        for letter, field, worst in (("p", "pressure", max), ("h", "film", min)):
-            data = base64.b64decode(stage[letter])
+        """The instants of the slider hold the least film and the highest pressure of the field."""
+        stage = self.numbers(page)["fields"][-1]
+        for field, worst in ("pressure", max), ("film", min):
+            data = base64.b64decode(stage["values"][field])
             shown = worst(struct.unpack(f"<{len(data) // 4}f", data))
             with open(f"pair/film.{field}.npy", "rb") as file:
                 whole = file.read()
             whole = whole[10 + struct.unpack("<H", whole[8:10])[0]:]
-            factor = {"GPa": 1e-9, "MPa": 1e-6, "\u00b5m": 1e6, "nm": 1e9}[frames[letter]]
-            kept = worst(struct.unpack(f"<{len(whole) // 8}d", whole)) * factor
-            self.assertAlmostEqual(shown / kept, 1, places=6)
+            self.assertAlmostEqual(shown / worst(struct.unpack(f"<{len(whole) // 8}d", whole)), 1, places=6)
 
     def test_gear_pair(self):
         small = [word for stage in ("film", "film_static")
@@ -185,9 +187,13 @@ class Report(lab.Lab):
         dom, figures = self.look("pair/report.html")
         self.see("pair/report.html")
         self.assertGreater(figures, 12)
-        for words in ("least film thickness", "roll angle", "LPSTC", "HPSTC", "µm)", "MPa",
-                      "Quality of the numbers", "unity-50.yaml", "@article", '"film_static: least film', '"film: least film'):
+        for words in ("least film thickness", "roll angle", "LPSTC", "HPSTC", "µm", "MPa",
+                      "Quality of the numbers", "unity-50.yaml", "@article"):
             self.assertIn(words, page)
+        films = next(f for f in self.drawn if f["title"] == "Film thickness")
+        self.assertEqual([curve["name"].split(" film")[0] for curve in films["curves"]],
+                         ["film_static: least", "film_static:", "film: least", "film:"])
+        self.assertEqual(films["y"]["label"], "film thickness (µm)")
         self.read_extremes(page)
         self.assertRegex(dom, r'"extremes">film_static: least film 0\.\d+ µm, highest pressure [\d.]+ MPa')
         self.assertRegex(dom, r"<output>roll angle [\d.]+ deg</output>")
@@ -276,7 +282,7 @@ class Report(lab.Lab):
         """A sweep of one axis: curves with the limit, and how many cases meet it."""
         page, _, figures = self.study("along")
         self.assertEqual(figures, 2)  # the total, and the heights of some cases
-        self.assertRegex(page, r'"limit":\{"at":3.0,"name":"> 3 mm"')
+        self.assertEqual(self.drawn[0]["limit"], {"at": 3, "name": "> 3 mm"})
         self.assertRegex(page, r"Of 6 cases \d meet the limits of the file")
 
     def test_spectrum(self):
@@ -304,8 +310,9 @@ class Report(lab.Lab):
         self.call("compare", "fade", "fade", "-o", "faded")
         page = self.read_page("fade/report.html")
         self.assertIn(shown, page)
-        drawn = re.search(r'"y":\{"label":"traction[^}]*"low":([^,]*),"high":([^}]*)\}', page).groups()
-        self.assertLess(max(abs(float(end)) for end in drawn), 1.3 * max(abs(f) for f in friction[2:4]))
+        self.look("fade/report.html")
+        drawn = next(f["y"] for f in self.drawn if f["title"] == "Friction coefficient")
+        self.assertLess(max(abs(drawn[end]) for end in ("low", "high")), 1.3 * max(abs(f) for f in friction[2:4]))
         self.assertIn("; where load per width is above 1 % of its largest", page)
         with open("faded.csv", encoding="utf-8") as table:
             self.assertEqual([float(row["fade"]) for row in csv.DictReader(table) if "friction" in row["output of flankfilm"]],
@@ -319,7 +326,7 @@ class Report(lab.Lab):
         self.call("report", "rough")
         self.look("rough/report.html")
         self.assertEqual(self.browser.value("document.querySelectorAll('.snapshots .plot').length"), 3)
-        self.assertIn("of asperities", self.read_page("rough/report.html"))
+        self.assertIn("film: of asperities", [curve["name"] for f in self.drawn for curve in f["curves"]])
 
     def test_points(self):
         """Points of the path that the file does not ask for are marked, of a run and of designs that are compared."""
@@ -347,7 +354,7 @@ class Report(lab.Lab):
     def test_sample(self):
         page, dom, figures = self.study("sample")
         self.assertEqual(figures, 3)  # how it is spread, what it follows, over each input
-        self.assertIn('"y":{"label":"cases","log":0,"low":0', page)  # columns stand on 0
+        self.assertEqual(next(f["y"]["low"] for f in self.drawn if f["y"]["label"] == "cases"), 0)  # columns stand on 0
         for words in ("median", "95 %"):
             self.assertIn(words, page)
         self.assertIn("rank correlation", dom)
@@ -371,7 +378,7 @@ class Report(lab.Lab):
         for words in ("error against cost", "the front", "all candidates", "reference 1, n 200<"):
             self.assertIn(words, page)  # without scripts, too
         self.assertNotRegex(page, ", ,|, <")
-        self.assertNotIn('"label":"case"', page)  # no figure over the numbers of cases
+        self.assertNotIn("case", [f["x"]["label"] for f in self.drawn])  # no figure over the numbers of cases
         with open("tradeoff/table.csv", encoding="utf-8") as file:
             self.assertEqual(len(file.readlines()), 7)
 
@@ -412,8 +419,7 @@ class Report(lab.Lab):
         self.assertIn("the thick one is the limit of 10. \u2605 the best. Crossed out: a limit is missed", dom)
         with open("map/table.csv", encoding="utf-8") as table:
             cases = list(csv.DictReader(table))
-        standing = json.loads(re.search(r'"standing":(\[[^]]*])', dom).group(1))
-        self.assertEqual(sum(row.count("2") for row in standing), sum("missed" in case["limits"] for case in cases))
+        self.assertEqual(sum(row.count("2") for row in self.drawn[0]["standing"]), sum("missed" in case["limits"] for case in cases))
         self.assertIn("linear scale", dom)
 
     def test_decades(self):
@@ -423,7 +429,7 @@ class Report(lab.Lab):
                       f"spacing: {spacing}}}}}}}")
             self.call("report", spacing)
             self.look(f"{spacing}/report.html")
-            self.assertIn(f'"x":{{"label":"amplitude (mm)","log":{log}}}', self.read_page(f"{spacing}/report.html"))
+            self.assertEqual(self.drawn[0]["x"], {"label": "amplitude (mm)", "log": log})
 
     def test_description(self):
         with open("own.json", "w", encoding="utf-8") as file:
@@ -452,7 +458,7 @@ class Report(lab.Lab):
         dom, figures = self.look("tables.html")
         self.assertGreater(figures, 0)
         self.assertIn('<p class="alarm without">This build has no plotting library', dom)
-        self.assertRegex(dom, r'</script>\s*<div class="wide"><table>')
+        self.assertRegex(dom, r'</figcaption>(<p class="note">[^<]*</p>)?<div class="wide"><table>')
 
     def test_hostile_results(self):
         """Whatever text and name of a result is markup, the page of each sort shows it as text."""

@@ -1,0 +1,519 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * The numbers that the template draws, as one JSON object in the page: scalars over the cases, the
+ * series of a few cases, fields at some instants. They are in SI, as little-endian 32-bit floats in
+ * base64; each output has its words and the unit in which people read it. What is drawn, and how,
+ * is decided by the template.
+ */
+#include "page.h"
+
+#include "../memory/memory.h"
+#include "../results/json.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    MOST_POINTS = 2800,    /* of a series; four in each column of a drawing */
+    MOST_WHOLE = 50000,    /* of one that is not thinned */
+    MOST_SCALARS = 300000, /* numbers of all scalars of a study */
+    MOST_SERIES = 4,       /* cases of a study whose series are in the page */
+    FRAMES = 121,          /* of a field */
+    CELLS = 513,
+    MOST_FIELDS = 12
+};
+
+typedef struct data {
+    report_page *page;
+    json_t *outputs; /* {name: what it is called, its units} */
+} data;
+
+static void put_base64(const unsigned char *bytes, size_t size, char *out)
+{
+    static const char letters[] =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (size_t i = 0; i < size; i += 3) {
+        const size_t left = size - i;
+        const unsigned bits = (unsigned)bytes[i] << 16 |
+                              (left > 1 ? (unsigned)bytes[i + 1] << 8 : 0) |
+                              (left > 2 ? bytes[i + 2] : 0u);
+        *out++ = letters[bits >> 18];
+        *out++ = letters[bits >> 12 & 63];
+        *out++ = left > 1 ? letters[bits >> 6 & 63] : '=';
+        *out++ = left > 2 ? letters[bits & 63] : '=';
+    }
+    *out = '\0';
+}
+
+/* Packs chosen numbers, or their ranks where there are none; `chosen` NULL: the first ones. */
+static json_t *pack(const double *values, const size_t *chosen, size_t count)
+{
+    unsigned char *bytes = memory_alloc(4 * count + 1);
+    char *text = memory_alloc(4 * ((4 * count + 2) / 3) + 1);
+    for (size_t i = 0; i < count; i++) {
+        const size_t at = chosen ? chosen[i] : i;
+        const float number = (float)(values ? values[at] : (double)at);
+        uint32_t bits;
+        memcpy(&bits, &number, sizeof bits);
+        for (int b = 0; b < 4; b++)
+            bytes[4 * i + (size_t)b] = (unsigned char)(bits >> (8 * b));
+    }
+    put_base64(bytes, 4 * count, text);
+    json_t *packed = json_string(text);
+    free(text);
+    free(bytes);
+    return packed;
+}
+
+static json_t *real_or_null(double value)
+{
+    return isfinite(value) ? json_real(value) : json_null();
+}
+
+static json_t *describe_unit(const char *name, const char *si, double magnitude)
+{
+    const study_readable unit = report_unit_for(name, si, magnitude);
+    return json_pack("{s:s, s:f, s:f}", "unit", unit.unit, "factor", unit.factor, "offset",
+                     unit.offset);
+}
+
+/* Says what an output is called and how its numbers of such a size are read, unless that is said.
+ */
+static json_t *describe(data *d, size_t variable, double magnitude)
+{
+    const results_view *view = d->page->view;
+    const results_view_variable *of = view->variables[variable];
+    char words[REPORT_TEXT_SIZE];
+    json_t *said = json_object_get(d->outputs, of->name);
+    if (said)
+        return said;
+    said = describe_unit(of->output, of->unit, magnitude);
+    json_object_set_new(said, "stage", results_json_text(view->stages[of->stage]->name));
+    json_object_set_new(said, "output", results_json_text(of->output));
+    json_object_set_new(said, "label", results_json_text(report_output_words(of, words)));
+    json_object_set_new(said, "si", results_json_text(of->unit));
+    json_object_set_new(said, "asked", json_boolean(of->flags & RESULTS_VIEW_ASKED));
+    json_object_set_new(d->outputs, of->name, said);
+    return said;
+}
+
+/* Describes the axes of a study: of the points that are kept, the words, and numbers if they have
+   some. */
+static json_t *describe_axes(const results_view *view, const size_t *steps)
+{
+    json_t *list = json_array();
+    for (size_t a = 0; a < view->axis_count; a++) {
+        const results_view_axis *axis = view->axes[a];
+        char word[REPORT_TEXT_SIZE], name[REPORT_TEXT_SIZE];
+        json_t *words = json_array(), *named = json_array(), *values = json_array();
+        double most = 0;
+        for (size_t i = 0; i < view->lengths[axis->dimension]; i += steps[axis->dimension]) {
+            const double value = report_axis_number(axis, i);
+            const char *text = report_axis_word(axis, i, word);
+            most = fmax(most, fabs(value));
+            json_array_append_new(words, results_json_text(text));
+            json_array_append_new(named,
+                                  results_json_text(report_name_value(view, axis, text, name)));
+            json_array_append_new(values, real_or_null(value));
+        }
+        const study_readable written = {1, 0, report_axis_unit(axis)};
+        json_t *said = axis->values
+                           ? describe_unit(axis->path, axis->unit, most)
+                           : json_pack("{s:o, s:f, s:f}", "unit", results_json_text(written.unit),
+                                       "factor", written.factor, "offset", written.offset);
+        json_object_set_new(said, "path", results_json_text(axis->path));
+        json_object_set_new(said, "label", results_json_text(report_plain_name(axis->path, word)));
+        json_object_set_new(said, "si", results_json_text(axis->unit));
+        json_object_set_new(said, "dimension", json_integer((json_int_t)axis->dimension));
+        json_object_set_new(said, "typed", json_boolean(axis->values != NULL));
+        json_object_set_new(said, "words", words);
+        json_object_set_new(said, "named", named);
+        json_object_set_new(said, "values", values);
+        json_array_append_new(list, said);
+    }
+    return list;
+}
+
+/* Thins the points of the longest dimensions until no more than so many cases are left. */
+static size_t choose_steps(const results_view *view, size_t most, size_t *steps)
+{
+    for (size_t d = 0; d < view->dimension_count; d++)
+        steps[d] = 1;
+    for (;;) {
+        size_t kept = 1, longest = 0, points = 0;
+        for (size_t d = 0; d < view->dimension_count; d++) {
+            const size_t own = (view->lengths[d] + steps[d] - 1) / steps[d];
+            kept *= own;
+            longest = own > points ? d : longest;
+            points = own > points ? own : points;
+        }
+        if (kept <= most || points < 2)
+            return kept;
+        steps[longest]++;
+    }
+}
+
+/* Lists the cases that are kept; to be freed. */
+static size_t *list_cases(const results_view *view, const size_t *steps, size_t count)
+{
+    size_t *cases = memory_alloc((count + 1) * sizeof *cases);
+    for (size_t k = 0; k < count; k++) {
+        size_t rest = k, stride = 1;
+        for (size_t d = view->dimension_count; d-- > 0; stride *= view->lengths[d]) {
+            const size_t points = (view->lengths[d] + steps[d] - 1) / steps[d];
+            cases[k] += rest % points * steps[d] * stride;
+            rest /= points;
+        }
+    }
+    return cases;
+}
+
+static void add_scalar(data *d, json_t *scalars, size_t variable, const size_t *cases, size_t count)
+{
+    const results_view *view = d->page->view;
+    report_scalar f = report_load_scalar(d->page, variable);
+    const char *asked = report_limit_asked(view, variable);
+    if (f.low <= f.high) {
+        json_t *said = describe(d, variable, fmax(fabs(f.low), fabs(f.high)));
+        json_object_set_new(said, "sense", json_integer(report_sense_of(d->page, variable)));
+        if (asked)
+            json_object_set_new(said, "limit",
+                                json_pack("{s:o, s:o}", "at",
+                                          real_or_null(report_limit_bound(view, variable)), "name",
+                                          results_json_text(asked)));
+        json_object_set_new(scalars, view->variables[variable]->name, pack(f.values, cases, count));
+    }
+    free(f.values);
+}
+
+/* Adds the scalars: of a run one number each, of a study one for each case that is kept. */
+static void add_scalars(data *d, json_t *all)
+{
+    const results_view *view = d->page->view;
+    size_t scalars = 0, *steps = memory_alloc((view->dimension_count + 1) * sizeof *steps);
+    for (size_t v = 0; v < view->variable_count; v++)
+        scalars += view->variables[v]->rank == 0;
+    const size_t room = MOST_SCALARS / (scalars + 1),
+                 count = choose_steps(view, room > 3000 ? room : 3000, steps);
+    size_t *cases = list_cases(view, steps, count);
+    json_t *values = json_object(), *lengths = json_array(), *kept_steps = json_array();
+    char *standing = memory_alloc(count + 1);
+    d->page->thinned = d->page->thinned || count < view->case_count;
+    for (size_t v = 0; v < view->variable_count; v++)
+        if (view->variables[v]->rank == 0 && !report_is_bar(view->variables[v]))
+            add_scalar(d, values, v, cases, count);
+    for (size_t k = 0; k < count; k++)
+        standing[k] = (char)('0' + report_standing(view, cases[k]));
+    for (size_t i = 0; i < view->dimension_count; i++) {
+        json_array_append_new(
+            lengths, json_integer((json_int_t)((view->lengths[i] + steps[i] - 1) / steps[i])));
+        json_array_append_new(kept_steps, json_integer((json_int_t)steps[i]));
+    }
+    json_object_set_new(all, "axes", describe_axes(view, steps));
+    json_object_set_new(all, "lengths", lengths);
+    json_object_set_new(all, "steps", kept_steps);
+    json_object_set_new(all, "scalars", values);
+    json_object_set_new(all, "standing", json_string(standing));
+    free(standing);
+    free(cases);
+    free(steps);
+}
+
+/* Keeps the first, lowest, highest and last of some points, in their order. */
+static size_t keep_extremes(const double *y, size_t from, size_t to, size_t *kept)
+{
+    size_t low = from, high = from, count = 0;
+    for (size_t i = from; i < to; i++) {
+        low = y[i] < y[low] ? i : low;
+        high = y[i] > y[high] ? i : high;
+    }
+    const size_t chosen[4] = {from, low < high ? low : high, low < high ? high : low, to - 1};
+    for (size_t i = 0; i < 4; i++)
+        if (i == 0 || chosen[i] != chosen[i - 1])
+            kept[count++] = chosen[i];
+    return count;
+}
+
+/* Fills in the ranks of the points that are kept: of a long curve, the extremes of each run of
+   points. Series that run along no rising axis, such as those of an atlas, belong together point by
+   point: they are kept whole as far as there is room. */
+static size_t choose_points(const double *x, const double *y, size_t count, size_t *kept)
+{
+    size_t run = count / (MOST_POINTS / 4) + 1, used = 0;
+    bool rises = count > (x ? MOST_POINTS : MOST_WHOLE);
+    for (size_t i = 1; x && i < count && rises && count <= MOST_WHOLE; i++)
+        rises = x[i] >= x[i - 1];
+    for (size_t i = 0; i < count; i += rises ? run : 1) {
+        const size_t end = rises && i + run < count ? i + run : rises ? count : i + 1;
+        used += keep_extremes(y, i, end, kept + used);
+    }
+    return used;
+}
+
+static double magnitude(const ff_array *array)
+{
+    const report_extremes found = report_find_extremes(array);
+    return fmax(0, fmax(fabs(found.low), fabs(found.high))); /* 0: nothing is known */
+}
+
+/* Adds the ends of a share, such as a friction coefficient, where there is load. */
+static void add_ends(json_t *series, const results_view_variable *of, const ff_array *y)
+{
+    const size_t count = report_array_size(y);
+    if (*of->whole && of->extremes[0] < count && of->extremes[1] < count)
+        json_object_set_new(series, "ends",
+                            json_pack("[o, o]", real_or_null(y->data[of->extremes[0]]),
+                                      real_or_null(y->data[of->extremes[1]])));
+}
+
+static void add_series(data *d, json_t *list, size_t variable, size_t index, size_t rank)
+{
+    report_page *page = d->page;
+    const results_view *view = page->view;
+    const results_view_variable *of = view->variables[variable];
+    const int axis = report_find_axis(view, variable, 0, index);
+    ff_array y = report_load(page, (int)variable, index), x = report_load(page, axis, index),
+             bar = report_load(page, report_find_bar(view, variable), index);
+    const size_t count = report_array_size(&y);
+    if (y.data && y.rank == 1 && count > 2 &&
+        (axis < 0 || (x.data && report_array_size(&x) == count))) {
+        size_t *kept = memory_alloc(4 * count * sizeof *kept);
+        const size_t used = choose_points(x.data, y.data, count, kept);
+        page->thinned = page->thinned || used < count;
+        json_t *made = json_pack("{s:o, s:i, s:o, s:o, s:o}", "of", results_json_text(of->name),
+                                 "case", (int)rank, "dim", results_json_text(of->dims[0]), "x",
+                                 pack(x.data, kept, used), "y", pack(y.data, kept, used));
+        describe(d, variable, magnitude(&y));
+        if (axis >= 0) {
+            describe(d, (size_t)axis, magnitude(&x));
+            json_object_set_new(made, "along", results_json_text(view->variables[axis]->name));
+        }
+        if (bar.data && report_array_size(&bar) == count)
+            json_object_set_new(made, "bar", pack(bar.data, kept, used));
+        add_ends(made, of, &y);
+        json_array_append_new(list, made);
+        free(kept);
+    }
+    report_release(page, &x);
+    report_release(page, &y);
+    report_release(page, &bar);
+}
+
+/* Says whether a case has kept a series; a repeat in a trade-off has none. */
+static bool has_series(const results_view *view, size_t index)
+{
+    size_t shape[4];
+    for (size_t v = 0; v < view->variable_count; v++)
+        if (view->variables[v]->rank == 1 && results_view_full_shape(view, v, index, shape))
+            return true;
+    return false;
+}
+
+/* Says whether a case went well, has series, and differs from the first one along the longest
+   dimension alone, or along any when `all`. */
+static bool is_choice(const results_view *view, size_t index, bool all)
+{
+    size_t longest = 0;
+    if (strcmp(view->cases[index]->status, "ok") != 0 || !has_series(view, index))
+        return false;
+    for (size_t d = 1; d < view->dimension_count; d++)
+        longest = view->lengths[d] > view->lengths[longest] ? d : longest;
+    for (size_t d = 0; d < view->dimension_count && !all; d++)
+        if (d != longest && results_view_point(view, index, d) > 0)
+            return false;
+    return true;
+}
+
+/* Chooses the case of a run; of a study, a few that are spread over those that went well, one chain
+   of it if that has enough. `good` is how many there are to choose from. */
+static size_t choose_cases(const results_view *view, size_t chosen[MOST_SERIES], size_t *good)
+{
+    size_t seen = 0, line = 0, count = 0;
+    *good = 0;
+    for (size_t c = 0; c < view->case_count; c++) {
+        *good += is_choice(view, c, true);
+        line += is_choice(view, c, false);
+    }
+    const bool all = line < MOST_SERIES;
+    const size_t from = all ? *good : line, wanted = from < MOST_SERIES ? from : MOST_SERIES;
+    for (size_t c = 0; c < view->case_count && count < wanted; c++) {
+        if (!is_choice(view, c, all))
+            continue;
+        if (wanted == 1 || seen * (wanted - 1) >= count * (from - 1))
+            chosen[count++] = c;
+        seen++;
+    }
+    if (!view->study && count == 0) /* a run that failed has kept what it has */
+        chosen[count++] = 0;
+    return count;
+}
+
+/* Adds the series of some cases, and of each the points of its path of contact. */
+static void add_all_series(data *d, json_t *all)
+{
+    const results_view *view = d->page->view;
+    size_t chosen[MOST_SERIES], good;
+    const size_t count = choose_cases(view, chosen, &good);
+    json_t *cases = json_array(), *series = json_array();
+    for (size_t k = 0; k < count; k++) {
+        char name[REPORT_TEXT_SIZE];
+        const report_marks marks = report_find_marks(d->page, chosen[k]);
+        json_t *points = json_array();
+        for (size_t i = 0; i < REPORT_MARKS; i++)
+            if (isfinite(marks.roll[i]))
+                json_array_append_new(points,
+                                      json_pack("[f, s]", marks.roll[i], report_mark_names[i]));
+        report_name_case(view, chosen[k], name);
+        json_array_append_new(
+            cases, json_pack("{s:o, s:o}", "name", results_json_text(name), "marks", points));
+        for (size_t v = 0; v < view->variable_count; v++)
+            if (view->variables[v]->rank == 1 && !report_is_bar(view->variables[v]))
+                add_series(d, series, v, chosen[k], k);
+    }
+    json_object_set_new(all, "cases", cases);
+    json_object_set_new(all, "well", json_integer((json_int_t)good));
+    json_object_set_new(all, "series", series);
+}
+
+/* The fields of one stage, which have one shape. */
+typedef struct fields {
+    size_t variables[MOST_FIELDS], count, frames, cells;
+    size_t extremes[2 * MOST_FIELDS]; /* the instants of their extremes */
+} fields;
+
+/* Returns the index of point k of `kept` points that are spread over `count`. */
+static size_t sample_index(size_t k, size_t kept, size_t count)
+{
+    return kept > 1 ? k * (count - 1) / (kept - 1) : 0;
+}
+
+/* Lists the instants that are kept: some that are spread evenly, and those of the extremes. */
+static size_t choose_frames(const fields *m, size_t *chosen)
+{
+    bool *kept = memory_alloc(m->frames * sizeof *kept);
+    const size_t even = m->frames < FRAMES ? m->frames : FRAMES;
+    size_t count = 0;
+    for (size_t k = 0; k < even; k++)
+        kept[sample_index(k, even, m->frames)] = true;
+    for (size_t i = 0; i < 2 * m->count; i++)
+        kept[m->extremes[i]] = true;
+    for (size_t k = 0; k < m->frames; k++)
+        if (kept[k])
+            chosen[count++] = k;
+    free(kept);
+    return count;
+}
+
+/* Takes a field; one of another shape than the first is left out. */
+static void take_field(data *d, fields *m, size_t variable)
+{
+    ff_array array = report_load(d->page, (int)variable, 0);
+    const bool good =
+        array.data && array.rank == 2 && report_array_size(&array) > 0 &&
+        (m->count == 0 || (array.shape[0] == m->frames && array.shape[1] == m->cells));
+    if (good) {
+        const report_extremes found = report_find_extremes(&array);
+        double size = 0; /* of the middle of the contact: away from it the gap is open */
+        m->frames = array.shape[0];
+        m->cells = array.shape[1];
+        for (size_t k = 0; k < m->frames; k++) {
+            const double middle = fabs(array.data[k * m->cells + m->cells / 2]);
+            size = fmax(size, isfinite(middle) ? middle : 0);
+        }
+        describe(d, variable, size);
+        m->extremes[2 * m->count] = found.greatest / m->cells;
+        m->extremes[2 * m->count + 1] = found.least / m->cells;
+        m->variables[m->count++] = variable;
+    }
+    report_release(d->page, &array);
+}
+
+/* Packs a series that stands along the fields, or its ranks, and says of which output it is. */
+static json_t *pack_along(data *d, json_t *made, const char *name, uint32_t dim, const fields *m,
+                          const size_t *chosen, size_t count)
+{
+    const results_view *view = d->page->view;
+    const int axis = report_find_axis(view, m->variables[0], dim, 0);
+    ff_array along = report_load(d->page, axis, 0);
+    if (along.data) {
+        describe(d, (size_t)axis, magnitude(&along));
+        json_object_set_new(made, name, results_json_text(view->variables[axis]->name));
+    }
+    json_t *packed = pack(along.data, chosen, count);
+    report_release(d->page, &along);
+    return packed;
+}
+
+/* Describes the fields of a stage at the instants, and in the cells, that are kept. */
+static json_t *describe_fields(data *d, size_t stage, const fields *m)
+{
+    const results_view *view = d->page->view;
+    size_t *rows = memory_alloc(m->frames * sizeof *rows);
+    const size_t frames = choose_frames(m, rows), cells = m->cells < CELLS ? m->cells : CELLS;
+    size_t *columns = memory_alloc(cells * sizeof *columns),
+           *both = memory_alloc(frames * cells * sizeof *both);
+    for (size_t i = 0; i < cells; i++)
+        columns[i] = sample_index(i, cells, m->cells);
+    for (size_t k = 0; k < frames; k++)
+        for (size_t i = 0; i < cells; i++)
+            both[k * cells + i] = rows[k] * m->cells + columns[i];
+    d->page->thinned = d->page->thinned || frames < m->frames || cells < m->cells;
+    json_t *values = json_object(),
+           *made =
+               json_pack("{s:o, s:I, s:I, s:I}", "stage",
+                         results_json_text(view->stages[stage]->name), "frames", (json_int_t)frames,
+                         "cells", (json_int_t)cells, "instants", (json_int_t)m->frames);
+    json_object_set_new(made, "at", pack_along(d, made, "time", 0, m, rows, frames));
+    json_object_set_new(made, "x", pack_along(d, made, "place", 1, m, columns, cells));
+    for (size_t i = 0; i < m->count; i++) {
+        ff_array array = report_load(d->page, (int)m->variables[i], 0);
+        if (array.data)
+            json_object_set_new(values, view->variables[m->variables[i]]->output,
+                                pack(array.data, both, frames * cells));
+        report_release(d->page, &array);
+    }
+    json_object_set_new(made, "values", values);
+    free(rows);
+    free(columns);
+    free(both);
+    return made;
+}
+
+/* Adds the fields of a run, stage by stage. */
+static void add_fields(data *d, json_t *all)
+{
+    const results_view *view = d->page->view;
+    json_t *list = json_array();
+    size_t left = MOST_FIELDS;
+    for (size_t s = 0; s < view->stage_count && !view->study; s++) {
+        fields m = {.count = 0};
+        for (size_t v = 0; v < view->variable_count && m.count < left; v++)
+            if (view->variables[v]->stage == s && view->variables[v]->rank == 2)
+                take_field(d, &m, v);
+        if (m.count > 0)
+            json_array_append_new(list, describe_fields(d, s, &m));
+        left -= m.count;
+    }
+    json_object_set_new(all, "fields", list);
+}
+
+void report_write_data(report_page *page)
+{
+    const results_view *view = page->view;
+    data d = {page, json_object()};
+    json_t *stages = json_array();
+    for (size_t s = 0; s < view->stage_count; s++)
+        json_array_append_new(stages, results_json_text(view->stages[s]->name));
+    json_t *all = json_pack("{s:b, s:b, s:b, s:o}", "study", (int)view->study, "sample",
+                            (int)report_is_sample(view), "described",
+                            (int)(view->figures_count > 0), "stages", stages);
+    add_scalars(&d, all);
+    add_all_series(&d, all);
+    add_fields(&d, all);
+    json_object_set_new(all, "outputs", d.outputs);
+    fputs("<script type=\"application/json\" id=\"data\">", page->out);
+    report_put_json(page->out, all);
+    fputs("</script>\n", page->out);
+}
