@@ -136,6 +136,7 @@ const ff_port losses_inputs[LOSSES_INPUTS] = {
 const ff_port losses_outputs[LOSSES_OUTPUTS] = {
     [OUT_PHASE] = {.name = "phase",
                    .unit = "1",
+                   .label = "mesh cycle",
                    .doc = "of the mesh cycle, 0 where a pair enters at SAP; twice where a "
                           "pair leaves",
                    .dims = "phase"},

@@ -12,6 +12,7 @@ enum { HARMONICS = 20 }; /* of k */
 const ff_port stiffness_outputs[STIFFNESS_LEVEL_OUTPUTS] = {
     {.name = "phase",
      .unit = "1",
+     .label = "mesh cycle",
      .doc = "mesh cycle from 0 (the entering pair at SAP) to 1; a phase given twice marks a jump: "
             "value before, value after",
      .dims = "phase"},

@@ -13,6 +13,7 @@ const ff_port dynamics_coupled_outputs[DYNAMICS_COUPLED_OUTPUT_COUNT] = {
     [DYNAMICS_OUT_PHASE] =
         {.name = "phase",
          .unit = "1",
+         .label = "mesh cycle",
          .doc = "mesh cycles since the entering pair was at SAP; a repeated value marks a jump "
                 "of the excitation",
          .dims = "cycle"},

@@ -106,6 +106,7 @@ enum {
 static const ff_port outputs[] = {
     {.name = "phase",
      .unit = "1",
+     .label = "mesh cycle",
      .doc = "mesh cycles since the entering pair was at SAP; a repeated value marks a jump",
      .dims = "cycle"},
     {.name = "dte",
