@@ -11,7 +11,8 @@ ff_status ehl_march_create(ehl_march *m, const ehl_history *h, ehl_solver *s, in
 {
     enum { EACH = 6, FILMS = EHL_STATES + 2, OWN = 6 };
     size_t n = s->grid->nodes;
-    *m = (ehl_march){.history = h, .solver = s, .scheme = scheme, .mirrored = h->mirrored};
+    *m = (ehl_march){
+        .history = h, .solver = s, .scheme = scheme, .exactness = 1, .mirrored = h->mirrored};
     double *next = m->memory = calloc((EACH * FILMS + OWN) * n, sizeof *next);
     unsigned char *full = m->flags_memory = calloc(2 * FILMS * n, 1);
     if (!next || !full)

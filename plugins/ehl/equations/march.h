@@ -53,6 +53,7 @@ typedef struct ehl_march {
     double moved;          /* `moved` at the present instant */
     double last_good_step; /* last length of step that rough flanks allowed, s */
     int good_steps;        /* number of such steps since */
+    double exactness;      /* what the solver and the rounds of heat may leave, over the usual */
     double steps_cut, steps_refused; /* steps_refused: repeated for their truncation error */
     double pressureless_steps;       /* steps in which the film was carried on without pressure */
     double worst_truncation, worst_truncation_at; /* largest `local`, and its time */

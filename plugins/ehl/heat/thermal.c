@@ -323,11 +323,11 @@ static ehl_energy_film film_of(const ehl_march *m, const ehl_step *step, const e
 }
 
 /* Returns the share of the tolerances above for a film whose own `tolerance` is below the usual
- * one. */
+ * one, or whose steps ask for less error. */
 static double tightness(const ehl_march *m)
 {
     const double usual = 1e-5, least = 1e-4;
-    return fmin(fmax(m->solver->tolerance / usual, least), 1);
+    return fmax(fmin(m->solver->tolerance / usual, 1) * m->exactness, least);
 }
 
 /* Computes the temperatures of the film and its factors. Returns 1 if both had settled. */

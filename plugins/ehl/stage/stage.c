@@ -120,7 +120,8 @@ static ff_status record(const ehl_model *m, ehl_run *r, int last)
         r->solver.maker != ehl_newton_krylov)
         return status;
     error = m->steps > 0 ? error : fmin(error, m->time_tolerance);
-    r->solver.tolerance = fmin(fmax(TOLERANCE_SHARE * error, LEAST_TOLERANCE), MOST_TOLERANCE);
+    r->solver.tolerance =
+        r->march.exactness * fmin(fmax(TOLERANCE_SHARE * error, LEAST_TOLERANCE), MOST_TOLERANCE);
     return status;
 }
 

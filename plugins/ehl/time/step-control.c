@@ -24,11 +24,21 @@ static const double FIRST_STEP = 5e-4;
  * convergence demands it. */
 static const double SHORT_STEP = 0.02, SHORTEST_STEP = 1e-4;
 
+/* What the solver leaves of the flow enters the truncation, which is of the differences of films:
+ * in relation to what a step may have, by the same amount however short the step. After MOST_FUTILE
+ * shortest steps in a row that have more than that, which is longer than the pass of a kink, the
+ * solver is asked to leave STRICTER of it, down to STRICTEST of the usual. */
+enum { MOST_FUTILE = 12 };
+static const double STRICTER = 0.3, STRICTEST = 0.02;
+
 /* Share of the tolerance by which a straight line between two instants may differ from the film. */
 static const double CHORD_SHARE = 1. / 16;
 /* The history has at least LEAST_INSTANTS (tolerance/REFERENCE_TOLERANCE)^INSTANTS_EXPONENT
    steps. */
 static const double LEAST_INSTANTS = 100, REFERENCE_TOLERANCE = 5e-3, INSTANTS_EXPONENT = -0.15;
+
+/* A step is repeated if its truncation is above the allowed one by this factor. */
+static const double ALLOWED_EXCESS = 2;
 
 /* Truncation allowed while the contact is lost, relative to that under load. It is larger, since
  * the impact at the end squeezes most of that film out. */
@@ -186,13 +196,26 @@ static int repeat_step(ehl_step_control *p, ehl_march *m, ff_status status, doub
         return 1;
     }
     double change = status == FF_OK ? change_over_limit(p, m) : 0;
-    if (status == FF_OK && (error > 2 || change > 1.2) && dt > 1.01 * SHORT_STEP * cell) {
+    if (status == FF_OK && (error > ALLOWED_EXCESS || change > 1.2) &&
+        dt > 1.01 * SHORT_STEP * cell) {
         double factor = fmin(step_growth(m, error), 0.9 / fmax(change, 0.45));
         p->dt = fmax(dt * fmax(factor, 0.25), SHORT_STEP * cell);
         m->steps_refused++;
         return 1;
     }
     return 0;
+}
+
+/* Asks the solver for less error where the shortest steps do not help; `error` is that of a step of
+ * length dt. */
+static void make_stricter(ehl_step_control *p, ehl_march *m, double dt, double error, double cell)
+{
+    int futile = error > ALLOWED_EXCESS && dt < 1.01 * SHORT_STEP * cell;
+    p->futile = futile ? p->futile + 1 : 0;
+    if (p->futile < MOST_FUTILE || m->exactness * STRICTER < STRICTEST)
+        return;
+    m->exactness *= STRICTER;
+    p->futile = 0;
 }
 
 /* Returns the time in which the fastest film moves by a cell; at rest, one cell's share of the
@@ -239,6 +262,7 @@ ff_status ehl_step_control_next(ehl_step_control *p, ehl_march *m)
             return status;
         }
     } while (repeat_step(p, m, status, dt, error, cell));
+    make_stricter(p, m, dt, error, cell);
     double longest_change = 0.9 * dt / fmax(change_over_limit(p, m), 1e-3);
     ehl_march_accept(m);
     p->dt =

@@ -11,7 +11,8 @@ typedef struct ehl_step_control {
                            contact */
     double *breakpoint; /* s, times at which a step must end; the last is the end */
     size_t breakpoints, next;
-    double dt; /* s, length of the next step */
+    double dt;  /* s, length of the next step */
+    int futile; /* shortest steps in a row with more error than a step may have */
 } ehl_step_control;
 
 /* equal: the lengths of the steps are given, and only kinks of the radius are breakpoints. */

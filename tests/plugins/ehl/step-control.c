@@ -152,6 +152,46 @@ static void test_jump(void)
     line_close(&c);
 }
 
+/*
+ * The beginning of an engagement of FZG C-PT at 302 N m and 2250 rpm with VG 100 at 90 degC. What
+ * the solver leaves of the flow enters the truncation by the same amount however short the step is.
+ * If that is above what a step may have, the solver must leave less, or all steps are the shortest
+ * ones: 12 760 instants with heat.
+ */
+static void test_error_of_solver(void)
+{
+    enum { ROWS = 19 };
+    static const double load[ROWS] = {363488, 359782, 348028, 329452, 305793, 279191, 251976,
+                                      226471, 204836, 188837, 179764, 178220, 184489, 197741,
+                                      216906, 240360, 266161, 292232, 316490};
+    static const struct run {
+        const char *thermal;
+        double most; /* instants */
+    } runs[] = {{"none", 800}, {"full", 800}};
+    for (size_t k = 0; k < 2; k++) {
+        line c;
+        size_t n;
+        line_open(&c, model);
+        line_grade(&c, "ISO VG 100", 363.15);
+        line_eyring(&c, 6e6);
+        own_steps(&c, "7e-3");
+        stage_set(c.film, "cells", 256);
+        stage_set_text(c.film, "thermal", runs[k].thermal);
+        line_last(&c, ROWS, 1.29389e-4);
+        for (int i = 0; i < ROWS; i++) {
+            double at = i / (ROWS - 1.);
+            c.radius[i] = 3.8996e-3 + at * (4.63634e-3 - 3.8996e-3);
+            c.u1[i] = 1.05376 + at * (1.29676 - 1.05376);
+            c.u2[i] = 4.78353 + at * (4.62151 - 4.78353);
+            c.load[i] = load[i];
+        }
+        check_true("found", line_run(&c, "time") == FF_OK);
+        stage_get(c.film, "time", &n);
+        check_below("instants", (double)n, runs[k].most);
+        line_close(&c);
+    }
+}
+
 int main(void)
 {
     static const char *const models[] = {"ehl/finite-volume", "ehl/control-volume"};
@@ -161,5 +201,7 @@ int main(void)
         test_landing();
         test_jump();
     }
+    model = models[0];
+    test_error_of_solver();
     return check_done();
 }
