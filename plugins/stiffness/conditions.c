@@ -31,6 +31,9 @@ ff_status stiffness_conditions_read(const ff_host *host, const ff_array *in, con
     if (status == FF_OK)
         status = stiffness_deviations_read(host, in, &conditions->deviations);
     if (status == FF_OK)
+        status = stiffness_deviations_read_back(host, in, &conditions->deviations,
+                                                &conditions->back, &conditions->same_back);
+    if (status == FF_OK)
         status = check_cycle(host, &conditions->deviations, cycles.number);
     return status == FF_OK
                ? stiffness_gears_read(host, in, &conditions->path, rim, &conditions->gears)

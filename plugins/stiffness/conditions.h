@@ -10,6 +10,8 @@
 typedef struct stiffness_conditions {
     stiffness_path path;
     stiffness_deviations deviations;
+    stiffness_deviations back; /* of the flanks that the line force does not press */
+    bool same_back;            /* whether these are those of the others */
     stiffness_gears gears;
 } stiffness_conditions;
 

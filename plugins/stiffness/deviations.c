@@ -8,7 +8,6 @@
 #include <flankfilm/author.h>
 
 #include <math.h>
-#include <stdbool.h>
 
 static bool increasing(size_t n, const double *x)
 {
@@ -26,11 +25,12 @@ static bool all_finite(size_t n, const double *x)
     return true;
 }
 
-static ff_status read_profiles(const ff_host *host, const ff_array *in, stiffness_deviations *d)
+/* The profiles of the back flanks, which are those of the driving ones if none are wired. */
+static ff_status read_profiles(const ff_host *host, const ff_array *in, bool back,
+                               stiffness_deviations *d)
 {
-    const bool back = in[STIFFNESS_IN_FORCE].data[0] < 0 &&
-                      in[STIFFNESS_IN_BACK_PROFILE_ROLL].data &&
-                      in[STIFFNESS_IN_BACK_PROFILE_DEVIATION].data;
+    back = back && in[STIFFNESS_IN_BACK_PROFILE_ROLL].data &&
+           in[STIFFNESS_IN_BACK_PROFILE_DEVIATION].data;
     const ff_array *roll = &in[back ? STIFFNESS_IN_BACK_PROFILE_ROLL : STIFFNESS_IN_PROFILE_ROLL];
     const ff_array *profile =
         &in[back ? STIFFNESS_IN_BACK_PROFILE_DEVIATION : STIFFNESS_IN_PROFILE_DEVIATION];
@@ -81,7 +81,28 @@ ff_status stiffness_deviations_read(const ff_host *host, const ff_array *in,
                             "torque is below 0: write gear 2 of the file as gear 1, with a torque "
                             "above 0, or leave pitch_error out");
     }
-    return read_profiles(host, in, d);
+    return read_profiles(host, in, in[STIFFNESS_IN_FORCE].data[0] < 0, d);
+}
+
+static bool same_profiles(const stiffness_deviations *a, const stiffness_deviations *z)
+{
+    if (a->points != z->points)
+        return false;
+    for (int g = 0; g < 2; g++)
+        for (size_t i = 0; i < a->points; i++)
+            if (a->roll[g][i] != z->roll[g][i] || a->profile[g][i] != z->profile[g][i])
+                return false;
+    return true;
+}
+
+ff_status stiffness_deviations_read_back(const ff_host *host, const ff_array *in,
+                                         const stiffness_deviations *d, stiffness_deviations *back,
+                                         bool *same)
+{
+    *back = (stiffness_deviations){0};
+    ff_status status = read_profiles(host, in, !(in[STIFFNESS_IN_FORCE].data[0] < 0), back);
+    *same = status == FF_OK && same_profiles(d, back);
+    return status;
 }
 
 double stiffness_profile_deviation(const stiffness_deviations *d, int gear, double roll)

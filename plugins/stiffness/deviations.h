@@ -8,6 +8,8 @@
 
 #include <flankfilm/plugin.h>
 
+#include <stdbool.h>
+
 typedef struct stiffness_deviations {
     size_t points; /* of each profile, linear between them; 0: perfect profiles */
     const double *roll[2], *profile[2];
@@ -17,6 +19,12 @@ typedef struct stiffness_deviations {
 
 ff_status stiffness_deviations_read(const ff_host *host, const ff_array *in,
                                     stiffness_deviations *d);
+
+/* Reads the profiles of the flanks that the line force does not press; `same`: they are those of
+ * the others, which are `d`. Index deviations of these flanks are not known. */
+ff_status stiffness_deviations_read_back(const ff_host *host, const ff_array *in,
+                                         const stiffness_deviations *d, stiffness_deviations *back,
+                                         bool *same);
 
 /* Returns the deviation of the flank of gear 0 or 1 at its own roll angle. */
 double stiffness_profile_deviation(const stiffness_deviations *d, int gear, double roll);

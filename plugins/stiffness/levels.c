@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { MEAN = 3 /* index of the level with the mean force F */, MOST = 10 };
+enum { MEAN = 3 /* index of the level with the mean force F */, MOST = STIFFNESS_MOST_LEVELS };
 
 typedef struct levels {
     const stiffness_source *source;
@@ -75,24 +75,38 @@ static ff_status put_stations(const levels *x, double *force)
     return FF_OK;
 }
 
+size_t stiffness_levels_count(const stiffness_source *s)
+{
+    return levels_of(s).count;
+}
+
+ff_status stiffness_levels_solve(const stiffness_source *s, const stiffness_cycle *cycle,
+                                 const stiffness_level_rows *rows)
+{
+    levels x = levels_of(s);
+    ff_status status = put_cycle(&x, cycle, rows->error, rows->stiffness);
+    return status == FF_OK ? put_stations(&x, rows->teeth) : status;
+}
+
 ff_status stiffness_levels_publish(const stiffness_source *s, const stiffness_cycle *cycle,
-                                   uint64_t wanted)
+                                   uint64_t wanted, stiffness_level_rows *rows)
 {
     const ff_host *host = s->host;
     levels x = levels_of(s);
     const size_t phases[] = {x.count, cycle->count};
     const size_t stations[] = {x.count, s->conditions->path.stations};
-    ff_status status = FF_OK;
+    *rows = (stiffness_level_rows){0};
     if (!(wanted >> STIFFNESS_OUT_FORCE_LEVEL))
         return FF_OK;
     double *force = ff_put_series(host, STIFFNESS_OUT_FORCE_LEVEL, x.count);
-    double *error = host->output(host->ctx, STIFFNESS_OUT_LEVEL_ERROR, 2, phases);
-    double *stiffness = host->output(host->ctx, STIFFNESS_OUT_LEVEL_STIFFNESS, 2, phases);
-    double *teeth = host->output(host->ctx, STIFFNESS_OUT_LEVEL_TOOTH_FORCE, 2, stations);
-    if (!force || !error || !stiffness || !teeth)
+    *rows = (stiffness_level_rows){
+        .count = x.count,
+        .error = host->output(host->ctx, STIFFNESS_OUT_LEVEL_ERROR, 2, phases),
+        .stiffness = host->output(host->ctx, STIFFNESS_OUT_LEVEL_STIFFNESS, 2, phases),
+        .teeth = host->output(host->ctx, STIFFNESS_OUT_LEVEL_TOOTH_FORCE, 2, stations)};
+    if (!force || !rows->error || !rows->stiffness || !rows->teeth)
         return FF_NOMEM;
     for (size_t k = 0; k < x.count; k++)
         force[k] = x.force[k];
-    status = put_cycle(&x, cycle, error, stiffness);
-    return status == FF_OK ? put_stations(&x, teeth) : status;
+    return stiffness_levels_solve(s, cycle, rows);
 }

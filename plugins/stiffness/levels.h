@@ -8,9 +8,24 @@
 #include "equilibrium.h"
 #include "outputs.h"
 
-/* Gives the wanted outputs from STIFFNESS_OUT_FORCE_LEVEL on. Without a line force there is one
- * level, 0. */
+enum { STIFFNESS_MOST_LEVELS = 10 };
+
+/* Rows over the points of a cycle, and over the stations. */
+typedef struct stiffness_level_rows {
+    size_t count;
+    double *error, *stiffness, *teeth;
+} stiffness_level_rows;
+
+/* Returns how many levels there are; without a line force one, 0. */
+size_t stiffness_levels_count(const stiffness_source *source);
+
+/* Fills rows of that many levels. */
+ff_status stiffness_levels_solve(const stiffness_source *source, const stiffness_cycle *cycle,
+                                 const stiffness_level_rows *rows);
+
+/* Gives the wanted outputs from STIFFNESS_OUT_FORCE_LEVEL on, and `rows`, which are those of the
+ * outputs; count 0: none are wanted. */
 ff_status stiffness_levels_publish(const stiffness_source *source, const stiffness_cycle *cycle,
-                                   uint64_t wanted);
+                                   uint64_t wanted, stiffness_level_rows *rows);
 
 #endif

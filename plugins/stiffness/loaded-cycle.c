@@ -2,6 +2,7 @@
 /* Solves a mesh cycle of loaded teeth and gives its outputs. */
 #include "loaded-cycle.h"
 
+#include "back-flank.h"
 #include "breakpoints.h"
 #include "cycle.h"
 #include "hunting.h"
@@ -175,12 +176,75 @@ static stiffness_result result_of(const stiffness_source *s, const samples *v,
                               .hunting_error = v->hunting};
 }
 
+/* Finds the breakpoints and solves the cycle. */
+static ff_status solve_cycle(const stiffness_source *s, stiffness_breakpoint_list *b, samples *v)
+{
+    return stiffness_breakpoints_find(s, b) &&
+                   stiffness_cycle_make(&v->cycle, s->points, b->count, b->list)
+               ? sample(s, v)
+               : FF_NOMEM;
+}
+
+static stiffness_flank flank_of(const samples *v, const stiffness_level_rows *levels)
+{
+    return (stiffness_flank){&v->cycle, v->stiffness, v->error, v->loaded, *levels};
+}
+
+/* Solves the mesh cycle of the back flanks for themselves. The rows of the levels are in one block,
+ * whose start is that of `error`. */
+static ff_status solve_back(const stiffness_source *source, samples *v, stiffness_level_rows *rows)
+{
+    stiffness_conditions conditions = *source->conditions;
+    stiffness_source s = *source;
+    stiffness_breakpoint_list *b = calloc(1, sizeof *b);
+    if (!b)
+        return FF_NOMEM;
+    conditions.deviations = conditions.back;
+    s.conditions = &conditions;
+    stiffness_breakpoints_known(&s, b);
+    ff_status status = solve_cycle(&s, b, v);
+    free(b);
+    if (status != FF_OK)
+        return status;
+    const size_t count = stiffness_levels_count(&s), points = count * v->cycle.count;
+    double *block = malloc((2 * points + count * conditions.path.stations) * sizeof *block);
+    *rows = (stiffness_level_rows){count, block, block + points, block + 2 * points};
+    return block ? stiffness_levels_solve(&s, &v->cycle, rows) : FF_NOMEM;
+}
+
+/* Gives the curves of the back flanks, which are those of `v` if both flanks are alike and the
+ * levels of these are known. */
+static ff_status publish_back(const stiffness_source *s, uint64_t wanted, const samples *v,
+                              const stiffness_level_rows *levels)
+{
+    const stiffness_conditions *c = s->conditions;
+    const bool known = !c->deviations.index[0] && !c->deviations.index[1];
+    const bool alike = c->same_back && levels->count > 0;
+    samples back = {0};
+    stiffness_level_rows rows = {0};
+    stiffness_flank flank = flank_of(v, levels);
+    ff_status status = FF_OK;
+    if (!(wanted >> STIFFNESS_OUT_BACK_PHASE))
+        return FF_OK;
+    if (known && !alike) {
+        status = solve_back(s, &back, &rows);
+        flank = flank_of(&back, &rows);
+    }
+    if (status == FF_OK)
+        status =
+            stiffness_back_publish(s->host, &c->gears, known ? &flank : NULL, c->path.stations);
+    free(rows.error);
+    samples_free(&back);
+    return status;
+}
+
 ff_status stiffness_loaded_cycle_publish(const stiffness_source *source, uint64_t wanted)
 {
     stiffness_source s = *source;
     stiffness_breakpoint_list *b = calloc(1, sizeof *b);
     samples v = {0};
     stiffness_hunting h = {0};
+    stiffness_level_rows levels;
     ff_status status = FF_NOMEM;
     if (!b)
         goto out;
@@ -188,10 +252,7 @@ ff_status stiffness_loaded_cycle_publish(const stiffness_source *source, uint64_
     status = scan_hunting_period(&s, b, &h);
     if (status != FF_OK)
         goto out;
-    status = stiffness_breakpoints_find(&s, b) &&
-                     stiffness_cycle_make(&v.cycle, s.points, b->count, b->list)
-                 ? sample(&s, &v)
-                 : FF_NOMEM;
+    status = solve_cycle(&s, b, &v);
     if (status == FF_OK && wanted & FF_BIT(STIFFNESS_OUT_HUNTING_ERROR))
         status = sample_hunting(&s, &v);
     if (status != FF_OK)
@@ -202,7 +263,9 @@ ff_status stiffness_loaded_cycle_publish(const stiffness_source *source, uint64_
     stiffness_result result = result_of(&s, &v, b, &h);
     status = stiffness_result_publish(s.host, wanted, &result, &s.conditions->path);
     if (status == FF_OK)
-        status = stiffness_levels_publish(&s, &v.cycle, wanted);
+        status = stiffness_levels_publish(&s, &v.cycle, wanted, &levels);
+    if (status == FF_OK)
+        status = publish_back(&s, wanted, &v, &levels);
 out:
     free(h.pressure);
     samples_free(&v);

@@ -9,7 +9,7 @@
 
 enum { HARMONICS = 20 }; /* of k */
 
-const ff_port stiffness_outputs[STIFFNESS_LEVEL_OUTPUTS] = {
+const ff_port stiffness_outputs[STIFFNESS_ALL_OUTPUTS] = {
     {.name = "phase",
      .unit = "1",
      .label = "mesh cycle",
@@ -115,6 +115,44 @@ const ff_port stiffness_outputs[STIFFNESS_LEVEL_OUTPUTS] = {
     {.name = "level_tooth_force",
      .unit = "N",
      .doc = "quasi-static normal force of one pair from SAP to tip there",
+     .dims = "level gear.station"},
+    {.name = "back_phase",
+     .unit = "1",
+     .doc =
+         "phase of the curves of the flanks that the line force does not press; as phase, empty: "
+         "not known",
+     .dims = "back_phase"},
+    {.name = "back_offset",
+     .unit = "1",
+     .doc =
+         "sum of the phases at which both flanks of a tooth of gear 1 meet the other gear at one "
+         "roll angle, less whole mesh cycles",
+     .dims = ""},
+    {.name = "back_stiffness",
+     .unit = "N/m",
+     .doc = "mesh stiffness of those flanks",
+     .dims = "back_phase",
+     .max = INFINITY},
+    {.name = "back_transmission_error",
+     .unit = "m",
+     .doc = "their transmission error without load, positive: they meet later",
+     .dims = "back_phase"},
+    {.name = "back_loaded_transmission_error",
+     .unit = "m",
+     .doc = "the same under load",
+     .dims = "back_phase"},
+    {.name = "back_level_error",
+     .unit = "m",
+     .doc = "the same under each force_level",
+     .dims = "level back_phase"},
+    {.name = "back_level_stiffness",
+     .unit = "N/m",
+     .doc = "slope of their mesh force there",
+     .dims = "level back_phase",
+     .max = INFINITY},
+    {.name = "back_level_tooth_force",
+     .unit = "N",
+     .doc = "quasi-static normal force of one pair of them there, at the roll angles of gear 1",
      .dims = "level gear.station"},
 };
 

@@ -33,9 +33,19 @@ enum {
     STIFFNESS_OUT_LEVEL_ERROR,
     STIFFNESS_OUT_LEVEL_STIFFNESS,
     STIFFNESS_OUT_LEVEL_TOOTH_FORCE,
-    STIFFNESS_LEVEL_OUTPUTS
+    STIFFNESS_LEVEL_OUTPUTS,
+    /* of models that know the flanks which the mean load does not press */
+    STIFFNESS_OUT_BACK_PHASE = STIFFNESS_LEVEL_OUTPUTS,
+    STIFFNESS_OUT_BACK_OFFSET,
+    STIFFNESS_OUT_BACK_STIFFNESS,
+    STIFFNESS_OUT_BACK_ERROR,
+    STIFFNESS_OUT_BACK_LOADED_ERROR,
+    STIFFNESS_OUT_BACK_LEVEL_ERROR,
+    STIFFNESS_OUT_BACK_LEVEL_STIFFNESS,
+    STIFFNESS_OUT_BACK_LEVEL_TOOTH_FORCE,
+    STIFFNESS_ALL_OUTPUTS
 };
-extern const ff_port stiffness_outputs[STIFFNESS_LEVEL_OUTPUTS];
+extern const ff_port stiffness_outputs[STIFFNESS_ALL_OUTPUTS];
 
 /* The rows of a model without levels, as an argument in place of FF_TABLE. */
 #define STIFFNESS_PLAIN_OUTPUTS stiffness_outputs, STIFFNESS_OUTPUTS, sizeof stiffness_outputs[0]

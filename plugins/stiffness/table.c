@@ -413,7 +413,8 @@ FF_MODEL(stiffness_table_model, stiffness_table, .id = "stiffness/table", .versi
          .reference = "Steffen 1990, Astron. Astrophys. 239, 443-450 (the cubic interpolation)",
          .bibtex = BIB_steffen1990, .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
          .inputs = stiffness_inputs, .input_count = STIFFNESS_PATH_INPUTS,
-         .input_stride = sizeof stiffness_inputs[0], .outputs = FF_TABLE(stiffness_outputs),
+         .input_stride = sizeof stiffness_inputs[0], .outputs = stiffness_outputs,
+         .output_count = STIFFNESS_LEVEL_OUTPUTS, .output_stride = sizeof stiffness_outputs[0],
          .ready = ready, .evaluate = evaluate, .destroy = destroy,
          .columns = FF_TABLE(stiffness_table_columns));
 FF_EXPORT_MODELS(&stiffness_table_model);
