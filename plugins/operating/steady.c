@@ -38,7 +38,7 @@ static const ff_param params[] = {
     FF_QUANTITY("reference_torque", "N m", steady, reference_torque, FF_MIN_OPEN, NULL, NULL, 0,
                 1e12, 0, 0,
                 "torque at which stiffness, sharing of the load and damping are taken; default: "
-                "the torque without its sign"),
+                "the torque without its sign, or the largest that it swings by if that is larger"),
     FF_QUANTITY("speed", "rpm", steady, speed, FF_REQUIRED, NULL, "speed", 1e-3, 1e7, 0, 0,
                 "speed of gear 1"),
     FF_QUANTITY("mesh_frequency", "Hz", steady, mesh_frequency, FF_REQUIRED, NULL, "speed", 1e-4,
@@ -367,9 +367,10 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
             return status;
         value[OUT_LINE_FORCE] = s->torque / gear;
         value[OUT_LARGEST] = w.count ? largest_force(&w, s->torque / gear) : 0;
-        value[OUT_REFERENCE] = s->reference_torque > 0 ? s->reference_torque / gear
-                               : s->torque == 0        ? value[OUT_LARGEST]
-                                                       : 0;
+        double swing = largest_force(&w, 0);
+        value[OUT_REFERENCE] = s->reference_torque > 0               ? s->reference_torque / gear
+                               : swing > fabs(value[OUT_LINE_FORCE]) ? swing
+                                                                     : 0;
     }
     if (wanted & FF_BIT(OUT_OIL_TEMPERATURE) && isnan(s->oil_temperature))
         return s->host->fail(s->host->ctx, FF_UNSUPPORTED, "oil_temperature", no_temperature);
