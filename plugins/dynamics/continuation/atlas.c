@@ -148,7 +148,7 @@ static double evenly_spread(size_t i, double ratio)
 
 void dynamics_search_start(const dynamics_excitation *excitation, size_t serial, double x[2])
 {
-    double width = excitation->half_gap + 3 * excitation->load;
+    double width = excitation->half_gap + 3;
     x[0] = 1.5 * width * evenly_spread(serial, 0.7548776662466927);
     x[1] = width * evenly_spread(serial, 0.5698402909980532);
 }

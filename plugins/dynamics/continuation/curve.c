@@ -312,7 +312,7 @@ static int meets_half_period(const dynamics_continuation_range *t, stride *w)
 
 static int beyond_cap(const dynamics_excitation *excitation, const dynamics_point *p)
 {
-    double limit = cap * (excitation->half_gap + excitation->load);
+    double limit = cap * (excitation->half_gap + 1);
     return !(fabs(p->x[0]) < limit && fabs(p->x[1]) < limit);
 }
 
