@@ -116,7 +116,7 @@ static inline double numerics_exchange_value(const numerics_exchange *x, const c
         return x->ratio * (x->top - v);
     if (!strcmp(item, "roll_sap"))
         return x->sap;
-    if (!strcmp(item, "phase"))
+    if (!strcmp(item, "phase") || !strcmp(item, "back_phase") || !strcmp(item, "back_offset"))
         return 1 - v;
     if (!strcmp(item, "torque"))
         return -v / x->ratio;
@@ -144,13 +144,15 @@ static inline void numerics_exchange_array(const numerics_exchange *x, const ff_
     if (!strncmp(port->dims, "gear", 4) && port->dims[4] != '.' && a->rank && a->shape[0] == 2)
         numerics_reverse(to, 2, n / 2);
     if (numerics_exchange_ends(port->dims, "station") ||
-        numerics_exchange_ends(port->dims, "phase"))
+        numerics_exchange_ends(port->dims, "phase") ||
+        numerics_exchange_ends(port->dims, "back_phase"))
         for (size_t row = 0; last && row < n / last; row++)
             numerics_reverse(to + row * last, last, 1);
 }
 
-/* Returns the row with the same quantity of the other gear or flank; `i` itself if there is
- * none. */
+/* Returns the row with the same quantity of the other gear, or of the gear's other flank; `i`
+ * itself if there is none. What a stiffness says of the back flanks is of those that do not bear,
+ * whichever gear drives. */
 static inline size_t numerics_exchange_partner(const ff_port *ports, size_t count, size_t i)
 {
     const char *name = ports[i].name, *item = numerics_exchange_item(&ports[i]);
@@ -160,7 +162,7 @@ static inline size_t numerics_exchange_partner(const ff_port *ports, size_t coun
         if (n > 2 && !strcmp(name + n - 2, "_1") && strlen(other) == n &&
             !strncmp(other, name, n - 1) && other[n - 1] == '2')
             return k;
-        if (strlen(other) == n + 5 && !strncmp(other, name, stage) &&
+        if (!strncmp(name, "gear.", 5) && strlen(other) == n + 5 && !strncmp(other, name, stage) &&
             !strncmp(other + stage, "back_", 5) && !strcmp(other + stage + 5, item))
             return k;
     }

@@ -3,6 +3,7 @@
 
 #include "smooth-piece.h"
 #include "spring.h"
+#include "tracks.h"
 
 #include <assert.h>
 #include <math.h>
@@ -159,22 +160,52 @@ void dynamics_excitation_free(dynamics_excitation *excitation)
 {
     free(excitation->pieces);
     excitation->pieces = NULL;
+    dynamics_tracks_free(excitation);
 }
 
-const dynamics_piece *dynamics_excitation_piece(const dynamics_excitation *excitation, double phase,
-                                                int left)
+const dynamics_piece *dynamics_track_piece(dynamics_track track, double phase, int left)
 {
-    assert(excitation->count > 0);
-    size_t low = 0, high = excitation->count;
+    assert(track.count > 0);
+    size_t low = 0, high = track.count;
     while (high - low > 1) {
         size_t middle = low + (high - low) / 2;
-        double start = excitation->pieces[middle].start;
+        double start = track.pieces[middle].start;
         if (left ? start < phase - round_off : start <= phase + round_off)
             low = middle;
         else
             high = middle;
     }
-    return &excitation->pieces[low];
+    return &track.pieces[low];
+}
+
+const dynamics_piece *dynamics_excitation_piece(const dynamics_excitation *excitation, double phase,
+                                                int left)
+{
+    return dynamics_track_piece(dynamics_track_of(excitation, 1), phase, left);
+}
+
+const dynamics_piece *dynamics_excitation_piece_at(const dynamics_excitation *x, double phase,
+                                                   int left, double s)
+{
+    const dynamics_piece *driving = dynamics_excitation_piece(x, phase, left), *piece;
+    if (!dynamics_tracks_differ(x))
+        return driving;
+    piece = dynamics_track_piece(x->back, phase, left);
+    if (s - dynamics_piece_value(piece->e, piece->degree, phase - piece->start) < -x->half_gap)
+        return piece;
+    if (!x->flight.count ||
+        s - dynamics_piece_value(driving->e, driving->degree, phase - driving->start) > x->half_gap)
+        return driving;
+    return dynamics_track_piece(x->flight, phase, left);
+}
+
+/* Returns the flank that touches at delta: 0 where that of another track would. */
+static int side_at(const dynamics_excitation *x, const dynamics_piece *piece, double delta)
+{
+    int side = (delta > x->half_gap) - (delta < -x->half_gap);
+    if (side == 0 || !dynamics_tracks_differ(x))
+        return side;
+    return dynamics_track_holds(dynamics_track_of(x, side), piece) ? side : 0;
 }
 
 double dynamics_mesh_force(const dynamics_excitation *excitation, const dynamics_piece *piece,
@@ -184,7 +215,7 @@ double dynamics_mesh_force(const dynamics_excitation *excitation, const dynamics
     if (b == 0)
         /* no gap: the flanks never part */
         return dynamics_spring_force(piece, since, delta) + damper;
-    int side = (delta > b) - (delta < -b);
+    int side = side_at(excitation, piece, delta);
     if (side == 0)
         return excitation->damping == DYNAMICS_DAMPING_ALWAYS ? damper : 0;
     double force = dynamics_spring_force(piece, since, delta - side * b) + damper;

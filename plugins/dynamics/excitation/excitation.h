@@ -50,10 +50,20 @@ typedef struct dynamics_representation {
     double at_nodes, between; /* largest difference of k, relative to the mean stiffness */
 } dynamics_representation;
 
-typedef struct dynamics_excitation {
+/* The pieces of one mesh cycle (tracks.h). */
+typedef struct dynamics_track {
     dynamics_piece *pieces;
     size_t count;
-    double k_max; /* the largest k */
+} dynamics_track;
+
+typedef struct dynamics_excitation {
+    dynamics_piece *pieces; /* of the driving flanks */
+    size_t count;
+    dynamics_track back, flight; /* of the back flanks, and of free flight; count 0: those above */
+    double back_room;    /* by how much e of the driving flanks exceeds that of the back flanks */
+    double flight_share; /* of the error of the back flanks in that of free flight */
+    int both_flanks;     /* whether the model follows back flanks with curves of their own */
+    double k_max;        /* the largest k */
     double zeta, load, half_gap;
     int damping;
     int on_chord; /* whether k is replaced by the chord F/(e_l - e) (spring.h) */
@@ -61,7 +71,8 @@ typedef struct dynamics_excitation {
     int drags;    /* whether the pieces have a drag, and then all have the full degree: a film is
                      wired back, or the force fluctuates */
     double span;  /* mesh cycles in one period of the excitation; 0: one */
-    double length, stiffness, omega; /* units: m, N/m, rad/s */
+    double length, stiffness, omega; /* units: m, the deflection under the load or what excites the
+                                        motion if that is larger; N/m; rad/s */
     dynamics_representation represented;
     const struct dynamics_film *film; /* the oil film between separated flanks; NULL: none */
 } dynamics_excitation;
@@ -142,8 +153,12 @@ void dynamics_excitation_free(dynamics_excitation *excitation);
 
 /* Returns the piece at a phase in [0, 1]. At a node it is the piece before the node if `left`, else
    the piece after it. */
+const dynamics_piece *dynamics_track_piece(dynamics_track track, double phase, int left);
 const dynamics_piece *dynamics_excitation_piece(const dynamics_excitation *excitation, double phase,
                                                 int left);
+/* The same on the track that a motion follows at s. */
+const dynamics_piece *dynamics_excitation_piece_at(const dynamics_excitation *excitation,
+                                                   double phase, int left, double s);
 
 /* Returns the deflection s - e of the driving flank under the constant load at phase 0. The second
    function excludes the half gap. */

@@ -278,7 +278,8 @@ ff_status dynamics_film_wire_read(const ff_host *host, const ff_array *in,
     *powers = (dynamics_film_powers){0, NAN};
     if (!dynamics_film_is_wired(in))
         return FF_OK;
-    ff_status status = dynamics_refuse_fluctuation(host, inputs, "a film that is wired back");
+    ff_status status = dynamics_refuse_fluctuation(host, &in[DYNAMICS_IN_FLUCTUATION_ORDER],
+                                                   "a film that is wired back");
     if (status == FF_OK)
         status = check_gear(host, in, inputs->stations);
     if (status == FF_OK)

@@ -3,6 +3,7 @@
 
 #include "inputs.h"
 #include "smooth-piece.h"
+#include "tracks.h"
 
 #include <flankfilm/author.h>
 
@@ -21,11 +22,16 @@ static const char *name_of(int input)
     return dynamics_input_ports[input].name;
 }
 
+static size_t orders_of(const ff_array *order)
+{
+    return order->rank == 1 ? order->shape[0] : 0;
+}
+
 ff_status dynamics_fluctuation_read(const ff_host *host, const ff_array *in, double teeth,
                                     dynamics_fluctuation *f, size_t *span)
 {
     const ff_array *order = &in[DYNAMICS_IN_FLUCTUATION_ORDER];
-    *f = (dynamics_fluctuation){.teeth = teeth, .count = order->rank == 1 ? order->shape[0] : 0};
+    *f = (dynamics_fluctuation){.teeth = teeth, .count = orders_of(order)};
     *span = 1;
     if (f->count == 0)
         return FF_OK;
@@ -56,10 +62,9 @@ ff_status dynamics_fluctuation_read(const ff_host *host, const ff_array *in, dou
     return FF_OK;
 }
 
-ff_status dynamics_refuse_fluctuation(const ff_host *host, const dynamics_inputs *inputs,
-                                      const char *what)
+ff_status dynamics_refuse_fluctuation(const ff_host *host, const ff_array *order, const char *what)
 {
-    return inputs->fluctuation.count == 0
+    return orders_of(order) == 0
                ? FF_OK
                : ff_failf(
                      host, FF_UNSUPPORTED, name_of(DYNAMICS_IN_FLUCTUATION_ORDER),
@@ -128,18 +133,19 @@ static void set_part(const dynamics_piece *from, double since, double span, dyna
     }
 }
 
-int dynamics_excitation_fluctuate(dynamics_excitation *x, const dynamics_fluctuation *f,
-                                  size_t span)
+/* Makes `span` mesh cycles of one. 0: out of memory. */
+static int repeat_track(const dynamics_excitation *x, const dynamics_fluctuation *f, size_t span,
+                        dynamics_track *track)
 {
     size_t count = 0, n = 0;
-    for (size_t i = 0; i < x->count; i++)
-        count += span * parts_of(f, &x->pieces[i]);
-    dynamics_piece *pieces = calloc(count, sizeof *pieces);
+    for (size_t i = 0; i < track->count; i++)
+        count += span * parts_of(f, &track->pieces[i]);
+    dynamics_piece *pieces = calloc(count + 1, sizeof *pieces);
     if (!pieces)
         return 0;
     for (size_t cycle = 0; cycle < span; cycle++)
-        for (size_t i = 0; i < x->count; i++) {
-            const dynamics_piece *from = &x->pieces[i];
+        for (size_t i = 0; i < track->count; i++) {
+            const dynamics_piece *from = &track->pieces[i];
             const size_t parts = parts_of(f, from);
             const double length = from->length / (double)parts;
             for (size_t k = 0; k < parts; k++, n++) {
@@ -147,13 +153,26 @@ int dynamics_excitation_fluctuate(dynamics_excitation *x, const dynamics_fluctua
                              begin = (double)cycle + from->start + since;
                 pieces[n].start = begin / (double)span;
                 pieces[n].length = length / (double)span;
+                pieces[n].jump = k == 0 && from->jump;
                 set_part(from, since, (double)span, &pieces[n]);
                 set_drag(x, f, begin, length, &pieces[n]);
             }
         }
-    free(x->pieces);
-    x->pieces = pieces;
-    x->count = count;
+    free(track->pieces);
+    *track = (dynamics_track){pieces, count};
+    return 1;
+}
+
+int dynamics_excitation_fluctuate(dynamics_excitation *x, const dynamics_fluctuation *f,
+                                  size_t span)
+{
+    dynamics_track driving = {x->pieces, x->count};
+    const int made = repeat_track(x, f, span, &driving);
+    x->pieces = driving.pieces;
+    x->count = driving.count;
+    if (!made || (x->back.count && !repeat_track(x, f, span, &x->back)) ||
+        (x->flight.count && !repeat_track(x, f, span, &x->flight)))
+        return 0;
     x->span = (double)span;
     x->drags = 1;
     dynamics_excitation_mark_jumps(x);

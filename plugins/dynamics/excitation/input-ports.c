@@ -127,7 +127,49 @@
                                  .doc = "equivalent mass at the mesh spring if the speed of gear " \
                                         "1 is prescribed; not given or 0: equivalent_mass",        \
                                  .dims = "",                                                       \
-                                 .flags = FF_OPTIONAL}
+                                 .flags = FF_OPTIONAL},                                            \
+    [DYNAMICS_IN_BACK_PHASE] = {.name = "stiffness.back_phase",                                    \
+                                .unit = "1",                                                       \
+                                .doc = "phase of the curves of the flanks that the line force "    \
+                                       "does not press; none or empty: they mirror the others",    \
+                                .dims = "back_phase",                                              \
+                                .flags = FF_OPTIONAL},                                             \
+    [DYNAMICS_IN_BACK_OFFSET] = {.name = "stiffness.back_offset",                                  \
+                                 .unit = "1",                                                      \
+                                 .doc = "sum of the phases at which both flanks of a tooth meet "  \
+                                        "the other gear at one roll angle",                        \
+                                 .dims = "",                                                       \
+                                 .flags = FF_OPTIONAL},                                            \
+    [DYNAMICS_IN_BACK_STIFFNESS] = {.name = "stiffness.back_stiffness",                            \
+                                    .unit = "N/m",                                                 \
+                                    .doc = "mesh stiffness of those flanks",                       \
+                                    .dims = "back_phase",                                          \
+                                    .flags = FF_OPTIONAL},                                         \
+    [DYNAMICS_IN_BACK_ERROR] = {.name = "stiffness.back_transmission_error",                       \
+                                .unit = "m",                                                       \
+                                .doc = "their transmission error without load",                    \
+                                .dims = "back_phase",                                              \
+                                .flags = FF_OPTIONAL},                                             \
+    [DYNAMICS_IN_BACK_LOADED_ERROR] = {.name = "stiffness.back_loaded_transmission_error",         \
+                                       .unit = "m",                                                \
+                                       .doc = "the same under load",                               \
+                                       .dims = "back_phase",                                       \
+                                       .flags = FF_OPTIONAL},                                      \
+    [DYNAMICS_IN_BACK_LEVEL_ERROR] = {.name = "stiffness.back_level_error",                        \
+                                      .unit = "m",                                                 \
+                                      .doc = "the same under each force_level",                    \
+                                      .dims = "level back_phase",                                  \
+                                      .flags = FF_OPTIONAL},                                       \
+    [DYNAMICS_IN_BACK_LEVEL_STIFFNESS] = {.name = "stiffness.back_level_stiffness",                \
+                                          .unit = "N/m",                                           \
+                                          .doc = "slope of their mesh force there",                \
+                                          .dims = "level back_phase",                              \
+                                          .flags = FF_OPTIONAL},                                   \
+    [DYNAMICS_IN_BACK_LEVEL_TOOTH_FORCE] = {.name = "stiffness.back_level_tooth_force",            \
+                                            .unit = "N",                                           \
+                                            .doc = "tooth force of one pair of them there",        \
+                                            .dims = "level gear.station",                          \
+                                            .flags = FF_OPTIONAL}
 
 const ff_port dynamics_input_ports[DYNAMICS_COUPLED_INPUT_COUNT] = {
     COMMON_ROWS,

@@ -2,7 +2,9 @@
 #include "inputs.h"
 
 #include "../../numerics/exchange.h"
+#include "back-inputs.h"
 #include "spring.h"
+#include "tracks.h"
 
 #include <flankfilm/author.h>
 
@@ -408,11 +410,17 @@ static ff_status build_excitation(const ff_host *host, const ff_array *in,
 int dynamics_floats(const dynamics_inputs *inputs, const dynamics_excitation *excitation)
 {
     const dynamics_mesh_curves *c = &inputs->curves;
-    double highest = 0;
-    for (size_t i = 0; c->error && i < c->count; i++)
+    double highest = 0, lowest = 0;
+    for (size_t i = 0; c->error && i < c->count; i++) {
         highest = fmax(highest, fabs(c->error[i]));
-    return inputs->line_force == 0 && inputs->fluctuation.count == 0 &&
-           highest < excitation->half_gap * excitation->length;
+        lowest = i ? fmin(lowest, c->error[i]) : c->error[i];
+    }
+    if (inputs->line_force != 0 || inputs->fluctuation.count > 0)
+        return 0;
+    if (dynamics_tracks_differ(excitation))
+        return lowest / excitation->length + dynamics_back_lowest(excitation) >
+               -2 * excitation->half_gap;
+    return highest < excitation->half_gap * excitation->length;
 }
 
 void dynamics_floating_line(const ff_host *host)
@@ -499,6 +507,8 @@ ff_status dynamics_inputs_read(const ff_host *host, const ff_array *in,
     excitation->load = inputs->line_force / stiffness / excitation->length;
     inputs->shared = excitation->shared;
     status = build_excitation(host, in, inputs, excitation);
+    if (status == FF_OK)
+        status = dynamics_back_inputs_read(host, in, inputs, excitation);
     if (status == FF_OK && inputs->fluctuation.count > 0 &&
         !dynamics_excitation_fluctuate(excitation, &inputs->fluctuation, inputs->span))
         status = FF_NOMEM;

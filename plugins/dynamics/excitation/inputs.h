@@ -34,6 +34,14 @@ enum {
     DYNAMICS_IN_FLUCTUATION_SINE,
     DYNAMICS_IN_FLUCTUATION_PERIOD,
     DYNAMICS_IN_DRIVEN_MASS,
+    DYNAMICS_IN_BACK_PHASE,
+    DYNAMICS_IN_BACK_OFFSET,
+    DYNAMICS_IN_BACK_STIFFNESS,
+    DYNAMICS_IN_BACK_ERROR,
+    DYNAMICS_IN_BACK_LOADED_ERROR,
+    DYNAMICS_IN_BACK_LEVEL_ERROR,
+    DYNAMICS_IN_BACK_LEVEL_STIFFNESS,
+    DYNAMICS_IN_BACK_LEVEL_TOOTH_FORCE,
     DYNAMICS_INPUT_COUNT,
     /* read only by a model with flexible bearings */
     DYNAMICS_IN_BASE_RADIUS = DYNAMICS_INPUT_COUNT,
@@ -109,6 +117,9 @@ typedef struct dynamics_inputs {
     dynamics_mesh_curves curves;
     const double *loaded_error; /* m, at the phases of the curves; NULL: not known */
     dynamics_force_levels levels;
+    dynamics_force_levels back_levels; /* of the flanks that the mean load does not press */
+    double back_offset;                /* mesh cycles; NaN: their curves are not known */
+    int constant;           /* whether neither stiffness nor error depends on the phase */
     int shared;             /* whether the motion uses the levels, and load shares depend on the
                                mesh force */
     double roll_sap, pitch; /* rad; pitch: roll angle of one mesh cycle */
@@ -140,10 +151,9 @@ ff_status dynamics_inputs_read(const ff_host *host, const ff_array *in,
 int dynamics_floats(const dynamics_inputs *inputs, const dynamics_excitation *excitation);
 void dynamics_floating_line(const ff_host *host);
 
-/* Returns FF_UNSUPPORTED if torque or speed fluctuate. `what` names the part of the
-   model that needs a motion with the period of the mesh. */
-ff_status dynamics_refuse_fluctuation(const ff_host *host, const dynamics_inputs *inputs,
-                                      const char *what);
+/* Returns FF_UNSUPPORTED if torque or speed fluctuate; `order` is the input row of their orders.
+   `what` names the part of the model that needs a motion with the period of the mesh. */
+ff_status dynamics_refuse_fluctuation(const ff_host *host, const ff_array *order, const char *what);
 
 /* Converts a parameter that is a number or `auto` (-1) to a count; `auto` becomes 0. */
 static inline size_t dynamics_count_or_auto(int64_t value)

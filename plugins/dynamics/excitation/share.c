@@ -41,6 +41,17 @@ double dynamics_tooth_force(const dynamics_chosen_levels *c, double force, size_
     return before < behind ? fmax(left, right) : fmin(left, right);
 }
 
+double dynamics_back_share(const dynamics_inputs *inputs, size_t station, double force)
+{
+    const dynamics_force_levels *l = &inputs->back_levels;
+    const dynamics_chosen_levels all = {l, NULL, l->count};
+    if (!l->tooth_force)
+        return 0;
+    force = inputs->shared ? force : inputs->reference;
+    force = fmin(fmax(force, l->force[1]), l->force[l->count - 1]);
+    return dynamics_tooth_force(&all, force, station) / force;
+}
+
 double dynamics_share(const dynamics_inputs *inputs, size_t station, double force)
 {
     const dynamics_force_levels *l = &inputs->levels;

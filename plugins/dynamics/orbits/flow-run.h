@@ -4,6 +4,7 @@
 #define DYNAMICS_FLOW_RUN_H
 
 #include "../excitation/spring.h"
+#include "../excitation/tracks.h"
 #include "flow.h"
 
 typedef struct dynamics_run {
@@ -43,7 +44,8 @@ static inline double dynamics_run_stiffness(const dynamics_run *r)
 static inline double dynamics_piece_end(const dynamics_excitation *excitation,
                                         const dynamics_piece *piece)
 {
-    return piece + 1 < excitation->pieces + excitation->count ? piece[1].start : 1;
+    const dynamics_track track = dynamics_track_with(excitation, piece);
+    return piece + 1 < track.pieces + track.count ? piece[1].start : 1;
 }
 
 /* Updates of the contact in oil. find_films sets the held flank and the films that carry load, from

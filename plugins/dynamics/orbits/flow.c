@@ -56,17 +56,18 @@ static int bends_after(const dynamics_piece *p)
 
 int dynamics_flow_init(dynamics_flow *flow, const dynamics_excitation *excitation)
 {
+    const dynamics_track flight = dynamics_track_of(excitation, 0);
     *flow = (dynamics_flow){.excitation = excitation};
-    flow->free_until = malloc(excitation->count * sizeof *flow->free_until);
+    flow->free_until = malloc(flight.count * sizeof *flow->free_until);
     if (excitation->film)
         flow->radau = malloc(sizeof *flow->radau);
     if (!flow->free_until || (excitation->film && !flow->radau))
         return 0;
     if (flow->radau)
         dynamics_radau_init(flow->radau);
-    for (size_t i = excitation->count; i-- > 0;) {
-        const dynamics_piece *p = &excitation->pieces[i];
-        int last = i + 1 == excitation->count;
+    for (size_t i = flight.count; i-- > 0;) {
+        const dynamics_piece *p = &flight.pieces[i];
+        int last = i + 1 == flight.count;
         flow->free_until[i] = last || excitation->drags || bends_after(p)
                                   ? dynamics_piece_end(excitation, p)
                                   : flow->free_until[i + 1];
@@ -94,13 +95,62 @@ static void find_band(dynamics_run *r)
     r->band = r->side ? dynamics_spring_band(r->piece, r->at - r->piece->start, bend) : 0;
 }
 
+/* What delta and its rate change by on another track (tracks.h), at a phase. */
+typedef struct shift {
+    const dynamics_piece *piece;
+    double delta, rate;
+} shift;
+
+static shift shift_to(const dynamics_run *r, int side, double phase)
+{
+    const dynamics_track track = dynamics_track_of(r->excitation, side);
+    const dynamics_piece *from = r->piece, *to = from;
+    if (dynamics_track_holds(track, from))
+        return (shift){from, 0, 0};
+    to = dynamics_track_piece(track, phase, 0);
+    return (shift){to,
+                   dynamics_piece_value(from->e, from->degree, phase - from->start) -
+                       dynamics_piece_value(to->e, to->degree, phase - to->start),
+                   (dynamics_piece_slope(from->e, from->degree, phase - from->start) -
+                    dynamics_piece_slope(to->e, to->degree, phase - to->start)) /
+                       r->T};
+}
+
+/* Goes over to the track of a side; s and s' are continuous. */
+static void take_track(dynamics_run *r, int side, double phase)
+{
+    const shift x = shift_to(r, side, phase);
+    if (x.piece == r->piece)
+        return;
+    r->piece = x.piece;
+    r->y->delta += x.delta;
+    r->y->rate += x.rate;
+    r->y->change[1] -= x.rate / r->T;
+}
+
+/* Selects the contact and its track, where those of the flanks differ. */
+static void find_contact_on_tracks(dynamics_run *r, double phase)
+{
+    const shift ahead = shift_to(r, 1, phase), behind = shift_to(r, -1, phase);
+    double b = r->excitation->half_gap, delta = r->y->delta, rate = r->y->rate;
+    double front = delta + ahead.delta, back = delta + behind.delta;
+    r->side = (front > b || (front == b && rate + ahead.rate >= 0)) -
+              (back < -b || (back == -b && rate + behind.rate < 0));
+    r->pressed = r->side != 0;
+    take_track(r, r->side, phase);
+}
+
 /* Selects the contact from the state. At the edge of the gap the sign of the rate decides. If the
    rate is 0 there, the load decides, which presses the driving flanks together. */
-static void find_contact(dynamics_run *r)
+static void find_contact(dynamics_run *r, double phase)
 {
     double b = r->excitation->half_gap, delta = r->y->delta, rate = r->y->rate;
     if (r->excitation->film) {
         dynamics_run_find_films(r);
+        return;
+    }
+    if (dynamics_tracks_differ(r->excitation)) {
+        find_contact_on_tracks(r, phase);
         return;
     }
     r->side = (delta > b || (delta == b && rate >= 0)) - (delta < -b || (delta == -b && rate < 0));
@@ -124,7 +174,7 @@ static void enter_piece(dynamics_run *r, const dynamics_piece *before, const dyn
     if (leap != 0 && r->excitation->film)
         dynamics_run_follow_flanks(r);
     if (leap != 0)
-        find_contact(r);
+        find_contact(r, piece->start);
     find_band(r);
 }
 
@@ -222,6 +272,30 @@ static void gap_edge_gate(const dynamics_taylor_series *s, double sign, double o
     g->p[0] += offset;
 }
 
+/* Returns the order of a gate in free flight. */
+static int flight_order(const dynamics_run *r, const dynamics_taylor_series *s)
+{
+    return dynamics_tracks_differ(r->excitation) && s->order < DYNAMICS_DEGREE ? DYNAMICS_DEGREE
+                                                                               : s->order;
+}
+
+/* Moves the gate at an edge of the gap to the track of its flank. The step lies within one of the
+ * pieces there. */
+static void move_edge(const dynamics_run *r, const dynamics_taylor_series *s, dynamics_gate *g)
+{
+    const dynamics_track track = dynamics_track_of(r->excitation, g->side);
+    double from[DYNAMICS_DEGREE + 1] = {0}, to[DYNAMICS_DEGREE + 1] = {0}, unit = s->h / r->T;
+    for (int n = s->order + 1; n <= flight_order(r, s); n++)
+        g->p[n] = 0;
+    if (dynamics_track_holds(track, r->piece))
+        return;
+    const dynamics_piece *p = dynamics_track_piece(track, r->at + 0.5 * unit, 0);
+    dynamics_piece_shift(r->piece->e, r->piece->degree, r->at - r->piece->start, unit, from);
+    dynamics_piece_shift(p->e, p->degree, r->at - p->start, unit, to);
+    for (int n = 0; n <= DYNAMICS_DEGREE; n++)
+        g->p[n] -= g->side * (from[n] - to[n]);
+}
+
 /* Lists the gates of the current contact. Returns their number. */
 static int find_gates(const dynamics_run *r, const dynamics_taylor_series *s,
                       dynamics_gate g[DYNAMICS_RUN_GATES])
@@ -243,6 +317,8 @@ static int find_gates(const dynamics_run *r, const dynamics_taylor_series *s,
         g[1].side = -1;
         gap_edge_gate(s, -1, b, &g[0]);
         gap_edge_gate(s, 1, b, &g[1]);
+        for (int i = 0; i < 2 && dynamics_tracks_differ(r->excitation); i++)
+            move_edge(r, s, &g[i]);
         return 2;
     }
     int clipped = r->excitation->damping == DYNAMICS_DAMPING_CLIPPED;
@@ -260,13 +336,22 @@ static int find_gates(const dynamics_run *r, const dynamics_taylor_series *s,
     return 2;
 }
 
+/* Returns a lower bound of the way from z to the edges of the gap. */
+static double room_in_flight(const dynamics_excitation *x, double z)
+{
+    const double share = x->flight_share;
+    if (!dynamics_tracks_differ(x))
+        return x->half_gap - fabs(z);
+    return x->half_gap + fmin(share * x->back_room - z, (1 - share) * x->back_room + z);
+}
+
 /* Returns whether the step is too short to reach the edge of the gap. The sum of all terms towards
  * the edge bounds the motion. */
 static int cannot_reach_edge(const dynamics_run *r, const dynamics_taylor_series *s, double tiny)
 {
     double z = s->c[0][DYNAMICS_Z], first = s->c[1][DYNAMICS_Z];
     double reach = tiny + (r->side * first > 0 ? 0 : fabs(first));
-    double room = r->side ? r->side * z : r->excitation->half_gap - fabs(z);
+    double room = r->side ? r->side * z : room_in_flight(r->excitation, z);
     for (int n = 2; n <= s->order; n++)
         reach += fabs(s->c[n][DYNAMICS_Z]);
     if (r->excitation->film && r->excitation->film->rolling)
@@ -284,7 +369,8 @@ static double find_event(const dynamics_run *r, const dynamics_taylor_series *s,
         r->excitation->half_gap == 0 || cannot_reach_edge(r, s, tiny) ? 0 : find_gates(r, s, g);
     count = add_knees(r, s, count, g);
     for (int i = 0; i < count; i++) {
-        double x = dynamics_taylor_first_exit(g[i].p, s->order, tiny);
+        double x = dynamics_taylor_first_exit(
+            g[i].p, r->side || g[i].knee ? s->order : flight_order(r, s), tiny);
         if (x < 0 || (first >= 0 && x >= first))
             continue;
         first = x;
@@ -319,6 +405,32 @@ static void move_state(dynamics_run *r, const dynamics_taylor_series *s, double 
     y->det *= v[DYNAMICS_PHI_1] * w[DYNAMICS_PHI_2] - v[DYNAMICS_PHI_2] * w[DYNAMICS_PHI_1];
 }
 
+/* Does what change_contact does where the tracks of the flanks differ. The damper then follows
+ * another e, and its force jumps at the edge, which the flank approaches at the rate `edge`. Where
+ * e jumps across the motion, that is no passage of the edge. */
+static void change_track(dynamics_run *r, const dynamics_gate *g)
+{
+    const int flank = g->side ? g->side : r->side;
+    const double b = r->excitation->half_gap, gap = flank * b;
+    const shift x = shift_to(r, flank, r->at);
+    const double edge = r->y->rate + x.rate, before = damper_acts(r) * r->y->rate;
+    const int passes = fabs(r->y->delta + x.delta - gap) <= 1e-9 * (1 + b);
+    if (r->side && passes)
+        r->y->delta = gap;
+    take_track(r, g->side, r->at);
+    if (!r->side && passes)
+        r->y->delta = gap;
+    r->side = g->side;
+    r->pressed = g->pressed;
+    find_band(r);
+    if (!passes || edge == 0)
+        return;
+    double jump = 2 * r->excitation->zeta * (damper_acts(r) * r->y->rate - before) / edge;
+    r->y->m[2] -= jump * r->y->m[0];
+    r->y->m[3] -= jump * r->y->m[1];
+    r->y->change[1] -= jump * r->y->change[0];
+}
+
 /* Changes the contact. Where the damper begins or ceases to act, the force jumps by `jump` times
    the rate, and the derivatives are multiplied by the saltation matrix [1 0; -jump 1] (Leine &
    Nijmeijer 2004, Dynamics and Bifurcations of Non-Smooth Mechanical Systems). */
@@ -334,6 +446,10 @@ static void change_contact(dynamics_run *r, const dynamics_gate *g)
         return;
     }
     int same_side = g->side == r->side, damped = damper_acts(r);
+    if (!same_side && dynamics_tracks_differ(r->excitation)) {
+        change_track(r, g);
+        return;
+    }
     if (!same_side)
         r->y->delta = (g->side ? g->side : r->side) * r->excitation->half_gap;
     r->side = g->side;
@@ -366,7 +482,7 @@ static double plan_step(const dynamics_run *r, dynamics_piece_equation *q)
     double end = dynamics_piece_end(r->excitation, r->piece);
     int flies = !r->pressed && r->side == 0;
     if (flies)
-        end = r->flow->free_until[r->piece - r->excitation->pieces];
+        end = r->flow->free_until[r->piece - dynamics_track_of(r->excitation, 0).pieces];
     *q = (dynamics_piece_equation){.load = r->excitation->load,
                                    .damper = damper_acts(r) ? 2 * r->excitation->zeta : 0};
     double since = r->at - r->piece->start;
@@ -426,6 +542,19 @@ static double expand(const dynamics_run *r, const dynamics_piece_equation *q, do
     return end;
 }
 
+/* Returns the end of a step in free flight that may reach a flank: at most the next node of both
+ * flanks. */
+static double end_at_nodes(const dynamics_run *r, double end)
+{
+    for (int side = -1; side <= 1; side += 2) {
+        const dynamics_track track = dynamics_track_of(r->excitation, side);
+        if (!dynamics_track_holds(track, r->piece))
+            end =
+                fmin(end, dynamics_piece_end(r->excitation, dynamics_track_piece(track, r->at, 0)));
+    }
+    return end;
+}
+
 static void take_step(dynamics_run *r)
 {
     dynamics_piece_equation q;
@@ -434,6 +563,11 @@ static void take_step(dynamics_run *r)
     const dynamics_gate *which = NULL;
     double end = plan_step(r, &q);
     r->end = end = expand(r, &q, end, &s);
+    if (!r->side && dynamics_tracks_differ(r->excitation) && !cannot_reach_edge(r, &s, 0)) {
+        double node = end_at_nodes(r, end);
+        if (node < end)
+            r->end = end = expand(r, &q, node, &s);
+    }
     double h = (end - r->at) * r->T;
     double x = r->idle > DYNAMICS_MAX_IDLE ? -1 : find_event(r, &s, g, &which);
     if (x >= 0)
@@ -453,8 +587,8 @@ static int follow_cycle(dynamics_run *r)
     const dynamics_excitation *excitation = r->excitation;
     const dynamics_piece *last = &excitation->pieces[excitation->count - 1];
     r->piece = last;
-    find_contact(r);
-    enter_piece(r, last, excitation->pieces);
+    find_contact(r, 1);
+    enter_piece(r, r->piece, dynamics_track_with(excitation, r->piece).pieces);
     size_t steps = 0;
     while (r->at < 1) {
         if (r->at >= dynamics_piece_end(excitation, r->piece))
@@ -468,6 +602,7 @@ static int follow_cycle(dynamics_run *r)
     }
     if (excitation->film)
         dynamics_run_follow_flanks(r);
+    take_track(r, 1, 1); /* the state between cycles is that of the driving flanks */
     return isfinite(r->y->delta) && isfinite(r->y->rate);
 }
 
@@ -478,7 +613,7 @@ void dynamics_flow_films(const dynamics_flow *flow, double T, const double x[2],
     dynamics_run r = {.flow = flow, .excitation = flow->excitation, .T = T, .y = &y};
     r.piece = &r.excitation->pieces[r.excitation->count - 1];
     y.oil.known = known;
-    find_contact(&r);
+    find_contact(&r, 1);
     memcpy(film, y.oil.film, sizeof y.oil.film);
 }
 

@@ -15,7 +15,8 @@
 
 typedef struct dynamics_flow {
     const dynamics_excitation *excitation;
-    double *free_until;    /* for each piece, the phase up to which e is one straight line */
+    double *free_until;    /* for each piece of free flight, the phase up to which e is one
+                              straight line */
     dynamics_radau *radau; /* NULL: no oil between the flanks */
 } dynamics_flow;
 

@@ -2,6 +2,7 @@
 #include "trajectory.h"
 
 #include "../excitation/spring.h"
+#include "../excitation/tracks.h"
 #include "orbit-film.h"
 
 #include <math.h>
@@ -88,6 +89,7 @@ static void join_strides(dynamics_trajectory *t, const dynamics_step *f)
 {
     moment m = moment_at(f, 0);
     double energy = energy_of(f->excitation, &m), change = energy - t->energy;
+    const dynamics_piece *track = dynamics_track_with(f->excitation, f->piece).pieces;
     if (!t->begun)
         t->start = energy;
     else if (f->side == t->side && f->pressed != t->pressed)
@@ -95,9 +97,10 @@ static void join_strides(dynamics_trajectory *t, const dynamics_step *f)
     else if (f->excitation->film &&
              f->side != t->side) /* a film on the opposite flank begins or ends */
         t->loss -= change;
-    else if (f->at == f->piece->start)
+    else if (f->at == f->piece->start || track != t->track) /* e may jump across a flank */
         t->work += change;
     t->begun = 1;
+    t->track = track;
     t->side = f->side;
     t->pressed = f->pressed;
 }
@@ -169,12 +172,11 @@ static void add_sample(dynamics_trajectory *t, const dynamics_step *f, double x,
 
 static int jumps_at_end(const dynamics_step *f)
 {
-    const dynamics_excitation *excitation = f->excitation;
-    const dynamics_piece *next = f->piece, *end = excitation->pieces + excitation->count;
+    const dynamics_track track = dynamics_track_with(f->excitation, f->piece);
+    const dynamics_piece *next = f->piece, *end = track.pieces + track.count;
     while (next < end && next->start < f->end) /* in free flight a step may pass several nodes */
         next++;
-    return next < end ? next->jump && next->start == f->end
-                      : excitation->pieces->jump && f->end == 1;
+    return next < end ? next->jump && next->start == f->end : track.pieces->jump && f->end == 1;
 }
 
 /* A jump of the excitation has two samples at the same phase, one before and one after it. */

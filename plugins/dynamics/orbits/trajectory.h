@@ -18,8 +18,9 @@ typedef struct dynamics_trajectory {
     dynamics_clocks clocks;
     const dynamics_radau *radau; /* Radau nodes of the flow */
     dynamics_record *record;
-    size_t next;              /* index of the next sample in the cycle */
-    int begun, side, pressed; /* whether a step has been observed; contact in the last step */
+    size_t next;                 /* index of the next sample in the cycle */
+    int begun, side, pressed;    /* whether a step has been observed; contact in the last step */
+    const dynamics_piece *track; /* first piece of the track of the last step */
 } dynamics_trajectory;
 
 /* Observer that sums the moments of s only. */

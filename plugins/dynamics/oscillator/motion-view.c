@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "motion-view.h"
 
+#include "../excitation/back-inputs.h"
 #include "motion.h"
 #include "sharing.h"
 
@@ -229,6 +230,7 @@ ff_status dynamics_motion_view_put(const dynamics_motion_view *view, const dynam
     double time = (double)view->cycles * view->T, quasi_static = largest_static(inputs);
     dynamics_between between = {0, 0};
     ff_status status = put_engagements(view, excitation, inputs, host);
+    dynamics_back_flank_line(host, inputs, excitation, fmin(view->back / time, 1));
     const int looked = (inputs->wanted & of_stations) != 0;
     if (looked) {
         between = look_between(view, newton, inputs, 1);

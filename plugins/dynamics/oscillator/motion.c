@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "motion.h"
 
+#include "../excitation/share.h"
+#include "../excitation/tracks.h"
 #include "landings.h"
 #include "multipliers.h"
 
@@ -54,8 +56,8 @@ const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT] = {
     [DYNAMICS_OUT_TOOTH_FORCE] =
         {.name = "tooth_force",
          .unit = "N",
-         .doc = "dynamic tooth force W_s DMF/F, not clipped at 0; one row per "
-                "engagement when the period is several mesh cycles",
+         .doc = "dynamic tooth force W_s DMF/F of the flanks that the mean load presses, not "
+                "clipped at 0; one row per engagement when the period is several mesh cycles",
          .dims = "engagement? gear.station"},
     [DYNAMICS_OUT_GAP] = {.name = "gap",
                           .unit = "m",
@@ -123,6 +125,13 @@ const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT] = {
                                     .unit = "m/s",
                                     .doc = "speeds of approach at these times",
                                     .dims = "landing"},
+    [DYNAMICS_OUT_BACK_TOOTH_FORCE] =
+        {.name = "back_tooth_force",
+         .unit = "N",
+         .doc =
+             "the same of the flanks that the mean load does not press, above 0 where they bear; "
+             "these meet from the tip of gear 1 to its root",
+         .dims = "engagement? gear.station"},
     [DYNAMICS_OUT_STABLE_MOTIONS] =
         {.name = "stable_motions",
          .unit = "1",
@@ -326,10 +335,11 @@ static void read_films(const dynamics_sample *a, const dynamics_sample *z, doubl
 }
 
 /* Computes force and gap at any phase of the record. s is a Hermite cubic between samples. At a
-   jump of the excitation `left` selects the values before the jump. */
-static void force_and_gap_at(const void *self, double phase, int left, double *force, double *gap)
+   jump of the excitation `left` selects the values before the jump. Returns whether the back flanks
+   touch and have their own curves. */
+static int instant_at(const dynamics_motion *motion, double phase, int left, double *force,
+                      double *gap)
 {
-    const dynamics_motion *motion = self;
     const dynamics_excitation *excitation = motion->excitation;
     const dynamics_sample *s = motion->record.samples;
     const dynamics_motion_view view = view_of(motion);
@@ -337,7 +347,7 @@ static void force_and_gap_at(const void *self, double phase, int left, double *f
     const dynamics_sample *a = &s[low], *z = &s[low + 1];
     if (excitation->film) {
         read_films(a, z, phase, force, gap);
-        return;
+        return 0;
     }
     double h = z->phase - a->phase;
     phase = fmin(fmax(phase, a->phase), z->phase);
@@ -350,13 +360,56 @@ static void force_and_gap_at(const void *self, double phase, int left, double *f
     if (h > 0)
         rate = (slope_a + x * (2 * c2 + 3 * x * c3)) / (h * motion->T);
     phase -= floor(0.5 * (a->phase + z->phase));
-    const dynamics_piece *piece = dynamics_excitation_piece(excitation, phase, left);
+    const dynamics_piece *piece = dynamics_excitation_piece_at(excitation, phase, left, value),
+                         *driving = dynamics_excitation_piece(excitation, phase, left);
     double since = phase - piece->start;
     double delta = value - dynamics_piece_value(piece->e, piece->degree, since);
     *force = dynamics_mesh_force(excitation, piece, since, delta,
                                  rate - dynamics_piece_slope(piece->e, piece->degree, since) /
                                             motion->T);
+    delta = value - dynamics_piece_value(driving->e, driving->degree, phase - driving->start);
     *gap = excitation->half_gap > 0 ? fmax(excitation->half_gap - delta, 0) : 0;
+    return dynamics_track_holds(excitation->back, piece);
+}
+
+static void force_and_gap_at(const void *self, double phase, int left, double *force, double *gap)
+{
+    if (instant_at(self, phase, left, force, gap))
+        *force = 0; /* of the driving flanks */
+}
+
+/* Gives the forces of the pairs of back flanks. A pair is at the age a, counted along gear 1, at
+ * the phase back_offset - a and whole mesh cycles (theory, eq. 4.5c). */
+static ff_status put_back_forces(const dynamics_motion *motion, const dynamics_inputs *inputs,
+                                 const ff_host *host)
+{
+    const dynamics_excitation *x = motion->excitation;
+    const double newton = x->stiffness * x->length, span = (double)dynamics_span(inputs);
+    const size_t stations = inputs->stations, rows = motion->cycles * dynamics_span(inputs),
+                 shape[2] = {rows, stations};
+    const uint32_t rank = rows > 1 ? 2 : 1;
+    if (!(inputs->wanted & FF_BIT(DYNAMICS_OUT_BACK_TOOTH_FORCE)))
+        return FF_OK;
+    if (!dynamics_tracks_differ(x) || inputs->back_levels.count < 2)
+        return ff_failf(host, FF_UNSUPPORTED, "back_tooth_force",
+                        "needs a stiffness that knows both flanks under a load, such as "
+                        "stiffness/load-distribution, and dynamics/shooting or "
+                        "dynamics/time-integration without oil in the gap");
+    double *to = host->output(host->ctx, DYNAMICS_OUT_BACK_TOOTH_FORCE, rank, &shape[2 - rank]),
+           gap;
+    if (!to)
+        return FF_NOMEM;
+    const double last = dynamics_station_phase(inputs, stations - 1) * span;
+    for (size_t k = 0; k < rows * stations; k++) {
+        const size_t i = k % stations;
+        double age = dynamics_station_phase(inputs, i) * span, dmf;
+        double phase = (double)(k / stations) + inputs->back_offset + ceil(last) - age;
+        int bears = instant_at(motion, phase / span, 0, &dmf, &gap);
+        double force = bears ? -dmf * newton : 0;
+        to[k] = dynamics_back_share(inputs, i, force) * force;
+    }
+    dynamics_put_stations(to, stations, rows * stations, inputs->back);
+    return FF_OK;
 }
 
 static ff_status put_cycle(const dynamics_motion *motion, const dynamics_inputs *inputs,
@@ -444,6 +497,8 @@ ff_status dynamics_motion_put(const dynamics_motion *motion, const dynamics_inpu
                                        DYNAMICS_OUT_LANDING_SPEED, host);
     if (status == FF_OK)
         status = dynamics_motion_view_put(&view, &st, motion->excitation, inputs, host);
+    if (status == FF_OK)
+        status = put_back_forces(motion, inputs, host);
     host->quality(host->ctx, "rms_sampling_error", st.rms_error, 1e-3,
                   st.rms_error <= 1e-3 ? FF_GOOD : FF_DOUBTFUL,
                   "estimated relative error of dte_rms that comes from the spacing of the points "

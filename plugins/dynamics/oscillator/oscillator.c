@@ -4,6 +4,7 @@
 #include "../../numerics/bracket.h"
 #include "../../numerics/integrator.h"
 #include "../excitation/spring.h"
+#include "../excitation/tracks.h"
 
 #include <float.h>
 #include <math.h>
@@ -108,11 +109,15 @@ static double drag_at(const dynamics_oscillator *o, double t)
                                 : 0;
 }
 
+static double error_bend_at(const dynamics_oscillator *o, double t)
+{
+    return dynamics_piece_bend(o->piece->e, o->piece->degree, t / o->T) / (o->T * o->T);
+}
+
 /* Returns the force that drives delta: load minus drag minus e''. */
 static double drive_at(const dynamics_oscillator *o, double t)
 {
-    double bend = dynamics_piece_bend(o->piece->e, o->piece->degree, t / o->T);
-    return o->excitation->load - drag_at(o, t) - bend / (o->T * o->T);
+    return o->excitation->load - drag_at(o, t) - error_bend_at(o, t);
 }
 
 static int damper_acts(const dynamics_oscillator *o)
@@ -183,6 +188,40 @@ static void enter_piece(dynamics_oscillator *o, const dynamics_piece *piece, dou
     o->t = 0;
 }
 
+/* What delta and its rate change by where another track takes over. */
+typedef struct shift {
+    const dynamics_piece *piece;
+    double since, delta, rate; /* since: phase from the start of the piece */
+} shift;
+
+/* Returns the change to the track of a side, at the instant t of the present piece. */
+static shift shift_to(const dynamics_oscillator *o, double t, int side)
+{
+    const dynamics_track track = dynamics_track_of(o->excitation, side);
+    shift x = {.piece = o->piece, .since = t / o->T};
+    if (dynamics_track_holds(track, o->piece))
+        return x;
+    double phase = o->piece->start + x.since;
+    x.piece = dynamics_track_piece(track, phase, 0);
+    x.since = phase - x.piece->start;
+    x.delta = error_at(o, t) - dynamics_piece_value(x.piece->e, x.piece->degree, x.since);
+    x.rate =
+        error_rate_at(o, t) - dynamics_piece_slope(x.piece->e, x.piece->degree, x.since) / o->T;
+    return x;
+}
+
+/* Goes over to the track of a side; s and s' are continuous. */
+static void take_track(dynamics_oscillator *o, int side)
+{
+    shift x = shift_to(o, o->t, side);
+    if (x.piece == o->piece)
+        return;
+    enter_piece(o, x.piece, o->T);
+    o->t = x.since * o->T;
+    o->y[DYNAMICS_DELTA] += x.delta;
+    o->y[DYNAMICS_RATE] += x.rate;
+}
+
 void dynamics_oscillator_start(dynamics_oscillator *o, double T, double delta, double rate)
 {
     const dynamics_excitation *excitation = o->excitation;
@@ -196,6 +235,8 @@ void dynamics_oscillator_start(dynamics_oscillator *o, double T, double delta, d
     o->side = excitation->half_gap == 0 || delta >= excitation->half_gap
                   ? 1
                   : -(delta <= -excitation->half_gap);
+    if (o->side <= 0 && dynamics_tracks_differ(excitation))
+        o->side = -(delta + shift_to(o, o->t, -1).delta <= -excitation->half_gap);
     o->pressed = o->side != 0;
     find_band(o);
     o->clocks = (dynamics_clocks){0};
@@ -253,6 +294,11 @@ static int find_contact_gates(const dynamics_oscillator *o, double t, const doub
         g[0] = (gate){.value = b - y[DYNAMICS_DELTA], .rate = -y[DYNAMICS_RATE], .side = 1};
         g[1] = (gate){.value = b + y[DYNAMICS_DELTA], .rate = y[DYNAMICS_RATE], .side = -1};
         g[0].pressed = g[1].pressed = 1;
+        for (int i = 0; i < 2 && dynamics_tracks_differ(o->excitation); i++) {
+            shift off = shift_to(o, t, g[i].side);
+            g[i].value -= g[i].side * off.delta;
+            g[i].rate -= g[i].side * off.rate;
+        }
         return 2;
     }
     gate touch = {.value = sign * y[DYNAMICS_DELTA] - b, .rate = sign * y[DYNAMICS_RATE]};
@@ -389,19 +435,34 @@ static double find_closing(dynamics_oscillator *o, int i, const gate *a, const g
     return value < -tiny ? find_change(o, i, 0, start, lowest, value) : -1;
 }
 
+/* Returns s'' where the tracks of the flanks differ, delta'' where they do not. */
+static double acceleration(dynamics_oscillator *o)
+{
+    double rates[DYNAMICS_STATE_SIZE];
+    derivative(o->t, o->y, rates, o);
+    return rates[DYNAMICS_RATE] +
+           (dynamics_tracks_differ(o->excitation) ? error_bend_at(o, o->t) : 0);
+}
+
 /* Multiplies the variation by the saltation matrix 1 + [0 0; jump/rate 0]. It applies where flanks
    meet or separate at the edge of the gap and the force jumps (Leine & Nijmeijer 2004, Dynamics and
-   Bifurcations of Non-Smooth Mechanical Systems). */
+   Bifurcations of Non-Smooth Mechanical Systems). `rate` is the rate of the motion relative to that
+   edge. */
 static void cross_edge(dynamics_oscillator *o, const gate *g)
 {
-    double before[DYNAMICS_STATE_SIZE], after[DYNAMICS_STATE_SIZE], rate = o->y[DYNAMICS_RATE];
-    o->y[DYNAMICS_DELTA] = (o->side ? o->side : g->side) * o->excitation->half_gap;
-    derivative(o->t, o->y, before, o);
+    const int flank = o->side ? o->side : g->side;
+    double rate = o->y[DYNAMICS_RATE] + shift_to(o, o->t, flank).rate, before, after;
+    if (o->side)
+        o->y[DYNAMICS_DELTA] = flank * o->excitation->half_gap;
+    before = acceleration(o);
+    take_track(o, g->side);
+    if (!o->side)
+        o->y[DYNAMICS_DELTA] = flank * o->excitation->half_gap;
     o->side = g->side;
     o->band = 0;
     o->pressed = g->pressed;
-    derivative(o->t, o->y, after, o);
-    double salt = rate != 0 ? (after[DYNAMICS_RATE] - before[DYNAMICS_RATE]) / rate : 0;
+    after = acceleration(o);
+    double salt = rate != 0 ? (after - before) / rate : 0;
     o->y[DYNAMICS_M21] += salt * o->y[DYNAMICS_M11];
     o->y[DYNAMICS_M22] += salt * o->y[DYNAMICS_M12];
 }
@@ -416,11 +477,13 @@ static void change_regime(dynamics_oscillator *o, const gate *g)
         return;
     }
     double b = o->excitation->half_gap, energy = dynamics_oscillator_energy(o);
+    double delta = o->y[DYNAMICS_DELTA] + shift_to(o, o->t, o->side ? o->side : g->side).delta;
     int same_side = g->side == o->side;
-    if (!same_side && fabs(fabs(o->y[DYNAMICS_DELTA]) - b) < 1e-9 * (1 + b)) {
+    if (!same_side && fabs(fabs(delta) - b) < 1e-9 * (1 + b)) {
         cross_edge(o, g);
         return;
     }
+    take_track(o, g->side);
     o->side = g->side;
     o->pressed = g->pressed;
     find_band(o);
@@ -461,10 +524,12 @@ static int find_event(dynamics_oscillator *o, double h, const double *y, double 
     return found;
 }
 
-/* Integrates to the instant `end` of the piece. Returns 0 if there are too many steps. */
+/* Integrates to the instant `end` of the piece, or until the motion changes to another track.
+   Returns 0 if there are too many steps. */
 static int advance_to(dynamics_oscillator *o, double end)
 {
     static const double no_slope[DYNAMICS_STATE_SIZE] = {0};
+    const dynamics_piece *piece = o->piece;
     double y[DYNAMICS_STATE_SIZE], error[DYNAMICS_STATE_SIZE];
     int idle = 0;
     while (o->t < end) {
@@ -489,6 +554,8 @@ static int advance_to(dynamics_oscillator *o, double end)
                 attempt(o, at, y, error), accept_step(o, at, y);
             idle = at > slip ? 0 : idle + 1;
             change_regime(o, &which);
+            if (o->piece != piece)
+                return 1;
             continue;
         }
         accept_step(o, h, y);
@@ -513,42 +580,60 @@ static void add_sample(const dynamics_oscillator *o, double phase, dynamics_reco
     };
 }
 
-/* Integrates a piece from sample to sample. The start of the piece gets a sample if the excitation
- * jumps there. `next` is the number of the next sample in the cycle. */
-static int record_piece(dynamics_oscillator *o, const dynamics_piece *piece, double T, size_t *next,
-                        dynamics_record *record)
+/* Integrates a piece from sample to sample, or until another track takes over. The start of the
+ * piece gets a sample if it is `entered` there and the excitation jumps. `next` is the number of
+ * the next sample in the cycle. */
+static int record_piece(dynamics_oscillator *o, const dynamics_piece *piece, int entered,
+                        size_t *next, dynamics_record *record)
 {
-    double n = (double)record->per_cycle, end = piece->start + piece->length;
+    double n = (double)record->per_cycle, end = piece->start + piece->length, T = o->T;
     for (; (double)*next / n <= piece->start + 1e-12; ++*next)
         ;
-    if (piece->jump || (piece == o->excitation->pieces && record->cycles == 0))
+    if (entered && (piece->jump || (piece->start == 0 && record->cycles == 0)))
         add_sample(o, piece->start, record);
     for (; (double)*next / n < end - 1e-12; ++*next) {
         double phase = (double)*next / n;
         if (!advance_to(o, (phase - piece->start) * T))
             return 0;
+        if (o->piece != piece)
+            return 1;
         add_sample(o, phase, record);
     }
     return advance_to(o, piece->length * T);
 }
 
+/* Ends a piece, with a sample where one is due, and enters the next one. 0: the cycle ends. */
+static int leave_piece(dynamics_oscillator *o, dynamics_record *record)
+{
+    const dynamics_track track = dynamics_track_with(o->excitation, o->piece);
+    const size_t i = (size_t)(o->piece - track.pieces);
+    const int final = i + 1 == track.count, jump = track.pieces[(i + 1) % track.count].jump;
+    double end = final ? 1 : o->piece->start + o->piece->length;
+    double node = end * (record ? (double)record->per_cycle : 0);
+    if (record && (jump || final || fabs(node - round(node)) < 1e-9))
+        add_sample(o, end, record);
+    if (!final)
+        pass_node(o, o->piece + 1, o->T);
+    return !final;
+}
+
 int dynamics_oscillator_cycle(dynamics_oscillator *o, double T, dynamics_record *record)
 {
-    const dynamics_excitation *excitation = o->excitation;
     size_t next = 0;
+    int entered = 1, on = 1;
     o->h = o->longest;
-    for (size_t i = 0; i < excitation->count; i++) {
-        const dynamics_piece *piece = &excitation->pieces[i];
-        int final = i + 1 == excitation->count;
-        double end = final ? 1 : piece->start + piece->length;
-        pass_node(o, piece, T);
-        if (!(record ? record_piece(o, piece, T, &next, record) : advance_to(o, piece->length * T)))
+    take_track(o, o->side);
+    pass_node(o, dynamics_track_with(o->excitation, o->piece).pieces, T);
+    while (on) {
+        const dynamics_piece *piece = o->piece;
+        if (!(record ? record_piece(o, piece, entered, &next, record)
+                     : advance_to(o, piece->length * T)))
             return 0;
-        int jump = excitation->pieces[(i + 1) % excitation->count].jump;
-        double node = end * (record ? (double)record->per_cycle : 0);
-        if (record && (jump || final || fabs(node - round(node)) < 1e-9))
-            add_sample(o, end, record);
+        entered = o->piece == piece;
+        if (entered)
+            on = leave_piece(o, record);
     }
+    take_track(o, 1); /* the state between cycles is that of the driving flanks */
     if (record)
         record->cycles++;
     return 1;
@@ -557,7 +642,8 @@ int dynamics_oscillator_cycle(dynamics_oscillator *o, double T, dynamics_record 
 int dynamics_record_init(dynamics_record *record, const dynamics_excitation *excitation,
                          size_t per_cycle, size_t cycles)
 {
-    size_t capacity = (per_cycle + 2 + 2 * excitation->count) * cycles;
+    const size_t pieces = excitation->count + excitation->back.count + excitation->flight.count;
+    size_t capacity = (per_cycle + 2 + 2 * pieces) * cycles;
     *record = (dynamics_record){.per_cycle = per_cycle, .capacity = capacity};
     record->samples = malloc(capacity * sizeof *record->samples);
     return record->samples != NULL;

@@ -260,7 +260,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     inputs.wanted = wanted;
     inputs.back = 0;
     if (status == FF_OK)
-        status = dynamics_refuse_fluctuation(m->host, &inputs, "a gear on its bearings");
+        status = dynamics_refuse_fluctuation(m->host, &in[DYNAMICS_IN_FLUCTUATION_ORDER],
+                                             "a gear on its bearings");
     if (status == FF_OK)
         status = check_gears(m, in);
     if (status == FF_OK)

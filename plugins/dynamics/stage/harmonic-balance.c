@@ -287,7 +287,8 @@ static ff_status evaluate_driving(void *self, uint64_t wanted, const ff_array *i
     inputs.wanted = wanted;
     inputs.back = back;
     if (status == FF_OK)
-        status = dynamics_refuse_fluctuation(m->host, &inputs, "a series of the mesh cycle");
+        status = dynamics_refuse_fluctuation(m->host, &in[DYNAMICS_IN_FLUCTUATION_ORDER],
+                                             "a series of the mesh cycle");
     const int floats = status == FF_OK && dynamics_floats(&inputs, &excitation);
     if (floats)
         status = dynamics_motion_put_floating(&inputs, &excitation, m->host);

@@ -289,7 +289,10 @@ static ff_status put_natural_frequency(const model *m, uint64_t wanted, const ff
 static ff_status evaluate_driving(void *self, uint64_t wanted, const ff_array *in, int back)
 {
     const model *m = self;
-    ff_status status = check(m->host, in);
+    ff_status status =
+        dynamics_refuse_fluctuation(m->host, &in[I_FLUCTUATION], "the loaded transmission error");
+    if (status == FF_OK)
+        status = check(m->host, in);
     if (status != FF_OK)
         return status;
     size_t count = in[I_PHASE].shape[0];
@@ -302,11 +305,6 @@ static ff_status evaluate_driving(void *self, uint64_t wanted, const ff_array *i
                         "the loaded transmission error was computed at %g N, but the line force "
                         "is %g N: leave reference_torque out of the duty",
                         in[I_REFERENCE].data[0], force);
-    const dynamics_inputs swings = {
-        .fluctuation.count = in[I_FLUCTUATION].rank == 1 ? in[I_FLUCTUATION].shape[0] : 0};
-    status = dynamics_refuse_fluctuation(m->host, &swings, "the loaded transmission error");
-    if (status != FF_OK)
-        return status;
     if (floats)
         dynamics_floating_line(m->host);
     double *s = calloc(count, sizeof *s);

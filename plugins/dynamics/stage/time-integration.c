@@ -280,7 +280,9 @@ static ff_status evaluate_driving(void *self, uint64_t wanted, const ff_array *i
              .excitation = {.zeta = m->zeta,
                             .damping = m->damping,
                             .shared = m->force == 1,
-                            .on_chord = m->oil.squeeze == DYNAMICS_SQUEEZE_SERIES}};
+                            .on_chord = m->oil.squeeze == DYNAMICS_SQUEEZE_SERIES,
+                            .both_flanks = m->oil.squeeze == DYNAMICS_SQUEEZE_NONE &&
+                                           !dynamics_film_is_wired(in)}};
     dynamics_film_powers powers;
     ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &j.inputs, &j.excitation);
     j.inputs.wanted = wanted;

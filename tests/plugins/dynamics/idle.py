@@ -184,6 +184,13 @@ def folds():
         report(off < 1e-6, f"period {period}: each fold is there, off by {off:.2g}")
 
 
+def small_torque():
+    """What a motion is held against follows what swings where next to nothing presses the flanks."""
+    one, other = (swing(f"torque: {torque} N m, mesh_frequency: 3000 Hz, torque_fluctuation: {{amplitude: [10 N m], order: [27]}}",
+                        "shooting, damping_ratio: 0.05, max_period: 1, atlas: {from: 1000 Hz, to: 6000 Hz}", 1e-7, ["motion.atlas_rms"]) for torque in (1e-3, 1))
+    check("the atlas goes on to its resonance under a torque of next to nothing", max(one["motion.atlas_rms"]), max(other["motion.atlas_rms"]), 1e-3)
+
+
 def landing():
     """Oil between the flanks under a swing too small to be felt: pairs, radii and speeds are those of each of the three mesh cycles."""
     names = ["motion.squeeze_loss", "motion.dte_rms", "motion.period"]
@@ -264,7 +271,11 @@ def reference():
     report(run(names, "90 N m", more=", reference_torque: 90 N m") == same, "the torque itself is the preset")
     report(abs(other["motion.dte_rms"] / same["motion.dte_rms"] - 1) > 1e-3, "another one is another stiffness")
     check("its shares are of the load", max(other["mesh.tooth_force"]), max(same["mesh.tooth_force"]), 0.02)
-    swings = run(["mesh.force_level", "duty.largest_force"], "4 N m", more=", torque_fluctuation: {amplitude: [60 N m], order: [2]}")
+    damped = ["shooting, damping_ratio: 0.3", ", torque_fluctuation: {amplitude: [60 N m], order: [2]}"]
+    at_rest, near, held, beyond = (run(names[:1], f"{torque} N m", damped[0], more=damped[1]) for torque in (0, 1e-3, 59.999, 60.001))
+    check("a swing about 0 and one about next to 0 are alike", near["motion.dte_rms"], at_rest["motion.dte_rms"], 1e-3)
+    check("so are those whose torque just reaches 0, and just does not", held["motion.dte_rms"], beyond["motion.dte_rms"], 1e-3)
+    swings = run(["mesh.force_level", "duty.largest_force"], "4 N m", more=", reference_torque: 4 N m, torque_fluctuation: {amplitude: [60 N m], order: [2]}")
     levels = swings["mesh.force_level"]
     check("the levels hold what the torque swings to", levels[-1], 1.2 * swings["duty.largest_force"], 1e-10)
     check("and the mean", levels[3] / levels[-1], 4 / (1.2 * 64), 1e-10)
@@ -280,6 +291,7 @@ both_signs()
 idle()
 wrong()
 folds()
+small_torque()
 landing()
 exchanged()
 sys.exit(failed)
