@@ -14,7 +14,7 @@ paper|most statements of the paper are reproduced; the others depend on numbers 
 benchmarks|the results agree with closed forms and another program|largest difference 0.053 %
 measured|rolling forces agree; without heat, no oil law reproduces the measured mesh loss|9 of 11 rolling forces within 15 %; 2 of 20 losses within the measured interval
 heat|heat changes the loss in the measured direction but not enough; formulas for inlet heating are right only in pure rolling|3 of 20 losses within the measured interval
-friction|with laws of measured oils, loss and friction are close to measurements except at the lowest and highest speeds|loss 11 to 16 % low at 4000 to 8000 rpm; 8 of 12 points of FZG met
+friction|with laws of measured oils, loss and friction are close to measurements except at the lowest and highest speeds|loss 11 to 16 % low at 4000 to 8000 rpm; 9 of 12 points of FZG met
 two-way|a film hardly changes the motion while flanks are in contact, and shortens the branch with contact loss|dte_rms at point I +0.35 %
 rattle|oil between separated flanks ends the branch with contact loss at a higher speed|at 27.7 mPa s at 2304 Hz, without oil at 1936 Hz
 film-steady|steady films agree with exact and independent solutions|Martin's cylinder to 0.03 %; central films for M 5 to 200 within 1.2 % on 1024 cells
