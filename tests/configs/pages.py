@@ -79,7 +79,7 @@ with tempfile.TemporaryDirectory() as lab:
     if ran.returncode or done.returncode:
         faults.append(f"study: run {ran.returncode}, report {done.returncode}: {ran.stderr}{done.stderr}")
     else:
-        look("study", "study/report.html", r'</span> Of 9 cases 9 are good, (.|\n)*"note">9 good[^<]*; outside the range of a model 2 \(')
+        look("study", "study/report.html", r'</span> Of 9 cases, 9 are good, (.|\n)*"note">9 good[^<]*; outside the range of a model 2 \(')
 if browser:
     browser.close()
 if len(files) < 10:

@@ -44,6 +44,20 @@ var choice = (function () {
     return low + 1 < sorted.length ? sorted[low] + (at - low) * (sorted[low + 1] - sorted[low]) : sorted[sorted.length - 1];
   }
   function labelled(words, unit) { return unit ? words + ' (' + unit + ')' : words; }
+  /* Of a long curve the first, lowest, highest and last of each run of points, so that no peak is lost; of many dots, some. */
+  function thinned(curve, most) {
+    var count = curve.x.length, kept = [], run = curve.style === 'dots' ? Math.ceil(count / most) : 4 * Math.ceil(count / most);
+    if (count <= most) return curve;
+    for (var i = 0; i < count; i += run) {
+      var low = i, high = i, end = Math.min(i + run, count);
+      for (var k = i; k < end; k++) {
+        if (curve.y[k] < curve.y[low]) low = k;
+        if (curve.y[k] > curve.y[high]) high = k;
+      }
+      kept = kept.concat(curve.style === 'dots' ? [i] : [i, Math.min(low, high), Math.max(low, high), end - 1]);
+    }
+    return Object.assign(curve, {x: kept.map(function (k) { return curve.x[k]; }), y: kept.map(function (k) { return curve.y[k]; })});
+  }
   function label(of) { return labelled(of.label, of.unit); }
   function figure(title, more) { return Object.assign({sort: 'curves', title: title, class: '', marks: [], curves: []}, more); }
   function line(name, colour, dash, x, y) { return {name: name, colour: colour, dash: dash, style: 'line', x: x, y: y}; }
@@ -152,7 +166,7 @@ var choice = (function () {
       });
       return list;
     }
-    var note = data.study ? 'Up to ' + data.cases.length + ' of ' + data.well + ' cases that went well and have series.' : '';
+    var note = data.study ? data.cases.length + ' of the ' + data.well + ' successful cases that have series.' : '';
     function onPath(s) { return s.along && data.outputs[s.along].si === 'rad'; }
     function inCycle(s) { return s.dim === 'phase'; }
     var path = all(PATH), cycle = all(CYCLE), surfaces = all(SURFACES);
@@ -261,6 +275,7 @@ var choice = (function () {
         if (same) same.name += ' and ' + name;
         else made.curves.push(line(name, made.curves.length, k, x, y));
       }
+      made.curves.forEach(function (c) { thinned(c, 2800); });
       if (wide(least(s.values), most(s.values))) made.y.log = 1;
       return [firsts(number, MOST.lines, made)];
     }
@@ -294,7 +309,7 @@ var choice = (function () {
     /* Points that have no order: those of cases that differ in words. */
     function dots(title, s, xLabel, x) {
       return figure(title, {room: 1, x: {label: xLabel, log: 0}, y: {label: label(s.of), log: 0},
-        curves: [Object.assign(line('', 0, 0, x, s.values), {style: 'dots'})]});
+        curves: [thinned(Object.assign(line('', 0, 0, x, s.values), {style: 'dots'}), 3000)]});
     }
     function bars(x, y, width) {
       return {name: '', colour: 0, dash: 0, style: 'bars', x: x, y: y, from: x.map(function (v) { return v - width / 2; }), to: x.map(function (v) { return v + width / 2; })};
@@ -306,7 +321,7 @@ var choice = (function () {
       if (!(width > 0)) return [];
       for (var i = 0; i < number; i++) { x.push(low + (i + 0.5) * width); y.push(0); }
       sorted.forEach(function (v) { y[Math.min(Math.floor((v - low) / width), number - 1)]++; });
-      return [figure(s.title + ': how it is spread', {x: {label: label(s.of), log: 0}, y: {label: 'cases', log: 0, low: 0}, curves: [bars(x, y, width)],
+      return [figure(s.title + ': distribution', {x: {label: label(s.of), log: 0}, y: {label: 'cases', log: 0, low: 0}, curves: [bars(x, y, width)],
         marks: [5, 50, 95].map(function (p) { return [percentile(sorted, p), p + ' %']; })})];
     }
     function ranks(values) { /* equal values share their ranks */
@@ -331,7 +346,7 @@ var choice = (function () {
       var inputs = data.axes.filter(numeric).slice(0, MOST.inputs), chosen = [];
       s.values.forEach(function (v, c) { if (v !== null && c < MOST.ranked) chosen.push(c); });
       var own = ranks(chosen.map(function (c) { return s.values[c]; })), places = inputs.map(function (_, i) { return i; });
-      var follows = figure(s.title + ': what it follows', {x: {label: '', log: 0}, y: {label: 'rank correlation', log: 0, low: -1, high: 1},
+      var follows = figure(s.title + ': correlation with the inputs', {x: {label: '', log: 0}, y: {label: 'rank correlation', log: 0, low: -1, high: 1},
         names: inputs.map(function (a) { return a.label; }),
         curves: [bars(places, inputs.map(function (a) {
           return correlation(own, ranks(chosen.map(function (c) { return a.values[point(c, a.dimension)]; })));
@@ -350,6 +365,7 @@ var choice = (function () {
       if (data.tabled && (isMap ? number / rows > MOST.maps : number > MOST.lines)) return [];
       return isMap ? maps(s, x, y) : lines(s, x);
     }
+    data.axes.forEach(function (a) { a.values = Array.from(unpack(a.values), function (v) { return isFinite(v) ? v : null; }); });
     var main = mainAxis(-1), speeds = main && (main.si === 'Hz' || main.si === 'rad/s'), errors = [], rest = [];
     if (!data.study || (data.described && !main && !data.sample)) return []; /* numbers of cases in no order would be a meaningless axis */
     Object.keys(data.scalars).forEach(function (name) {
@@ -421,7 +437,7 @@ var choice = (function () {
     if (t[1] > t[0]) panel('Temperature', 'mean across the film', [['temperature', '']], t[0], t[1] + 0.05 * (t[1] - t[0]));
     return [{title: 'Pressure and film in the contact', stages: stages, start: start, figures: list,
       time: first.time ? data.outputs[first.time] : {unit: '', label: 'instant'},
-      note: first.frames + ' of ' + first.instants + ' instants; the film is cut off above three times its central thickness.'}];
+      note: first.frames + ' of ' + first.instants + ' instants. The film is cut off above three times its central thickness.'}];
   }
 
   function placed(at, list) {

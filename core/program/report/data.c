@@ -18,7 +18,8 @@
 enum {
     MOST_POINTS = 2800,    /* of a series; four in each column of a drawing */
     MOST_WHOLE = 50000,    /* of one that is not thinned */
-    MOST_SCALARS = 300000, /* numbers of all scalars of a study */
+    MOST_SCALARS = 300000, /* numbers of all scalars and axes of a study */
+    MOST_NAMED = 200,      /* points of an axis that have names */
     MOST_SERIES = 4,       /* cases of a study whose series are in the page */
     FRAMES = 121,          /* of a field */
     CELLS = 513,
@@ -99,41 +100,34 @@ static json_t *describe(data *d, size_t variable, double magnitude)
     return said;
 }
 
-/* Describes the axes of a study: of the points that are kept, the words, and numbers if they have
-   some. */
-static json_t *describe_axes(const results_view *view, const size_t *steps)
+/* Describes an axis of a study by the points that are kept: their numbers, NaN for words, and what
+   they are called where they are few. */
+static json_t *describe_axis(const results_view *view, const results_view_axis *axis, size_t step)
 {
-    json_t *list = json_array();
-    for (size_t a = 0; a < view->axis_count; a++) {
-        const results_view_axis *axis = view->axes[a];
-        char word[REPORT_TEXT_SIZE], name[REPORT_TEXT_SIZE];
-        json_t *words = json_array(), *named = json_array(), *values = json_array();
-        double most = 0;
-        for (size_t i = 0; i < view->lengths[axis->dimension]; i += steps[axis->dimension]) {
-            const double value = report_axis_number(axis, i);
-            const char *text = report_axis_word(axis, i, word);
-            most = fmax(most, fabs(value));
-            json_array_append_new(words, results_json_text(text));
+    const size_t count = (view->lengths[axis->dimension] + step - 1) / step;
+    double *values = memory_alloc((count + 1) * sizeof *values), most = 0;
+    char word[REPORT_TEXT_SIZE], name[REPORT_TEXT_SIZE];
+    json_t *named = json_array();
+    for (size_t i = 0; i < count; i++) {
+        values[i] = report_axis_number(axis, i * step);
+        most = fmax(most, fabs(values[i]));
+        if (count <= MOST_NAMED)
             json_array_append_new(named,
-                                  results_json_text(report_name_value(view, axis, text, name)));
-            json_array_append_new(values, real_or_null(value));
-        }
-        const study_readable written = {1, 0, report_axis_unit(axis)};
-        json_t *said = axis->values
-                           ? describe_unit(axis->path, axis->unit, most)
-                           : json_pack("{s:o, s:f, s:f}", "unit", results_json_text(written.unit),
-                                       "factor", written.factor, "offset", written.offset);
-        json_object_set_new(said, "path", results_json_text(axis->path));
-        json_object_set_new(said, "label", results_json_text(report_plain_name(axis->path, word)));
-        json_object_set_new(said, "si", results_json_text(axis->unit));
-        json_object_set_new(said, "dimension", json_integer((json_int_t)axis->dimension));
-        json_object_set_new(said, "typed", json_boolean(axis->values != NULL));
-        json_object_set_new(said, "words", words);
-        json_object_set_new(said, "named", named);
-        json_object_set_new(said, "values", values);
-        json_array_append_new(list, said);
+                                  results_json_text(report_name_value(
+                                      view, axis, report_axis_word(axis, i * step, word), name)));
     }
-    return list;
+    json_t *said = axis->values ? describe_unit(axis->path, axis->unit, most)
+                                : json_pack("{s:o, s:f, s:f}", "unit",
+                                            results_json_text(report_axis_unit(axis)), "factor",
+                                            1.0, "offset", 0.0);
+    json_object_set_new(said, "label", results_json_text(report_plain_name(axis->path, word)));
+    json_object_set_new(said, "si", results_json_text(axis->unit));
+    json_object_set_new(said, "dimension", json_integer((json_int_t)axis->dimension));
+    json_object_set_new(said, "typed", json_boolean(axis->values != NULL));
+    json_object_set_new(said, "named", named);
+    json_object_set_new(said, "values", pack(values, NULL, count));
+    free(values);
+    return said;
 }
 
 /* Thins the points of the longest dimensions until no more than so many cases are left. */
@@ -195,10 +189,15 @@ static void add_scalars(data *d, json_t *all)
     size_t scalars = 0, *steps = memory_alloc((view->dimension_count + 1) * sizeof *steps);
     for (size_t v = 0; v < view->variable_count; v++)
         scalars += view->variables[v]->rank == 0;
-    const size_t room = MOST_SCALARS / (scalars + 1),
-                 count = choose_steps(view, room > 3000 ? room : 3000, steps);
+    const size_t room = MOST_SCALARS / (scalars + view->axis_count + 1),
+                 count = choose_steps(view,
+                                      room > 40000  ? 40000
+                                      : room > 3000 ? room
+                                                    : 3000,
+                                      steps);
     size_t *cases = list_cases(view, steps, count);
-    json_t *values = json_object(), *lengths = json_array(), *kept_steps = json_array();
+    json_t *values = json_object(), *lengths = json_array(), *kept_steps = json_array(),
+           *axes = json_array();
     char *standing = memory_alloc(count + 1);
     d->page->thinned = d->page->thinned || count < view->case_count;
     for (size_t v = 0; v < view->variable_count; v++)
@@ -211,7 +210,10 @@ static void add_scalars(data *d, json_t *all)
             lengths, json_integer((json_int_t)((view->lengths[i] + steps[i] - 1) / steps[i])));
         json_array_append_new(kept_steps, json_integer((json_int_t)steps[i]));
     }
-    json_object_set_new(all, "axes", describe_axes(view, steps));
+    for (size_t a = 0; a < view->axis_count; a++)
+        json_array_append_new(axes,
+                              describe_axis(view, view->axes[a], steps[view->axes[a]->dimension]));
+    json_object_set_new(all, "axes", axes);
     json_object_set_new(all, "lengths", lengths);
     json_object_set_new(all, "steps", kept_steps);
     json_object_set_new(all, "scalars", values);

@@ -9,41 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void put_cell(FILE *out, const json_t *cell)
-{
-    char text[REPORT_TEXT_SIZE];
-    if (json_is_number(cell)) {
-        report_number_text(json_number_value(cell), text);
-        fprintf(out, "<td class=\"number\" data-v=\"%.9g\">", json_number_value(cell));
-        report_print(out, "%s</td>", text);
-    } else if (json_is_boolean(cell)) {
-        report_put_cell(out, json_is_true(cell) ? "true" : "false");
-    } else {
-        report_put_cell(out, json_is_string(cell) ? json_string_value(cell) : "\u2013");
-    }
-}
-
-static void put_table(FILE *out, const json_t *table)
-{
-    const json_t *rows = json_object_get(table, "rows"), *row, *cell;
-    size_t i, k;
-    if (json_array_size(rows) == 0)
-        return;
-    report_print(out, "<details%s><summary>%s</summary>\n<div class=\"wide\"><table><thead><tr>",
-                 json_integer_value(json_object_get(table, "folded")) ? "" : " open",
-                 study_text_of(table, "summary"));
-    json_array_foreach(json_object_get(table, "head"), i, cell)
-        report_print(out, "<th>%s</th>", json_is_string(cell) ? json_string_value(cell) : "");
-    fputs("</tr></thead><tbody>\n", out);
-    json_array_foreach(rows, i, row)
-    {
-        fputs("<tr>", out);
-        json_array_foreach(row, k, cell) put_cell(out, cell);
-        fputs("</tr>\n", out);
-    }
-    fputs("</tbody></table></div></details>\n", out);
-}
-
 void report_put_json(FILE *out, json_t *value)
 {
     char *text = json_dumps(value, JSON_COMPACT | JSON_ENCODE_ANY | JSON_REAL_PRECISION(9));
@@ -76,7 +41,8 @@ static void put_figure(FILE *out, json_t *figure)
     }
     json_array_foreach(words, i, one)
         report_print(out, "<p>%s</p>\n", json_is_string(one) ? json_string_value(one) : "");
-    json_array_foreach(tables, i, one) put_table(out, one);
+    json_array_foreach(tables, i, one) if (json_array_size(json_object_get(one, "rows")))
+        report_put_table(out, json_incref(one));
     fputs(drawn ? "</figure>\n" : "</div>\n", out);
     json_decref(words);
     json_decref(tables);

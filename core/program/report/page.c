@@ -40,13 +40,6 @@ void report_print(FILE *out, const char *html, ...)
     fputs(html, out);
 }
 
-void report_put_cell(FILE *out, const char *text)
-{
-    fputs("<td>", out);
-    report_put_text(out, text);
-    fputs("</td>", out);
-}
-
 void report_put_badge(FILE *out, const char *verdict)
 {
     const char *colour = strcmp(verdict, "failed") != 0 ? verdict : "bad";

@@ -29,10 +29,26 @@ typedef struct report_page {
 void report_put_text(FILE *out, const char *text);
 /* Writes markup of the page's own, with a text in the place of each %s, which is escaped. */
 void report_print(FILE *out, const char *html, ...);
-void report_put_cell(FILE *out, const char *text); /* the same in a cell of a table */
 
 /* Writes a verdict in its colour; "" writes nothing. */
 void report_put_badge(FILE *out, const char *verdict);
+
+/*
+ * table.c is the printer of all tables, of the page's sections and of studies alike. It writes, and
+ * takes, {"class", "caption", "summary", "folded", "head", "rows"}, all but the rows optional. A
+ * row is a list of cells, or {"class", "cells"}. A cell has a text, a number, or a list of parts,
+ * such as {"as": "b", "of": "least"}; or it is {"cell": such a part, "class", "head", "si": by
+ * which scripts sort, "unit", "span", "title", "share": of its shade}.
+ */
+void report_put_table(FILE *out, json_t *table);
+void report_put_part(FILE *out, json_t *part); /* what stands in a cell, which it takes */
+/* A part in an element, "code", in a badge, "badge good", or in a link, "#quality". */
+json_t *report_as(const char *kind, const char *text);
+json_t *report_badge(const char *verdict); /* a verdict in its colour; "" has none */
+json_t *report_cell(const char *class, const char *text);
+json_t *report_head(const char *text); /* the head of a row */
+/* An SI value as engineers read it; NaN is empty. */
+json_t *report_value(const char *name, const char *si_unit, double si);
 
 /* units.c writes numbers as engineers read them. `name` is that of an output or a parameter: it
    tells a temperature from a rise of it. */
@@ -43,8 +59,6 @@ void report_number_text(double value, char out[REPORT_TEXT_SIZE]);
 /* Prints an SI value as "22.3 deg". */
 void report_quantity_text(const char *name, const char *si_unit, double si,
                           char out[REPORT_TEXT_SIZE]);
-/* Writes it as a cell of a table, which scripts sort by its SI value; NaN is empty. */
-void report_put_value(FILE *out, const char *name, const char *si_unit, double si);
 /* Prints the error bar of an SI value with the two digits that are known of it. */
 void report_bar_text(const char *si_unit, double bar, char out[REPORT_TEXT_SIZE]);
 /* Returns what an output is called in a figure, by its doc: "least film thickness" for h_min. */
@@ -117,8 +131,8 @@ typedef struct report_check {
 /* Returns "good", "doubtful", "bad", or "range" of a line that says that a model is outside of it.
  */
 const char *report_verdict_word(const results_view_quality *line);
-/* Writes the name of a line; of one that is not good, it leads to what that means. */
-void report_put_line_name(FILE *out, const results_view_quality *line);
+/* The name of a line; of one that is not good, it leads to what that means. */
+json_t *report_line_name(const results_view_quality *line);
 /* Returns each line of any case once, in the order of the first case that has it; to be freed. */
 report_check *report_find_checks(const results_view *view, size_t *count);
 
@@ -178,8 +192,8 @@ bool report_write_grids(const report_scalar *scalar);
 /* These write the sections of the page. */
 /* Writes how the answers stand to the limits of the file: of a study, in how many cases. */
 void report_write_limits(report_page *page);
-/* Writes a cell with how a case stands to them, in its colour. */
-void report_put_standing(report_page *page, size_t index);
+/* Returns a cell with how a case stands to them, in its colour. */
+json_t *report_standing_cell(const results_view *view, size_t index);
 void report_write_verdict(report_page *page);
 void report_write_study(report_page *page);
 void report_write_quality(report_page *page);

@@ -229,9 +229,9 @@ static void write_sections(report_page *page)
     for (size_t i = 0; i < sizeof sections / sizeof *sections && !page->failed; i++)
         sections[i](page);
     if (page->thinned)
-        fputs("<p class=\"note\">Long curves are drawn with the first, lowest, highest and last of "
-              "each run of points, maps and fields with fewer points than they have. "
-              "<code>flankfilm export</code> gives all numbers.</p>\n",
+        fputs("<p class=\"note\">Long curves show the first, lowest, highest and last of each run "
+              "of points; large maps and fields show fewer points than the results have. "
+              "<code>flankfilm export</code> writes all numbers.</p>\n",
               page->out);
 }
 

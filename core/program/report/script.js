@@ -276,9 +276,9 @@
     if (figure.sort === 'classes') classList(f);
     if (figure.sort === 'map') node.appendChild(make('small', '', 'Lines join equal values' +
       (figure.mark === undefined ? '.' : '; the thick one is the limit of ' + figures.text(figure.mark) + '.') + (figure.best ? ' \u2605 the best.' : '') +
-      (/[12]/.test((figure.standing || []).join('')) ? ' Crossed out: a limit is missed; framed: met within its bar alone.' : '')));
+      (/[12]/.test((figure.standing || []).join('')) ? ' Crossed out: a limit is missed; framed: it is met only within its error bar.' : '')));
     if (figure.sort === 'classes' && figure.edges.length) node.insertBefore(make('small', '',
-      'Black lines: where halving the distance between two cells found the boundary.'), node.querySelector('details'));
+      'Black lines: the boundary between two cells, found by bisection.'), node.querySelector('details'));
     f.box.addEventListener('mousemove', function (event) { show(f, event); });
     f.box.addEventListener('mouseleave', function () { tip.hidden = true; });
     dragging(f);

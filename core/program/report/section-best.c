@@ -6,6 +6,7 @@
 #include "page.h"
 
 #include "../memory/memory.h"
+#include "../results/json.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -85,39 +86,41 @@ size_t report_find_extreme(const report_scalar *f, const bool *dims, size_t coun
     return best;
 }
 
-/* Writes "0.1832 um at 4 um, [30 deg, 22 deg]". */
-static void put_extreme(const report_scalar *f, const report_sides *s, size_t first, int sense,
-                        const char *word, bool met)
+/* Adds "0.1832 um at 4 um, [30 deg, 22 deg]" as a line of a cell. */
+static void add_extreme(json_t *cell, const report_scalar *f, const report_sides *s, size_t first,
+                        int sense, const char *word, bool met)
 {
-    report_page *page = f->page;
-    const results_view_variable *of = page->view->variables[f->variable];
+    const results_view *view = f->page->view;
+    const results_view_variable *of = view->variables[f->variable];
     char text[REPORT_TEXT_SIZE], name[REPORT_TEXT_SIZE];
     size_t same;
     const size_t c = report_find_extreme(f, s->chosen, s->choices, first, sense, met, &same);
     if (c == SIZE_MAX) {
-        report_print(page->out, "<div>%s</div>", met ? "none meets the limits" : "\u2013");
+        json_array_append_new(cell, report_as("div", met ? "no case meets the limits" : "\u2013"));
         return;
     }
     report_quantity_text(of->output, of->unit, f->values[c], text);
-    report_name_point(page->view, c, s->chosen, false, name);
-    report_print(page->out, "<div>%s<b>%s</b> at %s", word, text, name);
+    report_name_point(view, c, s->chosen, false, name);
+    json_t *line =
+        json_pack("[s, o, s, o]", word, report_as("b", text), " at ", results_json_text(name));
     if (same > 0)
-        fprintf(page->out, " <small>and %zu more</small>", same);
-    fputs("</div>", page->out);
+        json_array_append_new(line, json_pack("[s, {s:s, s:o}]", " ", "as", "small", "of",
+                                              json_sprintf("and %zu more", same)));
+    json_array_append_new(cell, json_pack("{s:s, s:o}", "as", "div", "of", line));
 }
 
-static void put_cell(const report_scalar *f, const report_sides *s, size_t first)
+static json_t *best_cell(const report_scalar *f, const report_sides *s, size_t first)
 {
     const int sense = report_sense_of(f->page, f->variable);
+    json_t *lines = json_array();
     size_t same;
-    report_print(f->page->out, "<td data-head=\"%s\">",
-                 f->page->view->variables[f->variable]->name);
-    put_extreme(f, s, first, sense ? sense : -1, sense ? "" : "\u25bc ", sense != 0);
+    add_extreme(lines, f, s, first, sense ? sense : -1, sense ? "" : "\u25bc ", sense != 0);
     if (sense == 0 && /* the choice makes a difference */
         report_find_extreme(f, s->chosen, s->choices, first, -1, false, &same) != SIZE_MAX &&
         same + 1 < s->choices)
-        put_extreme(f, s, first, 1, "\u25b2 ", false);
-    fputs("</td>", f->page->out);
+        add_extreme(lines, f, s, first, 1, "\u25b2 ", false);
+    return json_pack("{s:o, s:o}", "cell", lines, "title",
+                     results_json_text(f->page->view->variables[f->variable]->name));
 }
 
 /* Lists the outputs that the table has: those of the reader's choice, or all that vary. */
@@ -140,32 +143,40 @@ static size_t list_outputs(report_page *page, report_scalar list[MOST_OUTPUTS])
     return count;
 }
 
-/* Says of which paths the values are that stand behind "at", in their order. */
-static void put_chosen(report_page *page, const report_sides *s)
+/* A head of two lines, the second of which is small. */
+static json_t *two_lines(const char *above, char *below)
 {
-    const results_view *view = page->view;
-    const char *before = "<th>best for<br><small>at: ";
-    for (size_t a = 0; a < view->axis_count; a++) {
-        char words[REPORT_TEXT_SIZE];
-        if (!s->chosen[view->axes[a]->dimension])
-            continue;
-        fputs(before, page->out);
-        report_put_text(page->out, report_plain_name(view->axes[a]->path, words));
-        before = ", ";
-    }
-    fputs("</small></th>", page->out);
+    json_t *head = json_pack("[o, {s:s, s:o}]", results_json_text(above), "as", "div", "of",
+                             report_as("small", below));
+    free(below);
+    return head;
 }
 
-static void put_head(report_page *page, size_t variable)
+/* Says of which paths the values are that stand behind "at", in their order. */
+static json_t *chosen_head(const results_view *view, const report_sides *s)
+{
+    char *list = NULL;
+    size_t length = 0;
+    FILE *out = memory_require(open_memstream(&list, &length));
+    for (size_t a = 0; a < view->axis_count; a++) {
+        char words[REPORT_TEXT_SIZE];
+        if (s->chosen[view->axes[a]->dimension])
+            fprintf(out, "%s%s",
+                    ftell(out) > 0 ? ", " : "at: ", report_plain_name(view->axes[a]->path, words));
+    }
+    fclose(out);
+    return two_lines("best for", list);
+}
+
+static json_t *output_head(const report_page *page, size_t variable)
 {
     const results_view_variable *of = page->view->variables[variable];
     const int sense = report_sense_of(page, variable);
     char words[REPORT_TEXT_SIZE];
-    report_print(page->out, "<th>%s<br><small>%s%s</small></th>", of->name,
-                 report_output_words(of, words),
-                 sense < 0   ? "; the least"
-                 : sense > 0 ? "; the largest"
-                             : "");
+    return two_lines(of->name, memory_print_text("%s%s", report_output_words(of, words),
+                                                 sense < 0   ? "; the least"
+                                                 : sense > 0 ? "; the largest"
+                                                             : ""));
 }
 
 /* Finds the scalar that "OUTPUT=least" names. */
@@ -218,35 +229,37 @@ bool report_write_best(report_page *page)
         return false;
     report_sides s = report_sides_of(view);
     const size_t count = list_outputs(page, list);
-    const size_t rows = s.conditions < MOST_CONDITIONS ? s.conditions : MOST_CONDITIONS;
-    if (count > 0) {
-        fputs("<div class=\"wide\"><table class=\"best\"><thead><tr>", page->out);
-        if (s.conditions > 1)
-            put_chosen(page, &s);
-        for (size_t i = 0; i < count; i++)
-            put_head(page, list[i].variable);
-        fputs("</tr></thead><tbody>\n", page->out);
-    }
-    for (size_t k = 0; k < rows && count > 0; k++) {
+    const size_t shown = s.conditions < MOST_CONDITIONS ? s.conditions : MOST_CONDITIONS;
+    json_t *head = json_array(), *rows = json_array();
+    if (s.conditions > 1)
+        json_array_append_new(head, chosen_head(view, &s));
+    for (size_t i = 0; i < count; i++)
+        json_array_append_new(head, output_head(page, list[i].variable));
+    for (size_t k = 0; k < shown && count > 0; k++) {
         const size_t first = report_case_of(view, s.met, k);
+        json_t *row = json_array();
         char name[REPORT_TEXT_SIZE];
         report_name_point(view, first, s.met, true, name);
-        fputs("<tr>", page->out);
         if (s.conditions > 1)
-            report_print(page->out, "<th scope=\"row\">%s</th>", name);
+            json_array_append_new(row, report_head(name));
         for (size_t i = 0; i < count; i++)
-            put_cell(&list[i], &s, first);
-        fputs("</tr>\n", page->out);
+            json_array_append_new(row, best_cell(&list[i], &s, first));
+        json_array_append_new(rows, row);
     }
+    json_t *table = json_pack("{s:s, s:o, s:o}", "class", "best", "head", head, "rows", rows);
+    if (count > 0)
+        report_put_table(page->out, table);
+    else
+        json_decref(table);
     for (size_t i = 0; i < count; i++)
         free(list[i].values);
     if (count > 0)
-        fputs("</tbody></table></div>\n<p class=\"note\">\u25bc the least, \u25b2 the largest of "
-              "the values of the stage that the sweep names first; an output with a limit, or "
-              "named by --best, has the best one alone, of cases that miss no limit.</p>\n",
+        fputs("<p class=\"note\">\u25bc the least and \u25b2 the largest value over the choices "
+              "for the stage that the sweep names first. For an output with a limit, or named by "
+              "--best, only the best of the cases that miss no limit is shown.</p>\n",
               page->out);
-    if (rows < s.conditions)
-        fprintf(page->out, "<p class=\"note\">The first %zu of %zu conditions.</p>\n", rows,
+    if (shown < s.conditions)
+        fprintf(page->out, "<p class=\"note\">The first %zu of %zu conditions.</p>\n", shown,
                 s.conditions);
     report_sides_free(&s);
     return count > 0;

@@ -3,6 +3,7 @@
 #include "page.h"
 
 #include "../memory/memory.h"
+#include "../results/json.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -47,27 +48,28 @@ static const char *path_of(const results_view *view, int dimension)
     return "";
 }
 
-static void put_square(report_page *page, const panel *p, size_t c)
+static json_t *square(const report_page *page, const panel *p, size_t c)
 {
-    const results_view *view = page->view;
     const double value = p->scalar->values[c];
-    const int32_t standing = report_standing(view, c);
-    char text[REPORT_TEXT_SIZE];
-    report_number_text(report_convert(&p->scalar->unit, value), text);
+    const int32_t standing = report_standing(page->view, c);
+    char text[REPORT_TEXT_SIZE], class[20], number[REPORT_TEXT_SIZE];
+    report_number_text(report_convert(&p->scalar->unit, value), number);
     const double share = p->high > p->low ? (value - p->low) / (p->high - p->low) : 0;
-    fprintf(page->out, "<td class=\"%s%s\"",
-            standing == LIMITS_MISSED   ? "missed"
-            : standing == LIMITS_WITHIN ? "within"
-                                        : "",
-            c == p->best || c == p->least || c == p->largest ? " mark" : "");
+    snprintf(class, sizeof class, "%s%s",
+             standing == LIMITS_MISSED   ? "missed"
+             : standing == LIMITS_WITHIN ? "within"
+                                         : "",
+             c == p->best || c == p->least || c == p->largest ? " mark" : "");
+    snprintf(text, sizeof text, "%s%.100s",
+             c == p->best      ? "\u2605\u202f"
+             : c == p->least   ? "\u25bc\u202f"
+             : c == p->largest ? "\u25b2\u202f"
+                               : "",
+             number);
+    json_t *cell = report_cell(class, text);
     if (isfinite(value))
-        fprintf(page->out, " style=\"--s:%.0f%%\"", 10 + 50 * share);
-    report_print(page->out, ">%s%s</td>",
-                 c == p->best      ? "\u2605\u202f"
-                 : c == p->least   ? "\u25bc\u202f"
-                 : c == p->largest ? "\u25b2\u202f"
-                                   : "",
-                 text);
+        json_object_set_new(cell, "share", json_real(10 + 50 * share));
+    return cell;
 }
 
 static void mark(const report_page *page, panel *p, const bool *dims, size_t count)
@@ -98,20 +100,20 @@ static void write_panel(report_page *page, const panel *p, const char *name)
     across[p->across] = true;
     if (p->down >= 0)
         down[p->down] = true;
-    report_print(page->out,
-                 "<div class=\"wide\"><table class=\"fixed grid\"><caption>%s</caption>"
-                 "<tbody><tr><th></th>",
-                 name);
+    json_t *head = json_pack("[s]", ""), *table = json_array();
     for (size_t i = 0; i < columns; i++)
-        report_print(page->out, "<th>%s</th>", word_at(view, p->across, i, word));
+        json_array_append_new(head, results_json_text(word_at(view, p->across, i, word)));
     for (size_t k = 0; k < rows; k++) {
-        report_print(page->out, "</tr>\n<tr><th scope=\"row\">%s</th>",
-                     p->down < 0 ? "" : word_at(view, p->down, k, word));
+        json_t *row =
+            json_pack("[o]", report_head(p->down < 0 ? "" : word_at(view, p->down, k, word)));
         for (size_t i = 0; i < columns; i++)
-            put_square(page, p,
-                       p->first + report_case_of(view, across, i) + report_case_of(view, down, k));
+            json_array_append_new(row, square(page, p,
+                                              p->first + report_case_of(view, across, i) +
+                                                  report_case_of(view, down, k)));
+        json_array_append_new(table, row);
     }
-    fputs("</tr></tbody></table></div>\n", page->out);
+    report_put_table(page->out, json_pack("{s:s, s:o, s:o, s:o}", "class", "fixed grid", "caption",
+                                          results_json_text(name), "head", head, "rows", table));
     free(across);
     free(down);
 }
@@ -139,8 +141,8 @@ bool report_write_grids(const report_scalar *scalar)
             shown[p.down] = true;
         report_print(
             page->out,
-            "<div class=\"broad\"><h3>%s: %s</h3>\n<p class=\"note\">across: %s%s%s; shaded from "
-            "the least to the largest of each table</p>\n<div class=\"grids\">\n",
+            "<div class=\"broad\"><h3>%s: %s</h3>\n<p class=\"note\">across: %s%s%s; shading runs "
+            "from the least to the largest value of each table</p>\n<div class=\"grids\">\n",
             view->variables[scalar->variable]->name, scalar->label, path_of(view, p.across),
             p.down < 0 ? "" : "; down: ", p.down < 0 ? "" : path_of(view, p.down));
     }

@@ -4,7 +4,10 @@
 
 #include "page.h"
 
+#include "../memory/memory.h"
+
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* The limit of an output in a case; NULL: there is none. */
@@ -59,33 +62,31 @@ static const char *badge_of(int32_t standing)
     return standing == LIMITS_MET ? "good" : standing == LIMITS_WITHIN ? "doubtful" : "bad";
 }
 
-static void write_limit(report_page *page, const results_view_limit *limit)
+static json_t *limit_row(const results_view_limit *limit)
 {
     const char *dot = strchr(limit->output, '.');
     const char *name = dot ? dot + 1 : limit->output;
-    char value[REPORT_TEXT_SIZE] = "not known", bar[REPORT_TEXT_SIZE];
+    char value[REPORT_TEXT_SIZE] = "not known", bar[REPORT_TEXT_SIZE] = "", badge[40];
     if (!isnan(limit->value))
         report_quantity_text(name, limit->unit, limit->value, value);
-    report_print(page->out,
-                 "<tr><td><code>%s</code></td><td class=\"number\">%s</td><td "
-                 "class=\"number\">%s%s",
-                 limit->output, limit->asked, limit->at_least ? "\u2265 " : "", value);
-    if (limit->bar > 0) {
+    if (limit->bar > 0)
         report_bar_text(limit->unit, limit->bar, bar);
-        report_print(page->out, " &#177; %s", bar);
-    }
-    report_print(page->out, "</td><td><span class=\"badge %s\">%s</span></td></tr>\n",
-                 badge_of(limit->standing), limits_word((limits_standing)limit->standing));
+    char *text = memory_print_text("%s%s%s%s", limit->at_least ? "\u2265 " : "", value,
+                                   *bar ? " \u00b1 " : "", bar);
+    snprintf(badge, sizeof badge, "badge %s", badge_of(limit->standing));
+    json_t *row = json_pack("[o, o, o, o]", report_as("code", limit->output),
+                            report_cell("number", limit->asked), report_cell("number", text),
+                            report_as(badge, limits_word((limits_standing)limit->standing)));
+    free(text);
+    return row;
 }
 
-void report_put_standing(report_page *page, size_t index)
+json_t *report_standing_cell(const results_view *view, size_t index)
 {
-    const results_view_case *c = page->view->cases[index];
-    if (c->limit_count == 0)
-        fputs("<td></td>", page->out);
-    else
-        report_print(page->out, "<td><span class=\"badge %s\">%s</span></td>",
-                     badge_of(report_standing(page->view, index)), c->limits_text);
+    const results_view_case *c = view->cases[index];
+    char badge[40];
+    snprintf(badge, sizeof badge, "badge %s", badge_of(report_standing(view, index)));
+    return c->limit_count ? report_as(badge, c->limits_text) : json_string("");
 }
 
 void report_write_limits(report_page *page)
@@ -100,15 +101,14 @@ void report_write_limits(report_page *page)
         return;
     if (view->study) {
         fprintf(page->out,
-                "<p class=\"limits\">Of %zu cases %zu meet the limits of the file, %zu within "
-                "their bars alone, and %zu miss one.</p>\n",
+                "<p class=\"limits\">Of %zu cases, %zu meet the limits of the file, %zu meet them "
+                "only within their error bars, and %zu miss one.</p>\n",
                 cases, counts[LIMITS_MET], counts[LIMITS_WITHIN], counts[LIMITS_MISSED]);
         return;
     }
-    fputs("<div class=\"wide\"><table class=\"limits\"><thead><tr><th>limit of</th><th>asked</th>"
-          "<th>it is</th><th></th></tr></thead><tbody>\n",
-          page->out);
+    json_t *rows = json_array();
     for (size_t i = 0; i < view->cases[0]->limit_count; i++)
-        write_limit(page, view->cases[0]->limits[i]);
-    fputs("</tbody></table></div>\n", page->out);
+        json_array_append_new(rows, limit_row(view->cases[0]->limits[i]));
+    report_put_table(page->out, json_pack("{s:s, s:[s, s, s, s], s:o}", "class", "limits", "head",
+                                          "limit of", "asked", "it is", "", "rows", rows));
 }

@@ -3,6 +3,7 @@
 #include "page.h"
 
 #include "../memory/memory.h"
+#include "../results/json.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -16,26 +17,28 @@ static const char *without_folder(const char *text)
 static void write_facts(report_page *page)
 {
     const results_view *view = page->view;
-    fputs("<table class=\"facts\"><tbody>\n", page->out);
-    for (size_t i = 0; i < view->fact_count; i++) {
-        report_print(page->out, "<tr><th scope=\"row\">%s</th><td>%s</td></tr>\n",
-                     view->facts[i]->name, without_folder(view->facts[i]->text));
-    }
-    fputs("</tbody></table>\n", page->out);
+    json_t *rows = json_array();
+    for (size_t i = 0; i < view->fact_count; i++)
+        json_array_append_new(rows,
+                              json_pack("[o, o]", report_head(view->facts[i]->name),
+                                        results_json_text(without_folder(view->facts[i]->text))));
+    report_put_table(page->out, json_pack("{s:s, s:o}", "class", "facts", "rows", rows));
 }
 
-static void write_stage(report_page *page, const results_view_stage *stage)
+static void add_stage(json_t *rows, const results_view_stage *stage)
 {
-    FILE *out = page->out;
-    report_print(out,
-                 "<tr class=\"stage\"><th scope=\"row\">%s</th><td colspan=\"2\">%s %s "
-                 "<small>plugin file %s</small></td></tr>\n",
-                 stage->name, stage->model, stage->version, stage->build);
-    for (size_t i = 0; i < stage->param_count; i++) {
-        report_print(out, "<tr><td>%s</td><td>%s</td><td>%s</td></tr>\n", stage->params[i]->name,
-                     without_folder(stage->params[i]->text),
-                     without_folder(stage->params[i]->origin));
-    }
+    char *file = memory_print_text("plugin file %s", stage->build);
+    json_array_append_new(rows, json_pack("{s:s, s:[o, {s:[o, s, o, s, o], s:i}]}", "class",
+                                          "stage", "cells", report_head(stage->name), "cell",
+                                          results_json_text(stage->model), " ",
+                                          results_json_text(stage->version), " ",
+                                          report_as("small", file), "span", 2));
+    free(file);
+    for (size_t i = 0; i < stage->param_count; i++)
+        json_array_append_new(
+            rows, json_pack("[o, o, o]", results_json_text(stage->params[i]->name),
+                            results_json_text(without_folder(stage->params[i]->text)),
+                            results_json_text(without_folder(stage->params[i]->origin))));
 }
 
 /* Whether the user has given a parameter, and no axis of a study changes it. */
@@ -78,16 +81,14 @@ void report_write_origin(report_page *page)
     FILE *out = page->out;
     fputs("<section><h2>Origin</h2>\n", out);
     write_facts(page);
-    fprintf(out,
-            "<details><summary>Models and parameters%s</summary>\n<div class=\"wide\"><table "
-            "class=\"fixed\"><thead><tr><th>parameter</th><th>value</th><th>from</th></tr></"
-            "thead><tbody>\n",
-            view->study ? " of the first case" : "");
+    json_t *rows = json_array();
     for (size_t i = 0; i < view->stage_count; i++)
-        write_stage(page, view->stages[i]);
-    fputs("</tbody></table></div></details>\n<details><summary>Literature of the models"
-          "</summary>\n<dl>\n",
-          out);
+        add_stage(rows, view->stages[i]);
+    report_put_table(out, json_pack("{s:s+, s:i, s:s, s:[s, s, s], s:o}", "summary",
+                                    "Models and parameters",
+                                    view->study ? " of the first case" : "", "folded", 1, "class",
+                                    "fixed", "head", "parameter", "value", "from", "rows", rows));
+    fputs("<details><summary>Literature of the models</summary>\n<dl>\n", out);
     for (size_t i = 0; i < view->citation_count; i++) {
         report_print(out, "<dt>%s</dt><dd>%s<pre>%s</pre></dd>\n", view->citations[i]->model,
                      view->citations[i]->reference, view->citations[i]->bibtex);

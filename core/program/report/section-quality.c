@@ -5,6 +5,7 @@
 #include "page.h"
 
 #include "../memory/memory.h"
+#include "../results/json.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -29,12 +30,14 @@ static const char *meaning_of(const char *name)
     return NULL;
 }
 
-void report_put_line_name(FILE *out, const results_view_quality *line)
+json_t *report_line_name(const results_view_quality *line)
 {
-    if (line->verdict != FF_GOOD && meaning_of(line->name))
-        report_print(out, "<a href=\"#means-%s\">%s</a>", line->name, line->name);
-    else
-        report_put_text(out, line->name);
+    char *anchor = memory_print_text("#means-%s", line->name);
+    json_t *name = line->verdict != FF_GOOD && meaning_of(line->name)
+                       ? report_as(anchor, line->name)
+                       : results_json_text(line->name);
+    free(anchor);
+    return name;
 }
 
 /* Names the lines that a text is of, each once. */
@@ -73,13 +76,6 @@ static void write_meanings(report_page *page, const report_check *checks, size_t
     }
     fputs(said > 0 ? "</dl>\n" : "", page->out);
     free(told);
-}
-
-static void put_number(FILE *out, double value)
-{
-    char text[REPORT_TEXT_SIZE];
-    report_number_text(value, text);
-    report_print(out, "<td class=\"number\">%s</td>", text);
 }
 
 const char *report_verdict_word(const results_view_quality *line)
@@ -129,38 +125,46 @@ report_check *report_find_checks(const results_view *view, size_t *count)
     return checks;
 }
 
-static void write_line(report_page *page, const report_check *w)
+/* A number in a cell; a limit need not be there. */
+static json_t *number(double value)
 {
-    FILE *out = page->out;
-    report_print(out, "<tr><td>%s</td><td>", page->view->stages[w->line->stage]->name);
-    report_put_line_name(out, w->line);
-    fputs("</td>", out);
-    put_number(out, w->line->value);
-    put_number(out, w->line->limit);
-    fputs("<td>", out);
-    report_put_badge(out, report_verdict_word(w->line));
-    if (page->view->study)
-        fprintf(out, " %zu of %zu, as in case %zu", w->count, w->total, w->index + 1);
-    report_print(out, "</td><td>%s", w->line->text);
-    if (*w->line->accepted)
-        report_print(out, " <b>Accepted:</b> %s", w->line->accepted);
-    fputs("</td>", out);
-    fputs("</tr>\n", out);
+    char text[REPORT_TEXT_SIZE];
+    report_number_text(value, text);
+    return report_cell("number", text);
+}
+
+static json_t *line_row(const results_view *view, const report_check *w)
+{
+    const results_view_quality *line = w->line;
+    json_t *verdict = json_pack("[o]", report_badge(report_verdict_word(line))),
+           *words = json_pack("[o]", results_json_text(line->text));
+    if (view->study)
+        json_array_append_new(verdict, json_sprintf(" in %zu of %zu cases, first in case %zu",
+                                                    w->count, w->total, w->index + 1));
+    if (*line->accepted) {
+        json_array_append_new(words, json_string(" "));
+        json_array_append_new(words, report_as("b", "Accepted:"));
+        json_array_append_new(words, json_string(" "));
+        json_array_append_new(words, results_json_text(line->accepted));
+    }
+    return json_pack("[o, o, o, o, o, o]", results_json_text(view->stages[line->stage]->name),
+                     report_line_name(line), number(line->value), number(line->limit), verdict,
+                     words);
 }
 
 void report_write_quality(report_page *page)
 {
     size_t count;
     report_check *checks = report_find_checks(page->view, &count);
+    json_t *rows = json_array();
     fputs("<section id=\"quality\"><h2>Quality of the numbers</h2>\n", page->out);
     write_meanings(page, checks, count);
-    fputs("<details><summary>What each "
-          "stage checked</summary>\n<div class=\"wide\"><table><thead><tr><th>stage</th><th>check"
-          "</th><th>value</th><th>limit</th><th>verdict</th><th>in words</th></tr></thead>"
-          "<tbody>\n",
-          page->out);
     for (size_t i = 0; i < count; i++)
-        write_line(page, &checks[i]);
+        json_array_append_new(rows, line_row(page->view, &checks[i]));
     free(checks);
-    fputs("</tbody></table></div></details></section>\n", page->out);
+    report_put_table(page->out,
+                     json_pack("{s:s, s:i, s:[s, s, s, s, s, s], s:o}", "summary",
+                               "What each stage checked", "folded", 1, "head", "stage", "check",
+                               "value", "limit", "verdict", "in words", "rows", rows));
+    fputs("</section>\n", page->out);
 }

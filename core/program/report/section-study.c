@@ -3,6 +3,7 @@
 #include "page.h"
 
 #include "../memory/memory.h"
+#include "../results/json.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -44,31 +45,36 @@ static void write_grids(report_page *page)
     free(text);
 }
 
+/* Says that a table has the first rows alone. */
+static void note_rest(report_page *page, size_t shown, size_t all)
+{
+    if (all > shown)
+        fprintf(page->out, "<p class=\"note\">The first %zu of %zu; table.csv has them all.</p>\n",
+                shown, all);
+}
+
 static void write_failed(report_page *page)
 {
     const results_view *view = page->view;
     size_t failed = 0;
+    json_t *rows = json_array();
     for (size_t c = 0; c < view->case_count; c++) {
         const results_view_case *of = view->cases[c];
-        if (!strcmp(of->status, "ok") || !strcmp(of->status, "not run"))
+        if (!strcmp(of->status, "ok") || !strcmp(of->status, "not run") || failed++ >= MOST_FAILED)
             continue;
-        if (failed++ == 0)
-            fputs("<section><h2>Failed cases</h2>\n<div class=\"wide\"><table><thead><tr><th>case"
-                  "</th><th>status</th><th>reason</th><th>repeat it</th></tr></thead><tbody>\n",
-                  page->out);
-        if (failed > MOST_FAILED)
-            continue;
-        fprintf(page->out, "<tr><td>%zu</td><td>", c + 1);
-        report_print(page->out, "%s</td><td>%s</td><td><code>%s</code></td></tr>\n", of->status,
-                     of->reason, of->command);
+        json_array_append_new(
+            rows, json_pack("[I, o, o, o]", (json_int_t)c + 1, results_json_text(of->status),
+                            results_json_text(of->reason), report_as("code", of->command)));
     }
+    fputs(failed > 0 ? "<section><h2>Failed cases</h2>\n" : "", page->out);
+    json_t *table = json_pack("{s:[s, s, s, s], s:o}", "head", "case", "status", "reason",
+                              "command that repeats it", "rows", rows);
     if (failed > 0)
-        fputs("</tbody></table></div>\n", page->out);
-    if (failed > MOST_FAILED)
-        fprintf(page->out, "<p class=\"note\">The first %d of %zu; table.csv has them all.</p>\n",
-                MOST_FAILED, failed);
-    if (failed > 0)
-        fputs("</section>\n", page->out);
+        report_put_table(page->out, table);
+    else
+        json_decref(table);
+    note_rest(page, MOST_FAILED, failed);
+    fputs(failed > 0 ? "</section>\n" : "", page->out);
 }
 
 /* Columns of the table of cases that some case needs. */
@@ -76,61 +82,62 @@ typedef struct columns {
     bool limits, range;
 } columns;
 
-static void write_table_row(report_page *page, size_t index, const columns *has)
+static json_t *case_row(report_page *page, size_t index, const columns *has)
 {
     const results_view *view = page->view;
+    const results_view_case *of = view->cases[index];
     char text[REPORT_TEXT_SIZE];
-    fprintf(page->out, "<tr><td>%zu</td>", index + 1);
+    json_t *row = json_pack("[I]", (json_int_t)index + 1);
     for (size_t a = 0; a < view->axis_count; a++) {
-        report_print(page->out, "<td>%s</td>",
-                     report_axis_word(view->axes[a],
-                                      results_view_point(view, index, view->axes[a]->dimension),
-                                      text));
+        const size_t point = results_view_point(view, index, view->axes[a]->dimension);
+        json_array_append_new(row, results_json_text(report_axis_word(view->axes[a], point, text)));
     }
-    report_print(page->out, "<td>%s</td><td>", view->cases[index]->status);
-    report_put_badge(page->out, view->cases[index]->verdict);
-    report_print(page->out, "</td><td>%s</td>", view->cases[index]->reasons);
+    json_array_append_new(row, results_json_text(of->status));
+    json_array_append_new(row, report_badge(of->verdict));
+    json_array_append_new(row, results_json_text(of->reasons));
     if (has->range)
-        report_put_cell(page->out, view->cases[index]->range);
+        json_array_append_new(row, results_json_text(of->range));
     if (has->limits)
-        report_put_standing(page, index);
+        json_array_append_new(row, report_standing_cell(view, index));
     for (size_t v = 0; v < view->variable_count; v++) {
         if (view->variables[v]->rank != 0)
             continue;
         ff_array array = report_load(page, (int)v, index);
-        report_put_value(page->out, view->variables[v]->output, view->variables[v]->unit,
-                         array.data ? array.data[0] : (double)NAN);
+        json_array_append_new(row,
+                              report_value(view->variables[v]->output, view->variables[v]->unit,
+                                           array.data ? array.data[0] : (double)NAN));
         report_release(page, &array);
     }
-    fputs("</tr>\n", page->out);
+    return row;
 }
 
 static void write_table(report_page *page)
 {
     const results_view *view = page->view;
     columns has = {false, false};
+    json_t *rows = json_array(), *head = json_pack("[s]", "case");
     for (size_t c = 0; c < view->case_count; c++) {
         has.limits = has.limits || view->cases[c]->limit_count > 0;
         has.range = has.range || *view->cases[c]->range;
     }
-    fprintf(page->out, "<section><details><summary>All cases</summary>\n<div class=\"wide\"><table>"
-                       "<thead><tr><th>case</th>");
-    for (size_t a = 0; a < view->axis_count; a++) {
-        report_print(page->out, "<th>%s</th>", view->axes[a]->path);
-    }
-    fprintf(page->out, "<th>status</th><th>verdict</th><th>because of</th>%s%s",
-            has.range ? "<th>outside of its range</th>" : "", has.limits ? "<th>limits</th>" : "");
+    for (size_t a = 0; a < view->axis_count; a++)
+        json_array_append_new(head, results_json_text(view->axes[a]->path));
+    const char *const more[] = {"status", "verdict", "because of",
+                                has.range ? "outside its range" : NULL,
+                                has.limits ? "limits" : NULL};
+    for (size_t i = 0; i < sizeof more / sizeof *more; i++)
+        if (more[i])
+            json_array_append_new(head, json_string(more[i]));
     for (size_t v = 0; v < view->variable_count; v++)
         if (view->variables[v]->rank == 0)
-            report_print(page->out, "<th data-unit=\"%s\">%s</th>", view->variables[v]->unit,
-                         view->variables[v]->name);
-    fputs("</tr></thead><tbody>\n", page->out);
+            json_array_append_new(
+                head, json_pack("{s:o, s:o}", "cell", results_json_text(view->variables[v]->name),
+                                "unit", results_json_text(view->variables[v]->unit)));
     for (size_t c = 0; c < view->case_count && c < MOST_ROWS; c++)
-        write_table_row(page, c, &has);
-    fputs("</tbody></table></div>\n", page->out);
-    if (view->case_count > MOST_ROWS)
-        fprintf(page->out, "<p class=\"note\">The first %d of %zu; table.csv has them all.</p>\n",
-                MOST_ROWS, view->case_count);
+        json_array_append_new(rows, case_row(page, c, &has));
+    fputs("<section><details><summary>All cases</summary>\n", page->out);
+    report_put_table(page->out, json_pack("{s:o, s:o}", "head", head, "rows", rows));
+    note_rest(page, MOST_ROWS, view->case_count);
     fputs("</details></section>\n", page->out);
 }
 

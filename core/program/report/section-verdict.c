@@ -5,6 +5,7 @@
 #include "page.h"
 
 #include "../memory/memory.h"
+#include "../results/json.h"
 #include "../results/label.h"
 
 #include <math.h>
@@ -13,51 +14,43 @@
 
 enum { LABEL = 60 }; /* bytes that an output is called by, if it has more than one clause */
 
-/* Writes "roll angle 22.3 deg, single contact". */
-static void write_place(report_page *page, int axis, double at)
+/* Prints "roll angle 22.3 deg, single contact". */
+static void print_place(report_page *page, FILE *out, int axis, double at)
 {
     char text[REPORT_TEXT_SIZE], words[REPORT_TEXT_SIZE];
-    if (axis < 0)
-        return;
     const results_view_variable *along = page->view->variables[axis];
     report_quantity_text(along->output, along->unit, at, text);
     bool roll = !strcmp(along->output, "roll_angle");
-    report_print(page->out, "%s %s", roll ? "roll angle" : report_output_words(along, words), text);
+    fprintf(out, "%s %s", roll ? "roll angle" : report_output_words(along, words), text);
     if (!roll)
         return;
     report_marks marks = report_find_marks(page, 0);
     if (at >= marks.roll[1] && at <= marks.roll[3])
-        fputs(", single contact", page->out);
+        fputs(", single contact", out);
     else if (at < marks.roll[1])
-        fputs(", double contact, approach", page->out);
+        fputs(", double contact, approach", out);
     else if (at > marks.roll[3])
-        fputs(", double contact, recess", page->out);
+        fputs(", double contact, recess", out);
 }
 
-/* Writes " +- 0.4 nm" where the error of the number was measured. */
-static void write_error(report_page *page, size_t variable, size_t at)
-{
-    const results_view_variable *of = page->view->variables[variable];
-    char text[REPORT_TEXT_SIZE];
-    ff_array bar = report_load(page, report_find_bar(page->view, variable), 0);
-    if (bar.data && at < report_array_size(&bar) && bar.data[at] > 0) {
-        report_bar_text(of->unit, bar.data[at], text);
-        report_print(page->out, " &#177; %s", text);
-    }
-    report_release(page, &bar);
-}
-
-static void write_number(report_page *page, size_t variable, double value, size_t at)
+/* Prints a number, and " +- 0.4 nm" where its error was measured. */
+static void print_number(report_page *page, FILE *out, size_t variable, double value, size_t at)
 {
     const results_view_variable *of = page->view->variables[variable];
     char text[REPORT_TEXT_SIZE];
     report_quantity_text(of->output, of->unit, value, text);
-    report_put_text(page->out, text);
-    write_error(page, variable, at);
+    fputs(text, out);
+    ff_array bar = report_load(page, report_find_bar(page->view, variable), 0);
+    if (bar.data && at < report_array_size(&bar) && bar.data[at] > 0) {
+        report_bar_text(of->unit, bar.data[at], text);
+        fprintf(out, " \u00b1 %s", text);
+    }
+    report_release(page, &bar);
 }
 
-/* Writes a value, the values of both gears, or what a series goes from and to; then where. */
-static void write_values(report_page *page, size_t variable, const ff_array *y)
+/* Prints a value, the values of both gears, or what a series goes from and to; then where. */
+static void print_values(report_page *page, size_t variable, const ff_array *y, FILE *out,
+                         FILE *where)
 {
     const results_view_variable *of = page->view->variables[variable];
     int axis = of->rank == 1 ? report_find_axis(page->view, variable, 0, 0) : -1;
@@ -72,42 +65,48 @@ static void write_values(report_page *page, size_t variable, const ff_array *y)
     }
     double least = y->data[at.least], greatest = y->data[at.greatest];
     bool varies = pair || greatest > least;
-    fputs(of->flags & RESULTS_VIEW_AT_LEAST ? "&#8805; " : "", page->out);
-    write_number(page, variable, least, at.least);
+    fputs(of->flags & RESULTS_VIEW_AT_LEAST ? "\u2265 " : "", out);
+    print_number(page, out, variable, least, at.least);
     if (varies) {
-        fputs(pair ? ", " : " to ", page->out);
-        write_number(page, variable, greatest, at.greatest);
+        fputs(pair ? ", " : " to ", out);
+        print_number(page, out, variable, greatest, at.greatest);
     }
-    fputs("</td><td>", page->out);
     if (x.data && report_array_size(&x) == count && !pair && varies) {
-        fputs("least at ", page->out);
-        write_place(page, axis, x.data[at.least]);
-        fputs("; largest at ", page->out);
-        write_place(page, axis, x.data[at.greatest]);
+        fputs("least at ", where);
+        print_place(page, where, axis, x.data[at.least]);
+        fputs("; largest at ", where);
+        print_place(page, where, axis, x.data[at.greatest]);
     }
     if (share) {
         char words[REPORT_TEXT_SIZE];
-        report_print(page->out, "; where %s is above 1 % of its largest",
-                     report_plain_name(of->whole, words));
+        fprintf(where, "; where %s is above 1 %% of its largest",
+                report_plain_name(of->whole, words));
     }
     report_release(page, &x);
 }
 
-/* Writes what an output is called, its name, its values, and where. */
-static void write_row(report_page *page, size_t variable)
+/* What an output is called, its name, its values, and where; NULL when it has none. */
+static json_t *output_row(report_page *page, size_t variable)
 {
     const results_view_variable *of = page->view->variables[variable];
     ff_array y = report_load(page, (int)variable, 0);
+    json_t *row = NULL;
     if (y.data && report_array_size(&y) > 0) {
-        char label[RESULTS_LABEL_SIZE];
+        char label[RESULTS_LABEL_SIZE], *values = NULL, *where = NULL;
+        size_t length;
+        FILE *out = memory_require(open_memstream(&values, &length)),
+             *place = memory_require(open_memstream(&where, &length));
         results_label(of->doc, LABEL, label);
-        report_print(page->out,
-                     "<tr><th scope=\"row\">%s</th><td><code>%s</code></td><td class=\"number\">",
-                     label, of->name);
-        write_values(page, variable, &y);
-        fputs("</td></tr>\n", page->out);
+        print_values(page, variable, &y, out, place);
+        fclose(out);
+        fclose(place);
+        row = json_pack("[o, o, o, o]", report_head(label), report_as("code", of->name),
+                        report_cell("number", values), results_json_text(where));
+        free(values);
+        free(where);
     }
     report_release(page, &y);
+    return row;
 }
 
 /* Counts good lines, lines of numbers in doubt and of bad ones, and, under FF_RANGE, those that say
@@ -128,10 +127,11 @@ static void write_checks(report_page *page)
 {
     size_t counts[FF_RANGE + 1] = {0};
     count_verdicts(page->view, counts);
-    fprintf(page->out,
-            "<a href=\"#quality\">%zu checks good, %zu doubtful, %zu bad, %zu of models outside of "
-            "their range</a>",
-            counts[FF_GOOD], counts[FF_DOUBTFUL], counts[FF_BAD], counts[FF_RANGE]);
+    fprintf(
+        page->out,
+        "<a href=\"#quality\">%zu checks good, %zu doubtful, %zu bad, %zu outside the range of a "
+        "model</a>",
+        counts[FF_GOOD], counts[FF_DOUBTFUL], counts[FF_BAD], counts[FF_RANGE]);
 }
 
 enum { SHOWN = 6 }; /* of the reasons; the others are folded */
@@ -171,7 +171,7 @@ static void write_reason(report_page *page, const results_view_quality *line)
     report_number_text(line->value, value);
     report_number_text(line->limit, limit);
     fputs(" <small>(", page->out);
-    report_put_line_name(page->out, line);
+    report_put_part(page->out, report_line_name(line));
     report_print(page->out, " = %s, held to %s)</small>", value, limit);
 }
 
@@ -184,7 +184,7 @@ static void write_accepted(report_page *page)
         const results_view_quality *line = c->quality[i];
         if (!*line->accepted)
             continue;
-        fputs(listed++ ? "; " : "<p class=\"note\">Accepted by the file: ", page->out);
+        fputs(listed++ ? "; " : "<p class=\"note\">Doubts that the file accepts: ", page->out);
         report_print(page->out, "%s.%s (%s)", page->view->stages[line->stage]->name, line->name,
                      line->accepted);
     }
@@ -215,13 +215,13 @@ static void write_judgement(report_page *page)
     report_put_badge(page->out, page->view->cases[0]->verdict);
     if (counts[FF_DOUBTFUL] + counts[FF_BAD] == 0)
         fprintf(page->out,
-                " Nothing speaks against these numbers: <a href=\"#quality\">all %zu "
-                "checks of them are good</a>.</p>\n",
+                " No check casts doubt on these numbers: <a href=\"#quality\">all %zu are "
+                "good</a>.</p>\n",
                 counts[FF_GOOD]);
     else
         fprintf(page->out,
-                " %s: <a href=\"#quality\">%zu checks are good</a>, %zu doubtful and %zu "
-                "bad, namely</p>\n",
+                " %s: <a href=\"#quality\">%zu checks are good</a>, %zu doubtful, "
+                "%zu bad:</p>\n",
                 counts[FF_BAD] ? "Some of these numbers are wrong"
                                : "Some of these numbers are in doubt",
                 counts[FF_GOOD], counts[FF_DOUBTFUL], counts[FF_BAD]);
@@ -229,10 +229,10 @@ static void write_judgement(report_page *page)
     if (counts[FF_RANGE] > 0)
         fprintf(
             page->out,
-            "<p class=\"judgement\"><span class=\"badge range\">range</span> %s used outside of "
-            "what %s made for, which leaves the numbers as they are:</p>\n",
-            counts[FF_RANGE] == 1 ? "A model is" : "Models are",
-            counts[FF_RANGE] == 1 ? "it was" : "they were");
+            "<p class=\"judgement\"><span class=\"badge range\">range</span> %s outside %s range; "
+            "the numbers are not corrected for it:</p>\n",
+            counts[FF_RANGE] == 1 ? "A model is used" : "Models are used",
+            counts[FF_RANGE] == 1 ? "its" : "their");
     write_doubts(page, counts[FF_RANGE], true);
     write_accepted(page);
 }
@@ -255,107 +255,99 @@ static size_t count_rows(const results_view *view, bool asked)
     return count;
 }
 
-static void write_table(report_page *page, bool asked)
+static void write_table(report_page *page, bool asked, size_t count)
 {
-    fputs("<div class=\"wide\"><table class=\"verdict "
-          "run\"><thead><tr><th>quantity</th><th>output</th><th>value</th>"
-          "<th>where</th></tr></thead><tbody>\n",
-          page->out);
+    json_t *rows = json_array();
+    char *more = memory_print_text("%zu more computed value%s", count, count == 1 ? "" : "s");
     for (size_t v = 0; v < page->view->variable_count; v++)
-        if (has_row(page->view, v, asked))
-            write_row(page, v);
-    fputs("</tbody></table></div>\n", page->out);
+        if (has_row(page->view, v, asked)) {
+            json_t *row = output_row(page, v);
+            if (row)
+                json_array_append_new(rows, row);
+        }
+    json_t *table = json_pack("{s:s, s:[s, s, s, s], s:o, s:i, s:s}", "class", "verdict run",
+                              "head", "quantity", "output", "value", "where", "rows", rows,
+                              "folded", 1, "summary", asked ? "" : more);
+    if (count > 0)
+        report_put_table(page->out, table);
+    else
+        json_decref(table);
+    free(more);
 }
 
 /* Writes what the file asks for, in its order; folded, the scalars that were computed besides. */
 static void write_run(report_page *page)
 {
     write_judgement(page);
-    if (count_rows(page->view, true) > 0)
-        write_table(page, true);
-    size_t others = count_rows(page->view, false);
-    if (others == 0)
-        return;
-    fprintf(page->out, "<details><summary>%zu more that %s computed</summary>\n", others,
-            others == 1 ? "was" : "were");
-    write_table(page, false);
-    fputs("</details>\n", page->out);
+    write_table(page, true, count_rows(page->view, true));
+    write_table(page, false, count_rows(page->view, false));
 }
 
-static void begin_span(const report_scalar *f)
-{
-    const results_view *view = f->page->view;
-    const results_view_variable *of = view->variables[f->variable];
-    char words[REPORT_TEXT_SIZE];
-    report_print(f->page->out, "<tr><th scope=\"row\">%s</th><td>%s</td>",
-                 report_output_words(of, words), view->stages[of->stage]->name);
-}
-
-static void put_value(const report_scalar *f, double value)
+static json_t *value_cell(const report_scalar *f, double value)
 {
     const results_view_variable *of = f->page->view->variables[f->variable];
-    report_put_value(f->page->out, of->output, of->unit, value);
+    return report_value(of->output, of->unit, value);
 }
 
-/* Writes the least and the largest value of a scalar over the cases, and where they are first. */
-static void write_span(const report_scalar *f)
+/* Adds the least and the largest value of a scalar over the cases, and where they are first. */
+static void add_span(const report_scalar *f, json_t *row)
 {
     const double ends[] = {f->low, f->high};
     char words[REPORT_TEXT_SIZE];
-    begin_span(f);
     for (int side = 0; side < 2; side++) {
         size_t at = 0;
         while (!(f->values[at] == ends[side]))
             at++;
-        put_value(f, ends[side]);
         report_name_case(f->page->view, at, words);
-        report_put_cell(f->page->out, words);
+        json_array_append_new(row, value_cell(f, ends[side]));
+        json_array_append_new(row, results_json_text(words));
     }
-    fputs("</tr>\n", f->page->out);
 }
 
-/* Writes how a scalar is distributed over a sample; of the lambda ratio, how often it is below 1,
+/* Adds how a scalar is distributed over a sample; of the lambda ratio, how often it is below 1,
    where flanks touch. */
-static void write_distribution(const report_scalar *f)
+static void add_distribution(const report_scalar *f, json_t *row)
 {
     static const double percents[] = {0, 5, 50, 95, 100};
-    FILE *out = f->page->out;
     size_t kept, below = 0;
     double *list = report_sort(f->values, f->count, &kept);
-    begin_span(f);
     for (size_t i = 0; i < sizeof percents / sizeof *percents; i++)
-        put_value(f, report_percentile(list, kept, percents[i]));
+        json_array_append_new(row, value_cell(f, report_percentile(list, kept, percents[i])));
     while (below < kept && list[below] < 1)
         below++;
-    fputs("<td>", out);
-    if (!strcmp(f->page->view->variables[f->variable]->output, "lambda_ratio_lowest"))
-        fprintf(out, "below 1 in %zu of %zu cases (%.3g %%)", below, kept,
-                100 * (double)below / (double)kept);
-    fputs("</td></tr>\n", out);
+    const bool lambda =
+        !strcmp(f->page->view->variables[f->variable]->output, "lambda_ratio_lowest");
+    json_array_append_new(row, lambda ? json_sprintf("below 1 in %zu of %zu cases (%.3g %%)", below,
+                                                     kept, 100 * (double)below / (double)kept)
+                                      : json_string(""));
     free(list);
 }
 
 static void write_spans(report_page *page)
 {
     const results_view *view = page->view;
-    bool sample = report_is_sample(view);
-    fprintf(page->out,
-            "<div class=\"wide\"><table class=\"verdict span%s\"><thead><tr><th>quantity</th>"
-            "<th>stage</th>",
-            sample ? " sample" : "");
-    fputs(sample ? "<th>least</th><th>5 %</th><th>median</th><th>95 %</th><th>largest</th><th></th>"
-                 : "<th>least</th><th>where</th><th>largest</th><th>where</th>",
-          page->out);
-    fputs("</tr></thead><tbody>\n", page->out);
+    const bool sample = report_is_sample(view);
+    json_t *rows = json_array();
+    json_t *head = sample ? json_pack("[s, s, s, s, s, s, s, s]", "quantity", "stage", "least",
+                                      "5 %", "median", "95 %", "largest", "")
+                          : json_pack("[s, s, s, s, s, s]", "quantity", "stage", "least", "where",
+                                      "largest", "where");
     for (size_t v = 0; v < view->variable_count; v++) {
-        if (view->variables[v]->rank != 0 || report_is_bar(view->variables[v]))
+        const results_view_variable *of = view->variables[v];
+        char words[REPORT_TEXT_SIZE];
+        if (of->rank != 0 || report_is_bar(of))
             continue;
         report_scalar f = report_load_scalar(page, v);
-        if (f.low <= f.high)
-            (sample ? write_distribution : write_span)(&f);
+        if (f.low <= f.high) {
+            json_t *row = json_pack("[o, o]", report_head(report_output_words(of, words)),
+                                    results_json_text(view->stages[of->stage]->name));
+            (sample ? add_distribution : add_span)(&f, row);
+            json_array_append_new(rows, row);
+        }
         free(f.values);
     }
-    fputs("</tbody></table></div>\n", page->out);
+    report_put_table(page->out, json_pack("{s:s+, s:o, s:o}", "class", "verdict span",
+                                          sample ? " sample" : "", "head", head, "rows", rows));
 }
 
 /* The worst first, and among those the most frequent. */
@@ -407,7 +399,7 @@ static void write_counts(report_page *page)
                                 : doubtful    ? "doubtful"
                                 : idle < good ? "good"
                                               : "");
-    fprintf(page->out, " Of %zu cases %zu are good, %zu doubtful, %zu bad and %zu failed",
+    fprintf(page->out, " Of %zu cases, %zu are good, %zu doubtful, %zu bad and %zu failed",
             view->case_count, good, doubtful, bad, failed);
     if (idle > 0)
         fprintf(page->out, "; %zu not run", idle);
@@ -438,7 +430,7 @@ void report_write_verdict(report_page *page)
     report_print(page->out, "<section class=\"%s\"><div><h2>Verdict</h2>\n",
                  view->study ? "study" : "answer");
     if (!view->study && strcmp(view->cases[0]->status, "ok") != 0) {
-        report_print(page->out, "<p class=\"alarm\">The run ended as <b>%s</b>: %s</p>\n",
+        report_print(page->out, "<p class=\"alarm\">The run did not succeed (<b>%s</b>): %s</p>\n",
                      view->cases[0]->status, view->cases[0]->reason);
     }
     report_write_limits(page);

@@ -54,17 +54,6 @@ void report_quantity_text(const char *name, const char *si_unit, double si,
         strcpy(out, "\u2013");
 }
 
-void report_put_value(FILE *out, const char *name, const char *si_unit, double si)
-{
-    char text[REPORT_TEXT_SIZE] = "";
-    fputs("<td class=\"number\"", out);
-    if (isfinite(si)) {
-        report_quantity_text(name, si_unit, si, text);
-        fprintf(out, " data-v=\"%.9g\"", si);
-    }
-    report_print(out, ">%s</td>", text);
-}
-
 const char *report_plain_name(const char *path, char out[REPORT_TEXT_SIZE])
 {
     const char *dot = strrchr(path, '.');

@@ -149,7 +149,7 @@ class Measured(lab.Lab):
         self.assertEqual(len(self.numbers("order/last.wave_error_bar.npy", entry["shape"])), entry["shape"][0])
         self.call("report", "order")
         with open("order/report.html", encoding="utf-8") as file:
-            self.assertTrue('"bar":[' in file.read())
+            self.assertTrue('"bar":"' in file.read())
 
     def test_a_study_has_a_bar_for_each_case(self):
         self.write("study.yaml", FILE + "study: {sweep: {last.cells: [32, 128]}}\n")

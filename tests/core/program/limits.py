@@ -113,7 +113,7 @@ class Limits(lab.Lab):
         self.assertIn("verge.residual = 2.2, held to 2: seen on the rig", self.call("run", file, *words, "-o", "doubt"))
         self.call("report", "doubt")
         with open("doubt/report.html", encoding="utf-8") as page:
-            self.assertIn("Accepted by the file: verge.residual (seen on the rig)", page.read())
+            self.assertIn("Doubts that the file accepts: verge.residual (seen on the rig)", page.read())
         self.assertIn('accept: verge has no line "residuum" in this run; did you mean "residual"?',
                       self.call("run", file, "--set", "accept={verge.residuum: x}", "--replace", "-o", "doubt"))
 
@@ -135,7 +135,7 @@ class Limits(lab.Lab):
         self.call("report", "range")
         with open("range/report.html", encoding="utf-8") as page:
             text = page.read()
-        self.assertIn("<th>outside of its range</th>", text)
+        self.assertIn("<th>outside its range</th>", text)
         self.assertIn('<span class="badge range">range</span>', text)
         for tag, directive in ("script", "script-src"), ("style", "style-src-elem"):
             body = text.split(f"<{tag}>")[1].split(f"</{tag}>")[0].encode()

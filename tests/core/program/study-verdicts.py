@@ -103,7 +103,7 @@ class Verdicts(lab.Lab):
         with open("shown/report.html", encoding="utf-8") as file:
             page = file.read()
         self.assertIn('<h2>Verdict</h2>\n<p class="judgement"><span class="badge bad">failed</span> '
-                      'Of 7 cases 2 are good, 3 doubtful, 1 bad and 1 failed: ', page)
+                      'Of 7 cases, 2 are good, 3 doubtful, 1 bad and 1 failed: ', page)
         self.assertIn(f'<p class="note">{WORDS}</p>', page)
         reasons = re.findall(r'<li><b>(\d) of 7 cases</b> (\w+): (\w+): ', page)
         self.assertEqual(reasons[0][1], "bad")  # the worst first
