@@ -19,6 +19,7 @@ const ff_port dynamics_coupled_outputs[DYNAMICS_COUPLED_OUTPUT_COUNT] = {
          .dims = "cycle"},
     [DYNAMICS_OUT_DTE] =
         {.name = "dte",
+         .label = "dynamic transmission error",
          .unit = "m",
          .doc = "dynamic transmission error s: from the rotations of the gears minus the "
                 "rotation of the line of centres; zero is the middle of the backlash, so that "
@@ -34,6 +35,7 @@ const ff_port dynamics_coupled_outputs[DYNAMICS_COUPLED_OUTPUT_COUNT] = {
                                         "flanks minus back flanks",
                                  .dims = "cycle"},
     [DYNAMICS_OUT_DTE_RMS] = {.name = "dte_rms",
+                              .label = "rms of the transmission error",
                               .unit = "m",
                               .doc = "root mean square of the alternating part of the dynamic "
                                      "transmission error s",

@@ -23,6 +23,7 @@ const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT] = {
          .dims = "cycle"},
     [DYNAMICS_OUT_DTE] =
         {.name = "dte",
+         .label = "dynamic transmission error",
          .unit = "m",
          .doc = "dynamic transmission error s; zero is the middle of the backlash, so that the "
                 "values in contact include half the backlash",
@@ -38,6 +39,7 @@ const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT] = {
                                         "flanks are separated",
                                  .dims = "cycle"},
     [DYNAMICS_OUT_DTE_RMS] = {.name = "dte_rms",
+                              .label = "rms of the transmission error",
                               .unit = "m",
                               .doc = "root mean square of the alternating part of the dynamic "
                                      "transmission error s",

@@ -110,6 +110,7 @@ static const ff_port outputs[] = {
      .doc = "mesh cycles since the entering pair was at SAP; a repeated value marks a jump",
      .dims = "cycle"},
     {.name = "dte",
+     .label = "transmission error",
      .unit = "m",
      .doc = "transmission error s under load; zero is the middle of the backlash, so that the "
             "values include half the backlash",
@@ -119,6 +120,7 @@ static const ff_port outputs[] = {
      .doc = "mesh force; equal to the static force",
      .dims = "cycle"},
     {.name = "dte_rms",
+     .label = "rms of the transmission error",
      .unit = "m",
      .doc = "root mean square of the alternating part of the transmission error s",
      .dims = "",

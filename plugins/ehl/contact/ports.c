@@ -182,6 +182,7 @@ const ff_port ehl_inputs[EHL_INPUTS] = {
                         .doc = "mesh cycle of the motion in which the pair begins; 0 without one", \
                         .dims = "t"},                                                              \
     [k##_H_CENTRAL] = {.name = "h_central",                                                        \
+                       .label = "central film thickness",                                          \
                        .unit = "m",                                                                \
                        .doc = "film thickness at x = 0",                                           \
                        .dims = "t",                                                                \
@@ -252,6 +253,7 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
         {.name = "p_max", .unit = "Pa", .doc = "highest pressure", .dims = "t", .max = INFINITY},
     [EHL_FRICTION_COEFFICIENT] =
         {.name = "friction_coefficient",
+         .label = "friction coefficient",
          .unit = "1",
          .doc = "traction over load, sign of u1 - u2; 0 without load; rolling "
                 "is not in it",
@@ -264,6 +266,7 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
                       .dims = "t"},
     [EHL_POWER_LOSS] =
         {.name = "power_loss",
+         .label = "power loss per width",
          .unit = "W/m",
          .doc = "all that the film dissipates, per width: sliding, rolling, squeeze and "
                 "asperities",
@@ -373,6 +376,7 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
                                .dims = "t"},
     [EHL_LAMBDA_RATIO] =
         {.name = "lambda_ratio",
+         .label = "film over roughness",
          .unit = "1",
          .doc = "film over the roughness sqrt(Rq1^2 + Rq2^2) of both flanks: h_central, with "
                 "rough flanks the mean over the middle half of the Hertz width; needs a "
@@ -512,6 +516,7 @@ const ff_port ehl_estimate_outputs[EHL_ESTIMATE_OUTPUTS] = {
                             .max = INFINITY},
     [EHL_ESTIMATE_FRICTION_COEFFICIENT] =
         {.name = "friction_coefficient",
+         .label = "friction coefficient",
          .unit = "1",
          .doc = "traction over load, sign of u1 - u2; 0 without load",
          .dims = "t",
@@ -522,6 +527,7 @@ const ff_port ehl_estimate_outputs[EHL_ESTIMATE_OUTPUTS] = {
          .doc = "viscous shear stress over the Hertzian contact, sign of u1 - u2",
          .dims = "t"},
     [EHL_ESTIMATE_POWER_LOSS] = {.name = "power_loss",
+                                 .label = "power loss per width",
                                  .unit = "W/m",
                                  .doc = "sliding and rolling loss, per width",
                                  .dims = "t"},
@@ -552,6 +558,7 @@ const ff_port ehl_estimate_outputs[EHL_ESTIMATE_OUTPUTS] = {
          .max = INFINITY},
     [EHL_ESTIMATE_LAMBDA_RATIO] =
         {.name = "lambda_ratio",
+         .label = "film over roughness",
          .unit = "1",
          .doc = "film over the roughness sqrt(Rq1^2 + Rq2^2) of both flanks: "
                 "h_central; needs a surface, or a gear with its roughness",
