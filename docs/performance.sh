@@ -163,3 +163,4 @@ slow, _ = film("ehl/dense-newton", 256, "film.tolerance=1e-9")
 print("`h_min` differs by %.1e at most, `p_max` by %.1e." % (move(fast["h_min"], slow["h_min"]), move(fast["p_max"], slow["p_max"])))
 END
 mv "$lab/page" docs/performance.md
+sh docs/made.sh docs/performance.md plugins/ehl

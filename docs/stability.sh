@@ -76,3 +76,4 @@ map gear 'From torque to film' stability-gear
 map rough 'Roughness and speed' stability-rough
 
 cat "$results/maps.md" >>"$page"
+sh "$here/made.sh" "$page" plugins/ehl plugins/dynamics core/program/study/kinds/stability

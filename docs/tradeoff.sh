@@ -188,3 +188,4 @@ TEXT
     table rough
 } >"$work/tradeoff.md"
 mv "$work/tradeoff.md" "$here/tradeoff.md"
+sh "$here/made.sh" "$here/tradeoff.md" plugins/ehl plugins/dynamics plugins/stiffness core/program/study/kinds/tradeoff

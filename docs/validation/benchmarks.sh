@@ -50,3 +50,4 @@ for taken in all 0 1; do
 done
 awk -v in_="$work" -f "$here/csv.awk" -f "$here/benchmarks.awk" < /dev/null > "$to/benchmarks.md.new"
 mv "$to/benchmarks.md.new" "$to/benchmarks.md"
+sh "$here/../made.sh" "$to/benchmarks.md" plugins/gear plugins/stiffness plugins/dynamics plugins/ehl

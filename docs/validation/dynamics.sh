@@ -209,6 +209,7 @@ done
 } > "$work/tables"
 awk -f "$here/splice.awk" "$work/tables" "$here/dynamics.md" > "$work/page"
 mv "$work/page" "$here/dynamics.md"
+sh "$here/../made.sh" "$here/dynamics.md" plugins/dynamics
 
 awk -f "$here/plot.awk" "$work/lines" > "$work/figure.json"
 sh "$here/../draw.sh" "$program" "$work/figure.json" "$here/dynamics.svg"

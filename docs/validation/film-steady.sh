@@ -90,3 +90,4 @@ TEXT
     tables domain
 } > "$here/film-steady.md.new"
 mv "$here/film-steady.md.new" "$here/film-steady.md"
+sh "$here/../made.sh" "$here/film-steady.md" plugins/ehl

@@ -185,3 +185,4 @@ print("| coefficient | 0.0449 | %.4f |" % mu(C14, "friction_coefficient_formula"
 print("| loss factor H_v | 0.1986 | %.4f |" % mu(C14, "loss_factor"))
 END
 mv "$lab/page" docs/validation/friction.md
+sh docs/made.sh docs/validation/friction.md plugins/ehl plugins/losses plugins/rheology plugins/viscosity

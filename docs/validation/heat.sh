@@ -177,3 +177,4 @@ over slip and pressure, its viscosity over temperature, the temperature of the t
 measured. Losses without load are in none of these numbers.""")
 END
 mv "$lab/page" docs/validation/heat.md
+sh docs/made.sh docs/validation/heat.md plugins/ehl plugins/losses plugins/rheology

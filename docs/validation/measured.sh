@@ -191,3 +191,4 @@ and is not compared.
 TEXT
 } > "$work/measured.md"
 mv "$work/measured.md" "$here/measured.md"
+sh "$here/../made.sh" "$here/measured.md" plugins/ehl plugins/losses plugins/rating

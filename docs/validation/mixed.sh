@@ -164,3 +164,4 @@ trapped share. The highest pressures are past what the oil's law stands for.
 TEXT
 } > "$work/mixed.md"
 mv "$work/mixed.md" "$here/mixed.md"
+sh "$here/../made.sh" "$here/mixed.md" plugins/ehl plugins/surface

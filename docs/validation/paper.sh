@@ -101,3 +101,4 @@ done
 sh "$here/../draw.sh" "$build/flankfilm" "$@"
 stage=all digest paper-page.awk paper-rough.awk > "$to/paper.md.new"
 mv "$to/paper.md.new" "$to/paper.md"
+sh "$here/../made.sh" "$to/paper.md" plugins/stiffness plugins/dynamics plugins/contact plugins/ehl

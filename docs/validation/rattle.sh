@@ -285,6 +285,7 @@ The run-up decides whether a machine runs at III or on the lower branch, which e
 TEXT
 } > "$here/rattle.md.new"
 mv "$here/rattle.md.new" "$here/rattle.md"
+sh "$here/../made.sh" "$here/rattle.md" plugins/dynamics
 
 awk -f "$here/plot.awk" "$work/lines" > "$work/figure.json"
 sh "$here/../draw.sh" "$program" "$work/figure.json" "$here/rattle.svg"

@@ -180,6 +180,7 @@ echo
 } > "$work/table"
 awk -f "$here/splice.awk" "$work/table" "$here/stiffness.md" > "$work/page"
 mv "$work/page" "$here/stiffness.md"
+sh "$here/../made.sh" "$here/stiffness.md" plugins/stiffness
 
 {
     echo 'panel 70 110 760 400'

@@ -263,3 +263,4 @@ The end over viscosity, load and backlash, and loads that oil keeps apart for go
 TEXT
 } > "$here/two-way.md.new"
 mv "$here/two-way.md.new" "$here/two-way.md"
+sh "$here/../made.sh" "$here/two-way.md" plugins/dynamics plugins/ehl

@@ -57,3 +57,4 @@ TEXT
     rows refinement
 } > "$here/waviness.md.new"
 mv "$here/waviness.md.new" "$here/waviness.md"
+sh "$here/../made.sh" "$here/waviness.md" plugins/ehl

@@ -6,8 +6,6 @@
  */
 #include "choice.h"
 
-#include "axis.h"
-#include "compare.h"
 #include "goals.h"
 #include "models.h"
 
@@ -36,25 +34,15 @@ static size_t place_of(const trial *t, const accuracy_error *e)
     return (size_t)(e->stage - t->base->stages);
 }
 
-/* Relative difference of an output between two answers; NaN if they cannot be compared. */
+/* Difference of an output between two answers, as the goal states errors; NaN if they cannot be
+   compared. */
 static double distance(trial *t, const accuracy_error *e, const ff_pipeline *next)
 {
     const ff_stage *stage = &t->now->stages[place_of(t, e)];
     int output = ff_model_find_output(stage->loaded->model, e->result->row->name);
-    const ff_result *before = &stage->results[output < 0 ? 0 : output];
-    const double *after = accuracy_numbers_like(t->now, stage, before, next, &t->choice->arena);
-    const ff_result *along = accuracy_axis_of(t->now, stage, before);
-    const accuracy_series series = {before->rank, before->count, along ? along->data : NULL,
-                                    before->data, e->zero,       e->absolute};
-    double largest;
-    if (output < 0 || !after)
-        return NAN;
-    double *off = memory_alloc(before->count * sizeof *off);
-    for (size_t i = 0; i < before->count; i++)
-        off[i] = fabs(after[i] - before->data[i]);
-    double typical = accuracy_relative(off, &series, &largest);
-    free(off);
-    return typical;
+    return output < 0 ? (double)NAN
+                      : accuracy_distance(t->now, stage, &stage->results[output], e, next,
+                                          &t->choice->arena);
 }
 
 static const char *keep(trial *t, char *text)

@@ -271,15 +271,15 @@ bool accuracy_measure(accuracy_record *record, const ff_run *run, ff_engine *eng
     return !t.stopped;
 }
 
-/* Difference of the answer and the twin, stated as the goal is; NaN if they cannot be compared. */
-static double difference(const accuracy_twins *t, const accuracy_error *e,
-                         const accuracy_twin *twin)
+double accuracy_distance(const ff_pipeline *pipeline, const ff_stage *stage,
+                         const ff_result *result, const accuracy_error *like,
+                         const ff_pipeline *other, memory_arena *arena)
 {
-    const double *numbers = numbers_of_twin(t, e, twin);
-    const ff_result *result = e->result, *along = accuracy_axis_of(t->answer, e->stage, result);
+    const double *numbers = accuracy_numbers_like(pipeline, stage, result, other, arena);
+    const ff_result *along = accuracy_axis_of(pipeline, stage, result);
     const accuracy_series answer = {result->rank, result->count, along ? along->data : NULL,
-                                    result->data, e->zero,       e->absolute};
-    double *off = take(t, result->count, sizeof *off), largest;
+                                    result->data, like->zero,    like->absolute};
+    double *off = memory_arena_alloc(arena, result->count * sizeof *off + 1), largest;
     if (!numbers)
         return NAN;
     for (size_t i = 0; i < result->count; i++)
@@ -298,8 +298,11 @@ bool accuracy_check_twin(accuracy_record *record, const ff_run *run, ff_engine *
     accuracy_twin finer = {.good = false};
     accuracy_twins_run_finer(&t, &finer);
     record->checked = finer.good;
-    for (size_t i = 0; finer.good && i < record->count; i++)
-        record->errors[i].apart = difference(&t, &record->errors[i], &finer);
+    for (size_t i = 0; finer.good && i < record->count; i++) {
+        accuracy_error *e = &record->errors[i];
+        e->apart =
+            accuracy_distance(t.answer, e->stage, e->result, e, finer.pipeline, &record->arena);
+    }
     const bool stopped = finer.stopped;
     accuracy_twin_free(&finer);
     return !stopped;
