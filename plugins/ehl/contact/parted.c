@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "parted.h"
 
+#include "ports.h"
+
 #include <flankfilm/author.h>
 
 #include <math.h>
@@ -11,33 +13,70 @@ int ehl_is_parted(const ehl_history *h)
     return !(h->load_max > 0);
 }
 
-/* Returns the value of an output at a row of flanks that are apart; NaN: it has no value. Outputs
- * without a rule of their own are pressures, losses, errors and counts, which are 0. */
-static double value_of(const char *name, const ehl_history *h, size_t row, double roughness,
+/* What an output is of flanks that are apart. Those without a rule of their own are pressures,
+ * losses, errors and counts, which are 0. */
+enum { NOTHING, GAP, UNKNOWN, LAMBDA, TEMPERATURE, TIME, ROLL, ENGAGEMENT };
+
+static const unsigned char of_solvers[EHL_OUTPUTS] = {
+    [EHL_TIME] = TIME,
+    [EHL_ROLL_ANGLE] = ROLL,
+    [EHL_ENGAGEMENT] = ENGAGEMENT,
+    [EHL_H_MIN] = GAP,
+    [EHL_H_CENTRAL] = GAP,
+    [EHL_LAMBDA_RATIO] = LAMBDA,
+    [EHL_TEMPERATURE_MAX] = TEMPERATURE,
+    [EHL_SEPARATION] = GAP,
+    [EHL_FILM] = GAP,
+    [EHL_FILM_FRACTION] = UNKNOWN,
+    [EHL_ROUGHNESS] = UNKNOWN,
+    [EHL_TEMPERATURE] = TEMPERATURE,
+    [EHL_H_MIN_LOWEST] = GAP,
+    [EHL_H_MIN_LOWEST_AT] = ROLL,
+    [EHL_H_MIN_LOWEST_MEAN] = GAP,
+    [EHL_LAMBDA_RATIO_LOWEST] = LAMBDA,
+    [EHL_RQ_LEFT_OUT] = UNKNOWN,
+    [EHL_ALPHA_STAR] = UNKNOWN,
+    [EHL_BULK_TEMPERATURE] = TEMPERATURE,
+};
+
+static const unsigned char of_estimates[EHL_ESTIMATE_OUTPUTS] = {
+    [EHL_ESTIMATE_TIME] = TIME,
+    [EHL_ESTIMATE_ROLL_ANGLE] = ROLL,
+    [EHL_ESTIMATE_ENGAGEMENT] = ENGAGEMENT,
+    [EHL_ESTIMATE_H_MIN] = GAP,
+    [EHL_ESTIMATE_H_CENTRAL] = GAP,
+    [EHL_ESTIMATE_LAMBDA_RATIO] = LAMBDA,
+    [EHL_ESTIMATE_FILM] = GAP,
+    [EHL_ESTIMATE_H_MIN_LOWEST] = GAP,
+    [EHL_ESTIMATE_H_MIN_LOWEST_AT] = ROLL,
+    [EHL_ESTIMATE_LAMBDA_RATIO_LOWEST] = LAMBDA,
+    [EHL_ESTIMATE_H_MIN_LOWEST_MEAN] = GAP,
+    [EHL_ESTIMATE_ALPHA_STAR] = UNKNOWN,
+    [EHL_ESTIMATE_BULK_TEMPERATURE] = TEMPERATURE,
+};
+
+/* Returns the value of an output at a row of flanks that are apart; NaN: it has no value. */
+static double value_of(int rule, const ehl_history *h, size_t row, double roughness,
                        double temperature)
 {
-    static const char *const films[] = {"h_min",        "h_central", "separation",
-                                        "h_min_lowest", "film",      "h_min_lowest_mean"};
-    static const char *const unknown[] = {"alpha_star", "film_fraction", "roughness",
-                                          "rq_left_out"};
-    const double gap = h->gap[row];
-    for (size_t i = 0; i < sizeof films / sizeof films[0]; i++)
-        if (!strcmp(name, films[i]))
-            return gap;
-    for (size_t i = 0; i < sizeof unknown / sizeof unknown[0]; i++)
-        if (!strcmp(name, unknown[i]))
-            return NAN;
-    if (!strncmp(name, "lambda_ratio", strlen("lambda_ratio")))
-        return roughness > 0 ? gap / roughness : NAN;
-    if (!strcmp(name, "bulk_temperature") || !strncmp(name, "temperature", strlen("temperature")))
+    switch (rule) {
+    case GAP:
+        return h->gap[row];
+    case UNKNOWN:
+        return NAN;
+    case LAMBDA:
+        return roughness > 0 ? h->gap[row] / roughness : NAN;
+    case TEMPERATURE:
         return temperature > 0 ? temperature : NAN;
-    if (!strcmp(name, "time"))
+    case TIME:
         return h->time[row];
-    if (!strcmp(name, "roll_angle") || !strcmp(name, "h_min_lowest_at"))
+    case ROLL:
         return h->roll ? h->roll[row] : NAN;
-    if (!strcmp(name, "engagement"))
+    case ENGAGEMENT:
         return h->engagement ? h->engagement[row] : 0;
-    return 0;
+    default:
+        return 0;
+    }
 }
 
 /* Returns the first row at which the flanks are nearest to each other. */
@@ -64,9 +103,12 @@ static double *claim(const ff_host *host, uint32_t row, const char *dims, const 
     return ff_put_series(host, row, *rows);
 }
 
-ff_status ehl_put_parted(const ff_host *host, const ff_port *outputs, size_t count, uint64_t wanted,
-                         const ehl_history *h, double roughness, double temperature)
+ff_status ehl_put_parted(const ff_host *host, int estimate, uint64_t wanted, const ehl_history *h,
+                         double roughness, double temperature)
 {
+    const ff_port *outputs = estimate ? ehl_estimate_outputs : ehl_outputs;
+    const unsigned char *rules = estimate ? of_estimates : of_solvers;
+    const size_t count = estimate ? EHL_ESTIMATE_OUTPUTS : EHL_OUTPUTS;
     const size_t nearest = nearest_row(h);
     for (uint32_t k = 0; k < count; k++) {
         size_t rows;
@@ -76,7 +118,7 @@ ff_status ehl_put_parted(const ff_host *host, const ff_port *outputs, size_t cou
         if (!to && rows > 0)
             return FF_NOMEM;
         for (size_t i = 0; i < rows; i++) {
-            to[i] = value_of(outputs[k].name, h, rows > 1 ? i : nearest, roughness, temperature);
+            to[i] = value_of(rules[k], h, rows > 1 ? i : nearest, roughness, temperature);
             if (isnan(to[i]))
                 return ff_failf(host, FF_UNSUPPORTED, outputs[k].name,
                                 "the contact is never loaded, and without load this output has no "

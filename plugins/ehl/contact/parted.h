@@ -10,8 +10,8 @@ int ehl_is_parted(const ehl_history *history);
 
 /* Gives each output that is wanted: the gap for a film, 0 for a pressure and a loss. `temperature`:
    K, of the teeth; `roughness`: combined Rq, m. FF_UNSUPPORTED for what has no value without a
-   load. */
-ff_status ehl_put_parted(const ff_host *host, const ff_port *outputs, size_t count, uint64_t wanted,
+   load. `estimate`: the outputs are those of the estimates. */
+ff_status ehl_put_parted(const ff_host *host, int estimate, uint64_t wanted,
                          const ehl_history *history, double roughness, double temperature);
 
 #endif

@@ -438,8 +438,7 @@ static ff_status evaluate(ehl_estimate *e, uint64_t wanted, const ff_array *in)
                           ehl_estimate_outputs[EHL_ESTIMATE_BULK_TEMPERATURE].name,
                           "this output needs a stage of the oil, which has a temperature");
     if (status == FF_OK && ehl_is_parted(&e->history))
-        return ehl_put_parted(e->host, ehl_estimate_outputs, EHL_ESTIMATE_OUTPUTS, wanted,
-                              &e->history, e->roughness, e->laws.temperature);
+        return ehl_put_parted(e->host, 1, wanted, &e->history, e->roughness, e->laws.temperature);
     if (status == FF_OK)
         status = claim(&r, e);
     if (status == FF_OK)

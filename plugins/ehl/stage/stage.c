@@ -295,8 +295,7 @@ static ff_status evaluate(ehl_model *m, uint64_t wanted, const ff_array *in)
     double roughness;
     status = read_roughness(m, wanted, in, &roughness);
     if (status == FF_OK && ehl_is_parted(&r.history))
-        return ehl_put_parted(m->host, ehl_outputs, EHL_OUTPUTS, wanted, &r.history, roughness,
-                              bulk);
+        return ehl_put_parted(m->host, 0, wanted, &r.history, roughness, bulk);
     if (status != FF_OK)
         return status;
     status = ehl_run_create(m, wanted, in, &r);
