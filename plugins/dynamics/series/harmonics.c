@@ -1,44 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "harmonics.h"
+#include "harmonics-samples.h"
 
 #include "../../numerics/room.h"
-#include "../excitation/spring.h"
 
 #include <assert.h>
-#include <complex.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <fftw3.h>
-#include <lapacke.h>
-
-/* A crossing of the edge of the gap, or of a knee of the spring, between the neighbouring samples i
-   and j. The trapezoidal rule misses `area` at the kink of the force, and the two samples share
-   this area. after_i and after_j are the derivatives of `area` with respect to s at i and at j. */
-typedef struct edge {
-    size_t i, j;
-    double area, after_i, after_j;
-} edge;
-
-struct dynamics_harmonics {
-    const dynamics_excitation *excitation;
-    size_t harmonics, samples;
-    size_t lines;           /* number of lines of the spring (spring.h), at least 1 */
-    double *slope, *offset; /* slope and offset of each line at the samples, from the exact
-                               harmonics below samples/2 */
-    double *e;              /* e at the samples, from its exact harmonics below samples/2 */
-    double *e_series;       /* series of e */
-    double *time;           /* workspace for samples */
-    edge *edges;            /* edges that the motion crosses */
-    fftw_complex *spectrum;
-    fftw_plan to_time, to_spectrum;
-    double *cosine, *sine;          /* harmonics of the mesh stiffness along the motion, up to 2
-                                       H */
-    double *residual, *trial, *try; /* workspace of Newton's method */
-    double *jacobian;
-    lapack_int *pivot;
-};
 
 enum { MAX_NEWTON = 40, MAX_HALVINGS = 6 };
 
@@ -49,104 +17,6 @@ static const double converged = 1e-12, nearly_converged = 1e-9;
 /* A residual below this value is round-off. Without load the flanks may rest anywhere in the gap,
    where no Newton step is defined. */
 static const double round_off = 1e-15;
-
-/* Adds the contribution of one node to the exact harmonics n > 0 of a piecewise polynomial.
-   `jump` contains the jumps of the value and of its derivatives with respect to theta at the
-   node. Repeated integration by parts gives c_n = sum exp(-i n theta) sum_j jump_j/(2 pi (i
-   n)^(j + 1)). The phase factor follows a recurrence, which is restarted every 64 harmonics to
-   limit round-off. */
-static void add_jump(double complex *c, size_t count, double theta,
-                     const double jump[DYNAMICS_DEGREE + 1], int degree)
-{
-    double turn_x = cos(theta), turn_y = -sin(theta), x = 1, y = 0;
-    for (size_t n = 1; n < count; n++) {
-        double m = (double)n, keep = x;
-        x = n % 64 ? keep * turn_x - y * turn_y : cos(m * theta);
-        y = n % 64 ? keep * turn_y + y * turn_x : -sin(m * theta);
-        /* 1/i^(j + 1) is -i, -1, i, 1, ...: the sum is -u - i v */
-        double power = 1 / (2 * M_PI), u = 0, v = 0;
-        for (int j = 0; j <= degree; j++) {
-            power /= m;
-            *(j % 2 ? &u : &v) += (j / 2 % 2 ? -1 : 1) * power * jump[j];
-        }
-        c[n] += y * v - x * u - I * (x * v + y * u);
-    }
-}
-
-/* A curve given by the pieces: e, or slope or offset of one line of the spring. */
-enum { CURVE_E, CURVE_SLOPE, CURVE_OFFSET };
-typedef struct curve {
-    int which;
-    size_t line;
-} curve;
-
-static const double *coefficients_of(const dynamics_piece *p, curve c)
-{
-    if (c.which == CURVE_E)
-        return p->e;
-    if (c.which == CURVE_OFFSET)
-        return p->line[c.line].offset;
-    return dynamics_spring_slope(p, (int)c.line);
-}
-
-/* Returns the integral of a curve over a piece. */
-static double integral_of(const dynamics_piece *p, curve which)
-{
-    const double *c = coefficients_of(p, which);
-    double sum = 0;
-    for (int i = p->degree; i >= 0; i--)
-        sum = (c[i] / (i + 1) + sum) * p->length;
-    return sum;
-}
-
-/* Computes the harmonics 0 to count - 1 of a curve. */
-static void exact_harmonics(const dynamics_excitation *excitation, curve which, double complex *c,
-                            size_t count)
-{
-    memset(c, 0, count * sizeof *c);
-    for (size_t i = 0; i < excitation->count; i++) {
-        const dynamics_piece *p = &excitation->pieces[i],
-                             *before = &excitation->pieces[i ? i - 1 : excitation->count - 1];
-        const double *a = coefficients_of(before, which), *z = coefficients_of(p, which);
-        double end[DYNAMICS_DEGREE + 1] = {0}, jump[DYNAMICS_DEGREE + 1], derivative = 1;
-        int degree = before->degree > p->degree ? before->degree : p->degree, jumps = 0;
-        dynamics_piece_shift(a, before->degree, before->length, 1, end);
-        for (int j = 0; j <= degree; j++) {
-            jump[j] = derivative * ((j <= p->degree ? z[j] : 0) - end[j]);
-            jumps |= jump[j] != 0;
-            derivative *= (j + 1) / (2 * M_PI);
-        }
-        c[0] += integral_of(p, which);
-        if (jumps)
-            add_jump(c, count, 2 * M_PI * p->start, jump, degree);
-    }
-}
-
-static void sample_curve(dynamics_harmonics *b, int which, size_t line, double *samples)
-{
-    size_t half = b->samples / 2;
-    b->spectrum[half] = 0;
-    exact_harmonics(b->excitation, (curve){which, line}, b->spectrum, half);
-    fftw_execute_dft_c2r(b->to_time, b->spectrum, samples);
-}
-
-static void sample_excitation(dynamics_harmonics *b)
-{
-    size_t half = b->samples / 2;
-    for (size_t i = 0; i < b->lines; i++) {
-        sample_curve(b, CURVE_SLOPE, i, b->slope + i * b->samples);
-        if (i > 0)
-            sample_curve(b, CURVE_OFFSET, i, b->offset + i * b->samples);
-    }
-    b->spectrum[half] = 0;
-    exact_harmonics(b->excitation, (curve){CURVE_E, 0}, b->spectrum, half);
-    b->e_series[0] = creal(b->spectrum[0]);
-    for (size_t n = 1; n <= b->harmonics; n++) {
-        b->e_series[2 * n - 1] = 2 * creal(b->spectrum[n]);
-        b->e_series[2 * n] = -2 * cimag(b->spectrum[n]);
-    }
-    fftw_execute_dft_c2r(b->to_time, b->spectrum, b->e);
-}
 
 dynamics_harmonics *dynamics_harmonics_new(const dynamics_excitation *excitation, size_t harmonics,
                                            size_t samples)
@@ -185,7 +55,7 @@ dynamics_harmonics *dynamics_harmonics_new(const dynamics_excitation *excitation
         dynamics_harmonics_free(b);
         return NULL;
     }
-    sample_excitation(b);
+    dynamics_harmonics_sample(b);
     return b;
 }
 
@@ -279,22 +149,23 @@ static double spring_force(const dynamics_harmonics *b, size_t i, double bend)
     return b->slope[i] * bend + (more > 0 ? (bend < 0 ? -more : more) : 0);
 }
 
-/* Makes the edge between the samples i and j at which a force of slope `slope` begins or ends. The
-   force is proportional to a distance that changes from `from` to `to`. By the Euler-Maclaurin
-   formula a kink at the fraction t of a step gives the trapezoidal rule an error of (t (1 - t)/2 -
-   1/12) times the change of slope. */
-static edge edge_between(size_t i, size_t j, double from, double to, double slope)
+/* Makes the dynamics_harmonics_edge between the samples i and j at which a force of slope `slope`
+   begins or ends. The force is proportional to a distance that changes from `from` to `to`. By the
+   Euler-Maclaurin formula a kink at the fraction t of a step gives the trapezoidal rule an error of
+   (t (1 - t)/2 - 1/12) times the change of slope. */
+static dynamics_harmonics_edge edge_between(size_t i, size_t j, double from, double to,
+                                            double slope)
 {
     double a = fabs(from), z = fabs(to), sum = a + z;
-    edge e = {.i = i, .j = j, .area = -slope * (0.5 * a * z / sum - sum / 12)};
+    dynamics_harmonics_edge e = {.i = i, .j = j, .area = -slope * (0.5 * a * z / sum - sum / 12)};
     e.after_i = -slope * (0.5 * z * z / (sum * sum) - 1.0 / 12) * (from > 0 ? 1 : -1);
     e.after_j = -slope * (0.5 * a * a / (sum * sum) - 1.0 / 12) * (to > 0 ? 1 : -1);
     return e;
 }
 
-/* Finds where the motion, sampled in b->time, crosses the edge of the gap on one side between
-   sample i and the next one. Returns 0 if it does not. */
-static int find_edge(const dynamics_harmonics *b, size_t i, int side, edge *e)
+/* Finds where the motion, sampled in b->time, crosses the dynamics_harmonics_edge of the gap on one
+   side between sample i and the next one. Returns 0 if it does not. */
+static int find_edge(const dynamics_harmonics *b, size_t i, int side, dynamics_harmonics_edge *e)
 {
     size_t j = (i + 1) % b->samples;
     double from = b->time[i] - side * b->excitation->half_gap;
@@ -307,7 +178,8 @@ static int find_edge(const dynamics_harmonics *b, size_t i, int side, edge *e)
 
 /* Finds where the motion crosses the knee at which `line` begins. The distance is the excess of the
    line's force. Returns 0 if it does not cross. */
-static int find_knee(const dynamics_harmonics *b, size_t line, size_t i, int side, edge *e)
+static int find_knee(const dynamics_harmonics *b, size_t line, size_t i, int side,
+                     dynamics_harmonics_edge *e)
 {
     size_t j = (i + 1) % b->samples;
     const double *above = b->slope + line * b->samples, *below = above - b->samples;
@@ -383,7 +255,7 @@ static void add_edges(dynamics_harmonics *b, size_t count, double *jacobian, siz
     size_t size = series_size(b);
     double *rows = b->trial, *columns = b->try, share = 1 / (double)b->samples;
     for (size_t k = 0; k < count; k++) {
-        const edge *e = &b->edges[k];
+        const dynamics_harmonics_edge *e = &b->edges[k];
         memset(rows, 0, size * sizeof *rows);
         memset(columns, 0, size * sizeof *columns);
         add_basis(b, e->i, share, rows);
