@@ -192,7 +192,7 @@ class Report(lab.Lab):
             self.assertIn(words, page)
         films = next(f for f in self.drawn if f["title"] == "Film thickness")
         self.assertEqual([curve["name"].split(" film")[0] for curve in films["curves"]],
-                         ["film_static: least", "film_static:", "film: least", "film:"])
+                         ["film_static: least", "film_static: central", "film: least", "film: central"])
         self.assertEqual(films["y"]["label"], "film thickness (µm)")
         self.read_extremes(page)
         self.assertRegex(dom, r'"extremes">film_static: least film 0\.\d+ µm, highest pressure [\d.]+ MPa')
