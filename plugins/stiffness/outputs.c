@@ -146,16 +146,16 @@ const ff_port stiffness_outputs[STIFFNESS_ALL_OUTPUTS] = {
     {.name = "back_level_error",
      .unit = "m",
      .doc = "the same under each force_level",
-     .dims = "level back_phase"},
+     .dims = "back_level back_phase"},
     {.name = "back_level_stiffness",
      .unit = "N/m",
      .doc = "slope of their mesh force there",
-     .dims = "level back_phase",
+     .dims = "back_level back_phase",
      .max = INFINITY},
     {.name = "back_level_tooth_force",
      .unit = "N",
      .doc = "quasi-static normal force of one pair of them there, at the roll angles of gear 1",
-     .dims = "level gear.station"},
+     .dims = "back_level gear.station"},
 };
 
 /* Returns the side of a station. A repeated station is the limit from below, then from above;

@@ -158,17 +158,17 @@
     [DYNAMICS_IN_BACK_LEVEL_ERROR] = {.name = "stiffness.back_level_error",                        \
                                       .unit = "m",                                                 \
                                       .doc = "the same under each force_level",                    \
-                                      .dims = "level back_phase",                                  \
+                                      .dims = "back_level back_phase",                             \
                                       .flags = FF_OPTIONAL},                                       \
     [DYNAMICS_IN_BACK_LEVEL_STIFFNESS] = {.name = "stiffness.back_level_stiffness",                \
                                           .unit = "N/m",                                           \
                                           .doc = "slope of their mesh force there",                \
-                                          .dims = "level back_phase",                              \
+                                          .dims = "back_level back_phase",                         \
                                           .flags = FF_OPTIONAL},                                   \
     [DYNAMICS_IN_BACK_LEVEL_TOOTH_FORCE] = {.name = "stiffness.back_level_tooth_force",            \
                                             .unit = "N",                                           \
                                             .doc = "tooth force of one pair of them there",        \
-                                            .dims = "level gear.station",                          \
+                                            .dims = "back_level gear.station",                     \
                                             .flags = FF_OPTIONAL}
 
 const ff_port dynamics_input_ports[DYNAMICS_COUPLED_INPUT_COUNT] = {

@@ -209,7 +209,15 @@ def unloaded():
         report(all(one[name] == other[name] for name in names), f"{motion}: not a bit depends on flanks that never bear")
 
 
+def deviations():
+    """Index deviations, whose stiffness has no curves of the back flanks: a motion that never lands on them needs none."""
+    for motion in "shooting", "time-integration", "shooting, force: shared":
+        found = run(FIRST + ", pitch_error: [2 um, 1 um]", "torque: 100 N m, mesh_frequency: 900 Hz", motion + ", damping_ratio: 0.1", ["motion.dte_rms"])
+        report(found["motion.dte_rms"] > 0, f"{motion}: index deviations")
+
+
 phases()
+deviations()
 halves()
 exchanged()
 twin()
