@@ -26,16 +26,6 @@ static void list(catalogue *models, ff_engine *engine, const char *kind, ff_repo
     }
 }
 
-static int print_none(const cli_options *options)
-{
-    if (options->json)
-        results_json_print(json_pack("{s:s, s:s, s:i, s:[]}", "flankfilm", CLI_VERSION, "status",
-                                     "ok", "exit", EXIT_SUCCESS, "models"));
-    else
-        printf("no models found; name their directory with --plugin-path\n");
-    return EXIT_SUCCESS;
-}
-
 int cli_models(const cli_options *options)
 {
     const char *id = options->operand;
@@ -48,8 +38,8 @@ int cli_models(const cli_options *options)
     const ff_loaded *loaded = page ? ff_engine_model(engine, id, FF_NOWHERE, report) : NULL;
     if (loaded)
         catalogue_add(&models, id, loaded, "", report);
-    if (!id && models.count == 0)
-        code = print_none(options);
+    if (!id && models.count == 0 && !options->json)
+        puts("no models found; name their directory with --plugin-path");
     else if (page && !loaded)
         code = cli_refuse(report, options, "flankfilm models lists what there is");
     else if (options->json)

@@ -120,15 +120,6 @@ static void try_case(cli_session *session, const cli_options *options, size_t in
     ff_run_close(run);
 }
 
-/* Returns by how much the number of a case grows from one point of an axis to the next. */
-static size_t stride_of(const study_definition *study, size_t axis)
-{
-    size_t stride = 1;
-    for (size_t a = axis + 1; a < study->axis_count; a++)
-        stride *= study->points[a];
-    return stride;
-}
-
 /* For each model that the study swaps in, reports what of the file it cannot take. */
 static void try_swaps(cli_session *session, const cli_options *options)
 {
@@ -136,7 +127,7 @@ static void try_swaps(cli_session *session, const cli_options *options)
     for (size_t k = 0; k < study->varied_count; k++) {
         const study_varied *varied = &study->varied[k];
         const char *dot = strrchr(varied->path, '.');
-        size_t stride = stride_of(study, varied->axis);
+        size_t stride = study_stride(study, varied->axis);
         for (size_t i = 1; dot && !strcmp(dot, ".use") && i < study->points[varied->axis]; i++) {
             if (varied->places && i == CLI_MOST_ROWS)
                 i = study->points[varied->axis] - 1;
@@ -153,7 +144,7 @@ static void try_values(cli_session *session, const cli_options *options)
     for (size_t k = 0; k < study->varied_count; k++) {
         const study_varied *varied = &study->varied[k];
         size_t last = study->points[varied->axis] - 1;
-        size_t stride = stride_of(study, varied->axis);
+        size_t stride = study_stride(study, varied->axis);
         bool listed = varied->values || varied->names;
         bool whole = !varied->places || k == 0; /* a row is tried once as a whole */
         for (size_t i = listed || varied->places ? 1 : last; whole && i > 0 && i <= last; i++) {

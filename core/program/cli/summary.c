@@ -156,15 +156,14 @@ static int widest(int width, const char *text)
 /* Prints what the file requests, in its order: a line for each output except fields and axes. */
 static void print_answer(paper *page, const ff_pipeline *pipeline)
 {
-    size_t count, length = 0;
+    size_t count;
     results_asked *list = results_list_asked(pipeline, &count);
     const ff_result **axes = results_axes(pipeline);
-    char *arrays = NULL;
-    FILE *others = memory_require(open_memstream(&arrays, &length));
+    char *arrays = memory_print_text("%s", "");
     print_widths widths = {0, 0};
     for (size_t i = 0; i < count; i++) {
         if (is_array_only(&list[i].stage->results[list[i].output], axes)) {
-            fprintf(others, "%s%s", ftell(others) > 0 ? ", " : "", list[i].name);
+            memory_add_text(&arrays, "%s%s", *arrays ? ", " : "", list[i].name);
             continue;
         }
         const cli_output_text text =
@@ -172,7 +171,6 @@ static void print_answer(paper *page, const ff_pipeline *pipeline)
         widths.name = widest(widths.name, list[i].name);
         widths.value = widest(widths.value, text.value);
     }
-    fclose(others);
     widths.name = widths.name < MOST_NAME ? widths.name : MOST_NAME;
     putchar('\n');
     for (size_t i = 0; i < count; i++) {
@@ -219,41 +217,34 @@ static void print_limits(const paper *page, const limits_verdict *limits)
     free(sentence);
 }
 
-/* Prints quality lines that are not good: those about the numbers, or those about the range of
- * the models. */
-static void print_quality(paper *page, const ff_stage *stage, bool range)
+/* Which lines of quality stand below a heading. */
+typedef enum { ACCEPTED, OF_NUMBERS, OF_RANGE } lines;
+
+static bool is_among(const ff_quality *line, lines which)
+{
+    return which == ACCEPTED ? line->accepted != NULL
+                             : line->verdict != FF_GOOD && line->range == (which == OF_RANGE);
+}
+
+static void print_quality(paper *page, const ff_stage *stage, lines which)
 {
     for (size_t i = 0; i < stage->quality_count; i++) {
         const ff_quality *line = &stage->quality[i];
         const char *verdict = ff_verdict_name(line->verdict);
-        if (line->verdict == FF_GOOD || line->range != range)
+        const char *text = which == ACCEPTED ? line->accepted : line->text;
+        if (!is_among(line, which))
             continue;
         start_line(page);
         char value[STUDY_NUMBER_SIZE];
         study_number_short(line->value, value);
         int column =
             printf("  %s.%s = %s, held to %.3g: ", stage->name, line->name, value, line->limit);
-        if (!range) {
+        if (which == OF_NUMBERS) {
             column += (int)strlen(verdict);
             paint_verdict(page, line->verdict, verdict);
-            column += line->text ? printf(", ") : 0;
+            column += text ? printf(", ") : 0;
         }
-        terminal_print_wrapped(line->text ? line->text : "", column, 4);
-    }
-}
-
-static void print_accepted(paper *page, const ff_stage *stage)
-{
-    for (size_t i = 0; i < stage->quality_count; i++) {
-        const ff_quality *line = &stage->quality[i];
-        if (!line->accepted)
-            continue;
-        start_line(page);
-        char value[STUDY_NUMBER_SIZE];
-        study_number_short(line->value, value);
-        terminal_print_wrapped(
-            line->accepted,
-            printf("  %s.%s = %s, held to %.3g: ", stage->name, line->name, value, line->limit), 4);
+        terminal_print_wrapped(text ? text : "", column, 4);
     }
 }
 
@@ -317,14 +308,10 @@ static void print_search(const accuracy_record *errors, size_t missed)
         puts("  the repeat, with what its order promised to suffice, did not reach the rest");
     else if (missed > 0)
         puts("  no finer settings that may be tried promise what is not reached");
-    char *text = NULL;
-    size_t length = 0;
-    FILE *out = memory_require(open_memstream(&text, &length));
+    char *text = memory_print_text(
+        "%s", errors->chosen_count ? "" : "nothing: the file leaves no setting open");
     for (size_t i = 0; i < errors->chosen_count; i++)
-        fprintf(out, "%s%s", i ? ", " : "", errors->chosen[i]);
-    if (errors->chosen_count == 0)
-        fputs("nothing: the file leaves no setting open", out);
-    fclose(out);
+        memory_add_text(&text, "%s%s", i ? ", " : "", errors->chosen[i]);
     terminal_print_wrapped(text, printf("  chosen: "), 4);
     free(text);
 }
@@ -440,15 +427,15 @@ void cli_print_summary(const results_outcome *outcome, bool all)
         print_failures(&page, pipeline);
     print_log(&page, outcome->log);
     print_errors(&page, outcome);
-    page.heading = "Doubts that the file accepts";
-    for (size_t i = 0; i < pipeline->count; i++)
-        print_accepted(&page, &pipeline->stages[pipeline->order[i]]);
-    page.heading = "Numbers in doubt (the page and the guide say what each means)";
-    for (size_t i = 0; i < pipeline->count; i++)
-        print_quality(&page, &pipeline->stages[pipeline->order[i]], false);
-    page.heading = "Models outside of their range";
-    for (size_t i = 0; i < pipeline->count; i++)
-        print_quality(&page, &pipeline->stages[pipeline->order[i]], true);
+    static const char *const headings[] = {
+        [ACCEPTED] = "Doubts that the file accepts",
+        [OF_NUMBERS] = "Numbers in doubt (the page and the guide say what each means)",
+        [OF_RANGE] = "Models outside of their range"};
+    for (int which = ACCEPTED; which <= OF_RANGE; which++) {
+        page.heading = headings[which];
+        for (size_t i = 0; i < pipeline->count; i++)
+            print_quality(&page, &pipeline->stages[pipeline->order[i]], (lines)which);
+    }
     if (!all)
         print_tally(pipeline);
 }

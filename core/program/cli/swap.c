@@ -13,13 +13,12 @@
 /* A sentence under construction. */
 typedef struct sentence {
     char *text;
-    size_t length, count; /* `count`: items of the list at its end */
-    FILE *out;
+    size_t count; /* items of the list at its end */
 } sentence;
 
 static void add_to_list(sentence *s, const char *begin, const char *text)
 {
-    fprintf(s->out, "%s%s", s->count ? ", " : begin, text);
+    memory_add_text(&s->text, "%s%s", s->count ? ", " : begin, text);
     s->count++;
 }
 
@@ -35,14 +34,14 @@ static void add_taken(sentence *s, const ff_stage *stage)
             continue;
         ff_bound_origin(bound, origin, sizeof origin);
         if (*last && strcmp(last, origin) != 0)
-            fprintf(s->out, " (%s)", last);
+            memory_add_text(&s->text, " (%s)", last);
         snprintf(last, sizeof last, "%s", origin);
         add_to_list(s, "; of the file it takes ", bound->row->name);
     }
     if (s->count)
-        fprintf(s->out, " (%s)", last);
+        memory_add_text(&s->text, " (%s)", last);
     else
-        fputs("; it takes no parameter of the file", s->out);
+        memory_add_text(&s->text, "; it takes no parameter of the file");
 }
 
 static void add_wires(sentence *s, const ff_pipeline *pipeline, const ff_stage *stage)
@@ -66,14 +65,12 @@ static void add_lost(sentence *s, const ff_model *model, const ff_node *map)
 
 static void print_swap(const ff_pipeline *pipeline, const ff_stage *stage, const char *former)
 {
-    sentence s = {0};
-    s.out = memory_require(open_memstream(&s.text, &s.length));
-    fprintf(s.out, "%s: %s in place of %s", stage->name, stage->use, former);
+    sentence s = {.text =
+                      memory_print_text("%s: %s in place of %s", stage->name, stage->use, former)};
     add_taken(&s, stage);
     add_wires(&s, pipeline, stage);
     s.count = 0;
     add_lost(&s, stage->loaded->model, ff_node_get(ff_node_get(stage->node, "with"), former));
-    fclose(s.out);
     terminal_print_wrapped(s.text, 0, 2);
     free(s.text);
 }

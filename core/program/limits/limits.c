@@ -256,10 +256,8 @@ char *limits_text(const json_t *list)
 {
     const limits_standing worst = limits_worst(list);
     const json_t *entry;
-    size_t i, length;
-    char *text = NULL;
-    FILE *out = memory_require(open_memstream(&text, &length));
-    fputs(json_array_size(list) ? limits_word(worst) : "", out);
+    size_t i;
+    char *text = memory_print_text("%s", json_array_size(list) ? limits_word(worst) : "");
     const char *between = ": ";
     json_array_foreach(list, i, entry)
     {
@@ -267,29 +265,27 @@ char *limits_text(const json_t *list)
                    *bound = json_string_value(json_object_get(entry, "asked"));
         if (worst == LIMITS_MET || standing_in(entry) != worst)
             continue;
-        fprintf(out, "%s%s %s", between, name ? name : "", bound ? bound : "");
+        memory_add_text(&text, "%s%s %s", between, name ? name : "", bound ? bound : "");
         between = ", ";
     }
-    fclose(out);
     return text;
 }
 
 char *limits_sentence(const limits_verdict *verdict)
 {
-    size_t counts[LIMITS_STANDINGS] = {0}, length;
-    char *text = NULL;
-    FILE *out = memory_require(open_memstream(&text, &length));
+    size_t counts[LIMITS_STANDINGS] = {0};
     for (size_t i = 0; i < verdict->count; i++)
         counts[verdict->rows[i].standing]++;
-    if (verdict->count > 0)
-        fprintf(out, "of %zu limit%s ", verdict->count, verdict->count == 1 ? "" : "s");
+    if (verdict->count == 0)
+        return memory_print_text("%s", "");
+    char *text =
+        memory_print_text("of %zu limit%s ", verdict->count, verdict->count == 1 ? "" : "s");
     const char *between = "";
     for (size_t s = LIMITS_STANDINGS; s-- > 0;) {
         if (!counts[s])
             continue;
-        fprintf(out, "%s%zu %s", between, counts[s], limits_word((limits_standing)s));
+        memory_add_text(&text, "%s%zu %s", between, counts[s], limits_word((limits_standing)s));
         between = ", ";
     }
-    fclose(out);
     return text;
 }

@@ -92,6 +92,13 @@ char *memory_arena_text(memory_arena *arena, const char *text, size_t length)
     return copy;
 }
 
+char *memory_arena_take(memory_arena *arena, char *text)
+{
+    char *copy = memory_arena_text(arena, text, strlen(text));
+    free(text);
+    return copy;
+}
+
 void *memory_arena_grow(memory_arena *arena, void *items, size_t count, size_t size)
 {
     if ((count & (count - 1)) != 0)

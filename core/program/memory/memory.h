@@ -25,6 +25,8 @@ void *memory_arena_alloc(memory_arena *arena, size_t size); /* zeroed, for any t
 /* Makes room for one item more behind `count` of them; returns the array, which may have moved. */
 void *memory_arena_grow(memory_arena *arena, void *items, size_t count, size_t size);
 char *memory_arena_text(memory_arena *arena, const char *text, size_t length);
+/* Moves a text that was allocated by itself. */
+char *memory_arena_take(memory_arena *arena, char *text);
 void memory_arena_free(memory_arena *arena);
 
 #endif

@@ -46,16 +46,9 @@ static size_t add_axis(reading *r, size_t points)
     return r->study->axis_count++;
 }
 
-static const char *keep_text(reading *r, char *text)
-{
-    const char *kept = memory_arena_text(&r->study->arena, text, strlen(text));
-    free(text);
-    return kept;
-}
-
 static const char *assignment_of(reading *r, const char *path, const ff_node *value)
 {
-    return keep_text(r, study_yaml_assignment(path, value));
+    return memory_arena_take(&r->study->arena, study_yaml_assignment(path, value));
 }
 
 /* A list, or a map whose keys name the values. */
@@ -107,7 +100,7 @@ static bool add_files(reading *r, const char *path, const ff_node *map)
         file.text = ff_path_beside(file.place.source->directory, file.text);
         file.quoted = true;
         varied->assignments[i] = assignment_of(r, "include", &file);
-        names[i] = keep_text(r, file_name(list, i));
+        names[i] = memory_arena_take(&r->study->arena, file_name(list, i));
         ff_free(file.text);
     }
     return true;
@@ -190,8 +183,8 @@ static const char *span_text(reading *r, const char *path, const span *s, double
     double value =
         s->log ? s->from * pow(s->to / s->from, share) : s->from + (s->to - s->from) * share;
     value = share <= 0 ? s->from : share >= 1 ? s->to : value;
-    return keep_text(r,
-                     memory_print_text("%s=%.12g%s%s", path, value, *s->unit ? " " : "", s->unit));
+    return memory_arena_take(&r->study->arena, memory_print_text("%s=%.12g%s%s", path, value,
+                                                                 *s->unit ? " " : "", s->unit));
 }
 
 static bool read_count(reading *r, const ff_node *node, const char *name, int64_t least,

@@ -33,20 +33,11 @@ static bool runs_backwards(const study_definition *study, size_t index)
     return down != study->backwards;
 }
 
-/* Returns the difference of the case numbers of two neighbours in a chain. */
-static size_t stride_of(const study_definition *study)
-{
-    size_t stride = 1;
-    for (size_t a = study->axis_count; --a > study->followed;)
-        stride *= study->points[a];
-    return stride;
-}
-
 size_t study_chain_case(const study_definition *study, size_t chain, size_t position)
 {
     if (!study_is_chained(study))
         return chain;
-    size_t length = study_chain_length(study), stride = stride_of(study);
+    size_t length = study_chain_length(study), stride = study_stride(study, study->followed);
     size_t first = chain / stride * stride * length + chain % stride;
     size_t point = runs_backwards(study, first) ? length - 1 - position : position;
     return first + point * stride;
@@ -57,7 +48,7 @@ size_t study_chain_locate(const study_definition *study, size_t index, size_t *p
     *position = 0;
     if (!study_is_chained(study))
         return index;
-    size_t length = study_chain_length(study), stride = stride_of(study);
+    size_t length = study_chain_length(study), stride = study_stride(study, study->followed);
     size_t point = study_rank(study, study->followed, index);
     *position = runs_backwards(study, index) ? length - 1 - point : point;
     return index / (stride * length) * stride + index % stride;

@@ -46,11 +46,17 @@ void study_definition_free(study_definition *study)
     free(study);
 }
 
+size_t study_stride(const study_definition *study, size_t axis)
+{
+    size_t stride = 1;
+    for (size_t a = study->axis_count; --a > axis;)
+        stride *= study->points[a];
+    return stride;
+}
+
 size_t study_rank(const study_definition *study, size_t axis, size_t index)
 {
-    for (size_t a = study->axis_count; --a > axis;)
-        index /= study->points[a];
-    return index % study->points[axis];
+    return index / study_stride(study, axis) % study->points[axis];
 }
 
 const char *study_assignment(const study_definition *study, size_t k, size_t index)

@@ -4,7 +4,6 @@
 #include "spectrum.h"
 #include "yaml.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 bool study_listed_is(const ff_node *cases)
@@ -71,10 +70,9 @@ static void read_row(study_definition *study, const ff_node *cases, size_t row)
         if (map->items[i] == time || !strncmp(map->keys[i], "x-", 2))
             continue;
         study_varied *v = find_column(study, cases, row, i);
-        char *text = assignment_of(map->keys[i], map->items[i]);
-        v->assignments[row] = memory_arena_text(&study->arena, text, strlen(text));
+        v->assignments[row] =
+            memory_arena_take(&study->arena, assignment_of(map->keys[i], map->items[i]));
         v->values->items[row] = map->items[i];
-        free(text);
     }
 }
 

@@ -134,52 +134,47 @@ static void make_room(study_rows *rows, size_t index)
     }
 }
 
-/* Returns the assignment of a field. The path of a file is made relative to the table. */
-static char *assignment_of(const study_rows *rows, const column *c, const study_csv_field *f)
+/* Returns the value of a field, with the unit of its column if it has none, to be freed. */
+static char *value_of(const column *c, const study_csv_field *f)
 {
-    const char *path = rows->study->varied[c->varied].path, *end;
+    const char *end;
     double number;
-    char *text = NULL;
-    size_t length = 0;
-    FILE *out = memory_require(open_memstream(&text, &length));
-    fprintf(out, "%s=", path);
+    bool bare = *c->unit && ff_number_parse(f->text, &number, &end) && !*end;
+    return memory_print_text("%s%s%s", f->text, bare ? " " : "", bare ? c->unit : "");
+}
+
+/* Returns the assignment of a field. The path of a file is made relative to the table. */
+static const char *assignment_of(const study_rows *rows, const column *c, const study_csv_field *f)
+{
+    const char *path = rows->study->varied[c->varied].path;
+    char *value, *text;
     if (!strcmp(path, "include")) {
-        char *beside = ff_path_beside(rows->table.source.directory, f->text);
-        study_yaml_print_text(beside, true, out);
-        ff_free(beside);
+        value = ff_path_beside(rows->table.source.directory, f->text);
+        text = study_yaml_assignment(path,
+                                     &(ff_node){.kind = FF_SCALAR, .text = value, .quoted = true});
+        ff_free(value);
     } else {
-        bool bare = *c->unit && ff_number_parse(f->text, &number, &end) && !*end;
-        fprintf(out, "%s%s%s", f->text, bare ? " " : "", bare ? c->unit : "");
+        value = value_of(c, f);
+        text = memory_print_text("%s=%s", path, value);
+        free(value);
     }
-    fclose(out);
-    return text;
+    return memory_arena_take(&rows->study->arena, text);
 }
 
 /* Takes the duration of the row; *empty: it lasts no time, so it is no case. */
 static bool take_time(const study_rows *rows, bool *empty, ff_report *report)
 {
     const study_csv *l = &rows->table;
-    const char *end;
-    double number;
     for (size_t i = 0; !l->fault && l->count == rows->column_count && i < l->count; i++) {
-        const column *c = &rows->columns[i];
-        const study_csv_field *f = &l->fields[i];
-        if (!c->time)
+        if (!rows->columns[i].time)
             continue;
-        bool bare = *c->unit && ff_number_parse(f->text, &number, &end) && !*end;
-        char *text = memory_print_text("%s%s%s", f->text, bare ? " " : "", bare ? c->unit : "");
-        bool good = study_spectrum_add(rows->study, text, place_of(rows, f), empty, report);
+        char *text = value_of(&rows->columns[i], &l->fields[i]);
+        bool good =
+            study_spectrum_add(rows->study, text, place_of(rows, &l->fields[i]), empty, report);
         free(text);
         return good;
     }
     return true;
-}
-
-static const char *keep(study_rows *rows, char *text)
-{
-    const char *kept = memory_arena_text(&rows->study->arena, text, strlen(text));
-    free(text);
-    return kept;
 }
 
 /* Whether the fields of the line form a case; says why not if there is a report. */
@@ -216,7 +211,7 @@ static void take_row(study_rows *rows, size_t index)
             continue;
         study_varied *v = &rows->study->varied[c->varied];
         v->places[index] = (study_place){l->line, f->column, f->width};
-        v->assignments[index] = *f->text || f->quoted ? keep(rows, assignment_of(rows, c, f)) : "";
+        v->assignments[index] = *f->text || f->quoted ? assignment_of(rows, c, f) : "";
     }
 }
 

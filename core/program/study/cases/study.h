@@ -101,7 +101,9 @@ const char *study_assignment(const study_definition *study, size_t k, size_t ind
 /* Return the value, or its name: at a point of a path, and of path k in a case. */
 const char *study_varied_value(const study_varied *varied, size_t point);
 const char *study_value(const study_definition *study, size_t k, size_t index);
-/* Returns the point of a case on an axis. */
+/* Returns by how much the number of a case grows from one point of an axis to the next, and the
+ * point of a case on an axis. */
+size_t study_stride(const study_definition *study, size_t axis);
 size_t study_rank(const study_definition *study, size_t axis, size_t index);
 
 /* Applies a case to the file of a run: first the files that it includes, then `sets`, then its
