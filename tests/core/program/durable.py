@@ -76,7 +76,7 @@ class Durable(lab.Lab):
 
     def listed(self):
         with open(guide, encoding="utf-8") as file:
-            row = re.search(r"Files are changed by (.*?) alone", file.read(), re.S)
+            row = re.search(r"files are changed only by (.*?), and each log", file.read(), re.S)
         return set(re.findall(r"`(\w+)`", row.group(1)))
 
     def check_names(self, calls):
