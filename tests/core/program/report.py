@@ -196,7 +196,7 @@ class Report(lab.Lab):
         self.assertEqual(films["y"]["label"], "film thickness (µm)")
         self.read_extremes(page)
         self.assertRegex(dom, r'"extremes">film_static: least film 0\.\d+ µm, highest pressure [\d.]+ MPa')
-        self.assertRegex(dom, r"<output>roll angle [\d.]+ deg</output>")
+        self.assertRegex(dom, r"<output>roll angle of gear 1 [\d.]+ deg</output>")
 
     def test_asked(self):
         """The first table has what the file asks for, of any model, in the file's order; what was computed besides is folded."""
