@@ -23,7 +23,7 @@ static int find_param(ff_instance *i, const char *name)
     return -1;
 }
 
-/* Keeps the value of the parameter, and drops the values of the others in its group. */
+/* Stores the value of the parameter, and drops the values of the others in its group. */
 static void keep(ff_instance *i, size_t row, ff_value value)
 {
     assert(row < i->stage.loaded->model->param_count);
@@ -81,8 +81,9 @@ ff_status ff_instance_set_reals(ff_instance *instance, const char *param, const 
                                    .count = si ? count : 0});
 }
 
-/* Connects a feed to an input; the input then owns the array of the feed. The object is kept if
- * only the array changes, since a model is told that an array is connected and not which one. */
+/* Connects a feed to an input; the input then owns the array of the feed. If only the array
+   changes, the object is kept: a model depends on whether an array is connected, but not on its
+   content. */
 static void connect(ff_instance *i, size_t input, fe_feed feed)
 {
     assert(input < i->stage.loaded->model->input_count);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Runs an instance, and gives access to its results and services. */
+/* Runs an instance, and returns its results and services. */
 #include "instance.h"
 
 #include <stdio.h>
@@ -26,7 +26,7 @@ static int find_output(ff_instance *i, const char *name)
     return found;
 }
 
-/* Requests the outputs that the words name, or all of them. False for an unknown name. */
+/* Marks the outputs named in `words` as requested; NULL: all outputs. False for an unknown name. */
 static bool request(ff_instance *i, const char *words)
 {
     const ff_model *model = i->stage.loaded->model;
@@ -63,8 +63,8 @@ static bool is_up_to_date(const ff_instance *i)
 
 static bool run_marked(fe_request *q);
 
-/* Runs the instance `from` for the outputs that this instance takes from it, and again for those
- * that it was asked for before. */
+/* Runs the instance `from` for the outputs that this instance takes from it, and for those
+   requested of it before. */
 static bool run_feeding(ff_instance *i, ff_instance *from)
 {
     const ff_model *model = i->stage.loaded->model;
@@ -148,14 +148,14 @@ static bool evaluate(ff_instance *i, const ff_array *in)
     return stage->ran;
 }
 
-/* Drops the results of the run before. */
+/* Drops the results of the previous run. */
 static void begin(ff_instance *i)
 {
     i->failed = true;
     i->stage.ran = false;
 }
 
-/* Runs for the outputs that are marked as wanted. */
+/* Runs the instance for the outputs that are marked as wanted. */
 static bool run_marked(fe_request *q)
 {
     ff_instance *i = q->instance;
@@ -204,7 +204,7 @@ static bool refuse_result(fe_request *q)
                                                      : "the last run was not asked for it");
 }
 
-/* Explains why there is no answer. Only the messages of the instance change. */
+/* Explains why a call gives no result. It changes nothing in the instance except its messages. */
 static ff_status refuse(const ff_instance *i, bool (*work)(fe_request *q), const char *name)
 {
     return fe_handle(
@@ -277,8 +277,8 @@ static void do_call(void *of)
     q->status = q->call(q->ctx);
 }
 
-/* Calls the model. An allocation that fails inside leaves the request only after fe_call_end, so
- * that the bracket around the model's code is closed. */
+/* Calls the model. If an allocation fails inside, the call is only abandoned after fe_call_end, so
+   that the bracket around the model's code is closed. */
 static bool call(fe_request *q)
 {
     ff_instance *i = q->instance;
@@ -299,8 +299,8 @@ ff_status ff_instance_call(ff_instance *instance, const char *action, ff_status 
         .instance = instance, .work = call, .name = action, .call = work, .ctx = ctx});
 }
 
-/* Gives the state that the stage left, in memory of the heap in use. The state that the stage was
- * given for its own next run stays. */
+/* Returns a copy of the state that the stage left, in the heap in use. The state that the stage was
+   given for its own next run is not changed. */
 static bool take_state(ff_instance *from, void **state, size_t *size, ff_report *report)
 {
     ff_stage *stage = &from->stage;

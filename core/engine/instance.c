@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What an instance consists of, and how its object is made. */
+/* The parts of an instance, and the creation of its object. */
 #include "instance.h"
 
 #include "plugin/param.h"
@@ -9,30 +9,31 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Whether a call with this status gave values. FF_NOCONV and FF_STOPPED are failures, although
- * they are above 0. */
+/* Whether a call with this status returned values. FF_NOCONV and FF_STOPPED are positive, but they
+   are failures. */
 static bool is_good(ff_status status)
 {
     return status == FF_OK || status == FF_DOMAIN;
 }
 
-/* Keeps the model's reason for a failure or a warning. */
+/* Stores the model's reason for a failure or a warning. */
 static void explain(ff_instance *i)
 {
     const fe_tables *tables = &i->object.tables;
-    const ff_message *said = ff_report_first(i->report);
-    if (!said && ff_report_count(i->report))
-        said = ff_report_at(i->report, 0);
-    if (!said)
+    const ff_message *message = ff_report_first(i->report);
+    if (!message && ff_report_count(i->report))
+        message = ff_report_at(i->report, 0);
+    if (!message)
         return;
     fe_engine_say(i->engine, i->report);
     if (tables->errors)
         fe_tables_print(tables, i->reason, sizeof i->reason);
     else
         snprintf(i->reason, sizeof i->reason, "%s",
-                 i->object.text[0] && (said->severity == FF_WARNING || !is_good(i->object.status))
+                 i->object.text[0] &&
+                         (message->severity == FF_WARNING || !is_good(i->object.status))
                      ? i->object.text
-                     : said->text);
+                     : message->text);
     if (!i->item[0])
         snprintf(i->item, sizeof i->item, "%s", tables->errors ? tables->item : i->object.item);
 }
@@ -212,8 +213,8 @@ static bool is_replaced(const ff_instance *i, const ff_param *row)
     return false;
 }
 
-/* Whether the parameter, or another one of its group, is given. *required: whether one of them
- * must be. */
+/* Whether the parameter, or another one of its group, is given. *required: one of them must be
+   given. */
 static bool is_settled(const ff_instance *i, size_t param, bool *required)
 {
     const ff_model *model = i->stage.loaded->model;
@@ -233,7 +234,7 @@ static bool is_settled(const ff_instance *i, size_t param, bool *required)
     return given;
 }
 
-/* Settles the value of each parameter: given, preset or absent. */
+/* Finds the value of each parameter: given, preset or absent. */
 static bool settle(ff_instance *i)
 {
     const ff_model *model = i->stage.loaded->model;
@@ -258,8 +259,8 @@ static bool settle(ff_instance *i)
     return true;
 }
 
-/* Makes the objects of the instances whose services this one takes. A remade object has a new
- * service table. */
+/* Creates the objects of the instances whose services this one uses. A new object has a new service
+   table. */
 static bool make_feeding(ff_instance *i)
 {
     for (size_t k = 0; k < i->stage.loaded->model->input_count; k++) {
@@ -274,7 +275,7 @@ static bool make_feeding(ff_instance *i)
     return true;
 }
 
-/* Hands the model the service tables of the instances on its wires, whose objects exist. */
+/* Passes the service tables of the wired instances to the model. Their objects exist. */
 static bool wire(ff_instance *i)
 {
     const ff_model *model = i->stage.loaded->model;
@@ -299,8 +300,8 @@ static bool wire(ff_instance *i)
     return good;
 }
 
-/* Sets the parameters in order, up to the first one that the model refuses; the message names
- * that one. */
+/* Sets the parameters in order. Stops at the first one that the model refuses; the message names
+   it. */
 static bool set_all(ff_instance *i)
 {
     fe_place_params(&i->stage);

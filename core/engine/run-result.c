@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What a run has computed: results, and how far they can be trusted. */
+/* The results of a run, and their verdicts. */
 #include "run.h"
 
 static bool has_stages(const ff_run *run)
@@ -13,7 +13,7 @@ static bool is_done(const ff_stage *stage)
     return stage->ran || stage->reused;
 }
 
-/* Returns the result of that path; NULL: it was not computed. */
+/* Returns the result with that path; NULL: it was not computed. */
 static const ff_result *find(const ff_run *run, const char *path)
 {
     const char *name;
@@ -42,10 +42,10 @@ static void refuse_result(fe_run_request *call)
     int output = model ? ff_model_find_output(model, name) : -1;
     if (run->pipeline &&
         (!stage || (model && (output < 0 || ff_model_output(model, (size_t)output)->service))))
-        ff_error(run->said, FF_FAULT_INPUT, FF_NOWHERE, NULL, "there is no result \"%.80s\"",
+        ff_error(run->call_report, FF_FAULT_INPUT, FF_NOWHERE, NULL, "there is no result \"%.80s\"",
                  call->text);
     else
-        ff_error(run->said, FF_FAULT_INPUT, FF_NOWHERE, NULL, "%.80s was not computed: %s",
+        ff_error(run->call_report, FF_FAULT_INPUT, FF_NOWHERE, NULL, "%.80s was not computed: %s",
                  call->text, why_not(run, stage, output < 0 ? NULL : &stage->results[output]));
 }
 
@@ -99,7 +99,7 @@ ff_status ff_run_quality(const ff_run *run, size_t index, const ff_quality **lin
 
 static void refuse_verdict(fe_run_request *call)
 {
-    ff_error(call->run->said, FF_FAULT_INPUT, FF_NOWHERE, NULL,
+    ff_error(call->run->call_report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
              "there is no verdict: the run has not been started");
 }
 

@@ -10,18 +10,18 @@ static void work(void *ctx)
     ff_run *run = call->run;
     if (!run->report)
         run->report = ff_report_new();
-    run->said = ff_report_new();
+    run->call_report = ff_report_new();
     call->work(call);
-    fe_engine_say(run->engine, run->said);
+    fe_engine_say(run->engine, run->call_report);
     if (call->step)
-        ff_report_append(run->report, run->said);
+        ff_report_append(run->report, run->call_report);
 }
 
 static void forget(void *ctx)
 {
     ff_run *run = ctx;
-    ff_report_free(run->said);
-    run->said = NULL;
+    ff_report_free(run->call_report);
+    run->call_report = NULL;
 }
 
 ff_status fe_run_call(fe_run_request *call)
@@ -32,7 +32,7 @@ ff_status fe_run_call(fe_run_request *call)
     run->broken = fe_engine_call(run->engine, &run->heap, work, call) != FF_OK;
     if (run->broken)
         return FF_NOMEM;
-    ff_status status = fe_status_of(run->said);
+    ff_status status = fe_status_of(run->call_report);
     fe_protected(&run->heap, forget, run);
     return status;
 }
@@ -43,7 +43,7 @@ static void make(void *ctx)
     call->run = fe_alloc(sizeof *call->run);
 }
 
-/* Makes a run and takes its first step, such as reading the file. */
+/* Creates a run and takes its first step, such as reading the file. */
 static ff_status begin(ff_engine *engine, fe_run_request *call, ff_run **run)
 {
     if (fe_engine_call(engine, &engine->heap, make, call) != FF_OK)
@@ -61,7 +61,7 @@ static ff_status begin(ff_engine *engine, fe_run_request *call, ff_run **run)
 
 static void read(fe_run_request *call)
 {
-    call->run->tree = fe_tree_load(call->text, call->run->said);
+    call->run->tree = fe_tree_load(call->text, call->run->call_report);
 }
 
 ff_status ff_run_read(ff_engine *engine, const char *file, ff_run **run)
@@ -76,7 +76,8 @@ ff_status ff_run_read(ff_engine *engine, const char *file, ff_run **run)
 
 static void parse(fe_run_request *call)
 {
-    call->run->tree = fe_tree_parse(call->name, call->directory, call->text, call->run->said);
+    call->run->tree =
+        fe_tree_parse(call->name, call->directory, call->text, call->run->call_report);
 }
 
 ff_status ff_run_parse(ff_engine *engine, const char *name, const char *directory, const char *text,
@@ -106,7 +107,7 @@ ff_status ff_run_copy(const ff_run *run, ff_run **copied)
     return begin(run->engine, &(fe_run_request){.work = copy, .from = run}, copied);
 }
 
-/* Whether settings may still be laid over the file of the run. */
+/* Whether settings may still be applied to the file of the run. */
 static bool is_open(const ff_run *run)
 {
     return run && ff_run_root(run) && !run->pipeline;
@@ -114,7 +115,7 @@ static bool is_open(const ff_run *run)
 
 static void set(fe_run_request *call)
 {
-    fe_tree_set(call->run->tree, call->text, call->path, call->value, call->run->said);
+    fe_tree_set(call->run->tree, call->text, call->path, call->value, call->run->call_report);
 }
 
 ff_status ff_run_set_at(ff_run *run, const char *assignment, const ff_place *path,
@@ -141,14 +142,14 @@ ff_status ff_run_put(ff_run *run, const char *key, const ff_node *node)
     return is_open(run) && key && node ? fe_run_call(&call) : FF_INVALID;
 }
 
-/* Builds the pipeline. Reports the errors of earlier steps again, since a file with an error
- * cannot be started. */
+/* Builds the pipeline. Also reports the errors of earlier steps again, since a file with an error
+   cannot be started. */
 static void build(fe_run_request *call)
 {
     ff_run *run = call->run;
-    ff_report_append(run->said, run->report);
-    run->pipeline = fe_pipeline_build(run->tree, run->engine, call->all, run->said);
-    run->ready = run->pipeline && ff_report_errors(run->said) == 0;
+    ff_report_append(run->call_report, run->report);
+    run->pipeline = fe_pipeline_build(run->tree, run->engine, call->all, run->call_report);
+    run->ready = run->pipeline && ff_report_errors(run->call_report) == 0;
 }
 
 ff_status ff_run_build(ff_run *run, bool everything)
@@ -157,7 +158,7 @@ ff_status ff_run_build(ff_run *run, bool everything)
     return is_open(run) ? fe_run_call(&call) : FF_INVALID;
 }
 
-/* Refuses a file that asks for many cases, which are the program's work. Returns false then. */
+/* Refuses a file that needs many cases, which only the program runs. Returns false in this case. */
 static bool refuse_many(const ff_node *root, ff_report *report)
 {
     static const char *const keys[] = {"study", "accuracy"};
@@ -172,10 +173,10 @@ static bool refuse_many(const ff_node *root, ff_report *report)
 
 static void prepare(fe_run_request *call)
 {
-    if (!refuse_many(fe_tree_root(call->run->tree), call->run->said))
+    if (!refuse_many(fe_tree_root(call->run->tree), call->run->call_report))
         return;
     build(call);
-    ff_engine_warn_displaced(call->run->engine, call->run->said);
+    ff_engine_warn_displaced(call->run->engine, call->run->call_report);
 }
 
 ff_status ff_run_ready(ff_run *run)
@@ -228,7 +229,6 @@ static void end(void *ctx)
     fe_tree_free(run->tree);
 }
 
-/* What a caller added to a stage lies in memory that the run does not own. */
 void ff_run_close(ff_run *run)
 {
     if (!run)
@@ -248,7 +248,7 @@ static void start(fe_run_request *call)
     if (call->observer)
         memcpy(&observer, call->observer,
                call->observer->size < sizeof observer ? call->observer->size : sizeof observer);
-    fe_pipeline_run(call->run->pipeline, &observer, call->run->said);
+    fe_pipeline_run(call->run->pipeline, &observer, call->run->call_report);
 }
 
 ff_status ff_run_start(ff_run *run, const ff_observer *observer)

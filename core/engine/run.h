@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A run, and the bracket around each call of it that collects its messages. */
+/* A run, and the bracket around each of its calls that collects messages. */
 #ifndef FE_RUN_H
 #define FE_RUN_H
 
@@ -10,10 +10,10 @@ struct ff_run {
     ff_engine *engine;
     fe_heap heap;
     fe_tree *tree;
-    ff_report *report; /* of all steps so far */
-    ff_report *said;   /* of the call in progress */
+    ff_report *report;      /* messages of all steps so far */
+    ff_report *call_report; /* messages of the call in progress */
     ff_pipeline *pipeline;
-    bool ready;  /* the pipeline can be started */
+    bool ready;  /* the pipeline is built and can be started */
     bool broken; /* an allocation failed once; the run can only be closed */
     bool started, failed;
 };
@@ -22,18 +22,18 @@ struct ff_run {
 typedef struct fe_run_request {
     ff_run *run;
     void (*work)(struct fe_run_request *call);
-    bool step;                    /* the messages of this call belong to the run */
-    const char *text;             /* a file, a text, an assignment, a key, the path of a result */
-    const char *name, *directory; /* of a text from memory */
-    const ff_place *path, *value; /* where a file says an assignment */
-    const ff_node *node;          /* to be put under a key */
+    bool step;        /* the messages of this call belong to the run */
+    const char *text; /* a file, a text, an assignment, a key, or the path of a result */
+    const char *name, *directory; /* for a text in memory */
+    const ff_place *path, *value; /* places of the assignment in a file */
+    const ff_node *node;          /* node to be stored under a key */
     const ff_run *from;           /* the run to be copied */
     const char *const *changes;   /* assignments */
-    size_t count;                 /* of them */
+    size_t count;                 /* number of assignments */
     const ff_observer *observer;
-    bool all;  /* ff_run_build: load stages that no output needs, too; ff_run_change: make the
+    bool all;  /* ff_run_build: also load stages that no output needs; ff_run_change: create the
                   objects */
-    bool done; /* the answer of the call */
+    bool done; /* result of the call */
 } fe_run_request;
 
 /* Makes the call. It starts with no messages. */

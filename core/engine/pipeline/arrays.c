@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Arrays that a stage takes and gives. Checks that their dimensions agree and that their numbers
- * are finite. */
+/* The input and output arrays of a stage. Checks that their dimensions agree and that their numbers
+   are finite. */
 #include "build.h"
 
 #include <assert.h>
@@ -65,9 +65,8 @@ static bool check_input(const ff_pipeline *pipeline, const ff_stage *stage, size
                     stage->name, wire->name, why);
 }
 
-/* Takes the array that a feedback wire brings from the round before. If its lengths do not agree
- * with those of the other wires, it is left out, with an error that counts in the last round
- * alone. */
+/* Takes the array of a feedback wire from the round before. If its lengths do not agree with those
+   of the other wires, the array is left out, with an error that counts in the last round only. */
 static void take_fed_back(const ff_pipeline *pipeline, const ff_stage *stage, size_t input,
                           fe_lengths *all, ff_array *in, ff_report *report)
 {
@@ -164,7 +163,7 @@ void fe_drop_untouched(ff_stage *stage)
     }
 }
 
-/* An error estimate that is not known is infinite. */
+/* Whether the output may be infinite: an unknown error estimate is. */
 static bool may_be_infinite(const ff_port *row)
 {
     static const char ending[] = "_error";
@@ -172,7 +171,7 @@ static bool may_be_infinite(const ff_port *row)
     return length > end && !strcmp(row->name + length - end, ending);
 }
 
-/* Whether an output cannot be used; `why` then completes 'the plugin ...'. */
+/* Whether an output is unusable; `why` then completes 'the plugin ...'. */
 static bool is_faulty(const ff_stage *stage, size_t output, fe_lengths *all, char *why, size_t size)
 {
     const ff_result *result = &stage->results[output];
@@ -198,7 +197,7 @@ static bool is_faulty(const ff_stage *stage, size_t output, fe_lengths *all, cha
     return false;
 }
 
-/* Notes the lengths of the inputs, which also hold for an output "along gear.station". */
+/* Records the lengths of the inputs, which also apply to an output along "gear.station". */
 static void enter_inputs(const ff_stage *stage, const ff_array *in, fe_lengths *all)
 {
     const ff_model *model = stage->loaded->model;

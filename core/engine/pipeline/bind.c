@@ -1,25 +1,27 @@
 /* SPDX-License-Identifier: MIT */
-/* Reads the parameters of a stage from the file, by the table of its model. */
+/* Reads the parameters of a stage from the file, according to the parameter table of its model. */
 #include "build.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* The table of one model and the settings of one stage. */
+/* The parameter table of a model, and the settings of a stage for it. */
 typedef struct binding {
     fe_build *b;
     ff_stage *stage;
     const ff_loaded *loaded;
     const char *id;
-    bool chosen; /* this is the model in use; else another one under `with` */
+    bool chosen; /* true: the model in use; false: another model under `with` */
     fe_setting *settings;
-    const ff_node
-        *before;      /* the model that was replaced, for which the keys in `left` were written */
-    const char *left; /* keys that the new model does not take: 'x (a.yaml:1:2), y' */
+    const ff_node *before; /* the model in use before a --set replaced it, for which the keys in
+                              `left` were written */
+    const char *left;      /* keys that were left out because the new model does not have them: 'x
+                              (a.yaml:1:2), y' */
 } binding;
 
-/* Whether the path names a map of the model: "atlas" holds the parameter or wire "atlas.from". */
+/* Whether the path names a map of the model: "atlas" is the map of the parameter or wire
+   "atlas.from". */
 static bool is_map(const ff_model *model, const char *path)
 {
     for (size_t i = 0; i < model->param_count; i++)
@@ -42,7 +44,7 @@ static const char *nearest_key(binding *k, const char *path)
     const ff_model *model = k->loaded->model;
     const char **names = fe_alloc((model->param_count + model->input_count + 2) * sizeof *names);
     size_t count = 0;
-    bool whole = strchr(path, '.') != NULL; /* else a key of the stage's own map */
+    bool whole = strchr(path, '.') != NULL; /* else it is a key of the stage's own map */
     for (size_t i = 0; i < model->param_count + model->input_count; i++) {
         const char *name = i < model->param_count
                                ? ff_model_param(model, i)->name
@@ -93,9 +95,9 @@ static void refuse_key(binding *k, const char *path, ff_place place)
              k->stage->name, path, *advice ? "" : " for ", *advice ? "" : k->id, advice);
 }
 
-/* Returns the model that the key was written for, if `use` has replaced it since; *before is its
- * `use`. NULL: no replaced model knows the path, so the key is meant for the new one, or is a
- * mistake. */
+/* Returns the model for which the key was written, if `use` has replaced that model since; *before
+   is the old `use`. NULL: no replaced model has the path, so the key is either meant for the new
+   model or a mistake. */
 static const ff_loaded *owner_before(binding *k, const ff_node *node, const char *path,
                                      const ff_node **before)
 {
@@ -123,8 +125,8 @@ static void leave_out(binding *k, const char *path, ff_place place, const ff_nod
                                         fe_place_text(k->b->pipeline, place)));
 }
 
-/* Leaves out a key that the model does not know if it was written for a replaced model; refuses
- * it otherwise. */
+/* Handles a key that the model does not have: leaves it out if it was written for a replaced model,
+   refuses it otherwise. */
 static void judge_key(binding *k, const char *path, const ff_node *value, ff_place place)
 {
     const ff_node *before = NULL;
@@ -134,8 +136,8 @@ static void judge_key(binding *k, const char *path, const ff_node *value, ff_pla
         refuse_key(k, path, place);
 }
 
-/* Leaves out a value that was written for a replaced model if the new model has a parameter of
- * that name but cannot take the value, for example because the unit differs. */
+/* Leaves out a value that was written for a replaced model, if the new model has a parameter of the
+   same name that cannot take the value, for example because its unit differs. */
 static void leave_misfit(binding *k, size_t index)
 {
     const ff_param *row = ff_model_param(k->loaded->model, index);
@@ -168,9 +170,8 @@ static void warn_of_left(binding *k)
                 fe_place_text(k->b->pipeline, k->before->place), k->left);
 }
 
-/* Checks the keys of a map. `prefix` is "" or "atlas."; `own` marks the stage's own map, which
- * also has `use` and `with`. A key with a dot is refused, since a dot stands for a map within a
- * map. */
+/* Checks the keys of a map. `prefix` is "" or "atlas."; `own` marks the stage's own map, which also
+   has `use` and `with`. A key with a dot is refused, since a dot stands for a nested map. */
 static void check_keys(binding *k, const ff_node *map, const char *prefix, bool own)
 {
     const ff_model *model = k->loaded->model;
@@ -199,7 +200,7 @@ static bool same_group(const ff_param *a, const ff_param *b)
     return a->group && b->group && !strcmp(a->group, b->group);
 }
 
-/* Whether the stage at the other end of the wire feeds the input, which replaces the parameter. */
+/* Whether the stage at the other end of the wire feeds the input that replaces the parameter. */
 static bool replaces(const binding *k, const ff_param *row, const ff_wire *wire,
                      const ff_port *input)
 {
@@ -220,7 +221,7 @@ static const ff_wire *find_replacing(const binding *k, const ff_param *row)
     return NULL;
 }
 
-/* A parameter that a connected wire replaces must not be given. */
+/* Refuses a parameter that is given although a connected wire replaces it. */
 static void settle_replaced(binding *k, const ff_param *row, const fe_setting *setting)
 {
     const ff_wire *wire = setting->wire;
@@ -236,15 +237,17 @@ static void settle_replaced(binding *k, const ff_param *row, const fe_setting *s
                  fe_place_text(k->b->pipeline, wire->automatic ? from->place : wire->place));
 }
 
-/* Whether a wire replaces the parameter, or would do so if the model under `with` were chosen. */
+/* Whether a wire replaces the parameter, or would replace it if the model under `with` were in
+   use. */
 static bool may_be_replaced(const binding *k, size_t index)
 {
     return k->settings[index].wire ||
            (!k->chosen && ff_model_param(k->loaded->model, index)->instead);
 }
 
-/* Two members of a group contradict each other if both stand in files. An assignment replaces
- * the other member, and so does the stage's own key if the other stands in a set under `with`. */
+/* Whether two given members of a group contradict each other. They do if both stand in files. They
+   do not if one is an assignment, or if one is the stage's own key and the other stands in a set
+   under `with`: the former then replaces the latter. */
 static bool contradict(const binding *k, const fe_setting *a, const fe_setting *b)
 {
     const uint64_t later = a->priority > b->priority ? a->priority : b->priority;
@@ -278,8 +281,7 @@ static void refuse_both(const binding *k, const fe_setting *one, const fe_settin
              fe_place_text(pipeline, last->node->place));
 }
 
-/* Keeps the member of a group that the latest layer gives, unless two members contradict each
- * other. */
+/* Keeps the group member that the latest layer gives, unless two members contradict each other. */
 static void settle_group(binding *k, const ff_param *row)
 {
     const ff_model *model = k->loaded->model;
@@ -356,8 +358,8 @@ static ff_bound bind_row(binding *k, size_t index)
     return bound;
 }
 
-/* Reads all settings of one model. For another model under `with`, keys of the stage itself
- * count as given but are not read, since they are for the model in use. */
+/* Reads all settings of one model. For a model under `with` that is not in use, the stage's own
+   keys count as given but are not read, since they are meant for the model in use. */
 static void bind_model(binding *k)
 {
     const ff_model *model = k->loaded->model;
@@ -387,8 +389,8 @@ static void bind_model(binding *k)
     fe_free(k->settings);
 }
 
-/* Loads a model that stands under `with`. If it is not installed here, the run does without it
- * and says so. */
+/* Loads a model named under `with`. If it is not installed, the run continues without it and a
+   warning is given. */
 static const ff_loaded *load_offered(fe_build *b, const char *id, ff_place place)
 {
     ff_report *captured = ff_report_new();
@@ -404,8 +406,8 @@ static const ff_loaded *load_offered(fe_build *b, const char *id, ff_place place
     return loaded;
 }
 
-/* Checks the form of `with`, and the parameter sets of the models that are not in use; the next
- * --set may choose one of them. */
+/* Checks the form of `with`, and the parameter sets of the models that are not in use, since the
+   next --set may choose one of them. */
 static void check_sets(fe_build *b, ff_stage *stage)
 {
     const ff_node *with = ff_node_get(stage->node, "with");

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Writes values of parameters as a user would. */
+/* Writes parameter values as a user writes them. */
 #include "build.h"
 
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Brackets a call into a model, and turns its outcome into messages with places in the user's
- * file. */
+/* The bracket around a call into a model: turns its outcome into messages with places in the user's
+   file. */
 #include "build.h"
 
 #include <assert.h>
@@ -33,8 +33,8 @@ static fe_instance *instance_of(const ff_guard_mark *mark)
     return (fe_instance *)((char *)(uintptr_t)mark - offsetof(fe_instance, mark));
 }
 
-/* Returns the locks that a call needs: those of the stage's object and of the services that it
- * may call. */
+/* Returns the locks that a call needs: those of the stage's object and of the services that the
+   stage may call. */
 static fe_serial locks_of(const ff_guard_mark *mark)
 {
     fe_serial locks = instance_of(mark)->alone;
@@ -60,8 +60,8 @@ fe_call fe_call_begin(const ff_stage *stage, const char *action)
     return call;
 }
 
-/* Returns the place of a parameter, an input or an output of the stage; if it is not known, that
- * of the stage. */
+/* Returns the place of a parameter, an input or an output of the stage; if `item` has no place,
+   that of the stage. */
 static ff_place place_of(const ff_stage *stage, const char *item, bool *known)
 {
     const ff_model *model = stage->loaded->model;
@@ -76,7 +76,7 @@ static ff_place place_of(const ff_stage *stage, const char *item, bool *known)
     return stage->place;
 }
 
-/* The exit code of a status, and its reason when the model gives none. */
+/* The exit code of a status, and its text if the model gives no reason. */
 typedef struct meaning {
     ff_status status;
     int fault;
@@ -146,8 +146,8 @@ static bool tell_table(const ff_stage *stage, ff_report *report)
     return false;
 }
 
-/* Returns the stage that gives the service input of that name; NULL: there is none, or this is
- * no service input. */
+/* Returns the stage that gives the service input `item`; NULL: there is none, or `item` is no
+   service input. */
 static const ff_stage *server_of(const ff_stage *stage, const char *item)
 {
     const ff_model *model = stage->loaded->model;
@@ -161,7 +161,7 @@ static const ff_stage *server_of(const ff_stage *stage, const char *item)
     return NULL;
 }
 
-/* Writes the reasons that failing services gave during the call: " (mine: not so)". */
+/* Writes the reasons that failing services gave during the call: " (mine: the reason)". */
 static void print_words_of_services(const ff_stage *stage, char *out, size_t size)
 {
     const ff_guard_mark **services = stage->instance->mark.services;
@@ -175,7 +175,8 @@ static void print_words_of_services(const ff_stage *stage, char *out, size_t siz
     }
 }
 
-/* Reports a fault of a plugin: the stage's own, or that of the service that it complains of. */
+/* Reports a fault of a plugin: the stage's own plugin, or that of the service which the stage
+   reports as faulty. */
 static bool tell_fault(const fe_call *call, ff_status status, const char *text, ff_report *report)
 {
     const ff_stage *stage = call->stage, *server = server_of(stage, stage->instance->item);
@@ -227,8 +228,8 @@ static bool judge(const fe_call *call, ff_status status, ff_report *report)
     return true;
 }
 
-/* Warns that the call changed something which it must keep. Any service that the stage calls may
- * have made the change, since these calls bypass the engine. */
+/* Warns that the call changed something that it must not change. A service that the stage calls may
+   have made the change, since the engine does not see these calls. */
 static void warn_of_change(const ff_stage *stage, const char *changed, const char *action,
                            ff_report *report)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Gives a built pipeline other parameter values. Its stages and wires stay. */
+/* Changes parameter values of a built pipeline. Its stages and wires stay the same. */
 #include "build.h"
 #include "pipeline.h"
 
@@ -24,7 +24,7 @@ static ff_stage *find_target(const ff_pipeline *pipeline, const char *assignment
     return fits ? stage : NULL;
 }
 
-/* False if a run has left refused outputs behind. */
+/* False if a run has marked outputs as refused. */
 static bool is_as_built(const ff_pipeline *pipeline)
 {
     bool good = true;
@@ -44,10 +44,10 @@ static void bind_anew(fe_build *b, ff_stage *stage)
     fe_bind_stage(b, stage);
 }
 
-/* Whether an object also serves the next case. If its values stay, its results depend on them
- * and on its inputs alone. An object with a service wire does not stay, since the service table
- * may belong to an object that is destroyed; nor does one that hands on a state, since it would
- * start from the case before. */
+/* Whether an object can be reused for the next case. If its values are unchanged, its results
+   depend on its inputs only. An object with a service wire is not reused, since the service table
+   may belong to a destroyed object. An object with a chain state is not reused, since it would
+   start from the previous case. */
 static bool stays(const ff_stage *stage, bool changed)
 {
     bool kept = !changed && stage->loaded && stage->instance->alive && !ff_stage_has_state(stage);

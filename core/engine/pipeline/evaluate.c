@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* One evaluation of a stage, for the outputs that other stages and the user want. */
+/* One evaluation of a stage, for its wanted outputs. */
 #include "build.h"
 
 #include <assert.h>
@@ -27,7 +27,7 @@ static double seconds_of(clockid_t clock)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* Whether another stage requires the output, or it closes a loop. */
+/* Whether another stage requires the output, or the output closes a loop. */
 static bool must_feed(const ff_pipeline *pipeline, const ff_result *result)
 {
     for (size_t k = 0; k < pipeline->count; k++) {
@@ -43,9 +43,9 @@ static bool must_feed(const ff_pipeline *pipeline, const ff_result *result)
 }
 
 /* Drops outputs that the model refuses because its inputs do not allow them. An output may be
- * dropped if no required input needs it and it was not requested by name; "film.*" does not
- * count as a name. In the first round of a loop, which lacks the feedback, one that was
- * requested by name is dropped, too. True if any was dropped. */
+   dropped if no required input needs it and it was not requested by name; "film.*" is not a request
+   by name. In the first round of a loop, which has no feedback values, an output requested by name
+   is dropped, too. True if any was dropped. */
 static bool drop_refused(const ff_pipeline *pipeline, ff_stage *stage)
 {
     const fe_instance *instance = stage->instance;
@@ -62,7 +62,7 @@ static bool drop_refused(const ff_pipeline *pipeline, ff_stage *stage)
     return true;
 }
 
-/* Calls the model, and once more without the outputs that it refuses. */
+/* Calls the model; if it refuses some outputs, calls it once more without them. */
 static bool call_model(const ff_pipeline *pipeline, ff_stage *stage, const ff_array *in,
                        ff_report *report)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Loops closed by feedback wires: which stages they hold, and how the file wants them iterated. */
+/* Loops closed by feedback wires: their stages, and the settings for their iteration. */
 #include "build.h"
 
 #include <stdlib.h>
@@ -78,7 +78,7 @@ void fe_read_feedback(fe_build *b, const ff_node *feedback)
                                           .relaxation = values[RELAXATION].real};
 }
 
-/* Marks the stages that a stage needs, directly or through others. */
+/* Marks the stages that this stage needs, directly or through others. */
 static void mark_needs(const ff_pipeline *pipeline, size_t stage, bool *needs)
 {
     for (size_t i = 0; i < pipeline->stages[stage].wire_count; i++) {
@@ -123,8 +123,8 @@ static void refuse(fe_build *b, ff_stage *stage, ff_place place, const char *why
     ff_error(b->report, FF_FAULT_INPUT, place, NULL, "%s: it is in a loop, %s", stage->name, why);
 }
 
-/* Marks the feedback wires that close the loop of the stage, and refuses what a loop cannot
- * hold. */
+/* Marks the feedback wires that close the loop of the stage, and refuses wires that a loop cannot
+   have. */
 static void check_member(fe_build *b, ff_stage *stage)
 {
     for (size_t i = 0; i < stage->wire_count; i++) {
@@ -143,7 +143,7 @@ static void check_member(fe_build *b, ff_stage *stage)
     }
 }
 
-/* Puts a stage, or all stages of its loop, behind those that it needs. */
+/* Puts a stage, or all stages of its loop, behind the stages that it needs. */
 static void put_in_order(ff_pipeline *pipeline, const size_t *sorted, size_t at, bool *there,
                          size_t *count)
 {

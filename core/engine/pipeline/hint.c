@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Guesses the meaning of a key that a model does not have, from the words of the models' tables. */
+/* Suggests a meaning for a key that a model does not have, from the names and docs in the models'
+   tables. */
 #include "build.h"
 
 #include <ctype.h>
@@ -29,8 +30,8 @@ static bool has_words(const char *text, const char *key)
     return true;
 }
 
-/* Returns the parameter whose name has all words of the key or, if `explained`, whose line of
- * explanation has them; NULL: there is none. */
+/* Returns the parameter whose name has all words of the key or, if `explained`, whose doc has them;
+   NULL: there is none. */
 static const ff_param *find_by_words(const ff_model *model, const char *key, bool explained)
 {
     for (size_t i = 0; i < model->param_count; i++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The host's functions that a model may call. */
+/* The host functions that a model may call. */
 #include "build.h"
 
 #include <flankfilm/needs.h>
@@ -14,10 +14,10 @@
 enum {
     MOST_QUALITY = 1000,
     MOST_NEEDS = 1000,
-    FE_LEAVE = 2 /* the observer's answer that skips a stage */
+    FE_LEAVE = 2 /* result of the observer that skips a stage */
 };
 
-/* Keeps the first breach of the interface, for the message. */
+/* Stores the first violation of the interface, for the message. */
 __attribute__((format(printf, 2, 3))) static void breach(fe_instance *instance, const char *format,
                                                          ...)
 {
@@ -85,9 +85,9 @@ static int32_t host_progress(void *ctx, double fraction)
     return lacks || call.stop;
 }
 
-/* Runs engine code that allocates or that calls the program, so that a fault in it is not blamed
- * on the plugin. It must not jump across the plugin's frames, which may be on another thread; if
- * memory is missing, the call ends when the plugin returns. */
+/* Runs engine code that allocates memory or calls the program, so that a fault in it is not
+   attributed to the plugin. It must not jump across the plugin's frames, which may be on another
+   thread. If memory is missing, the call fails when the plugin returns. */
 static ff_status protect(fe_instance *instance, void (*function)(void *ctx), void *ctx)
 {
     ff_guard_mark mark = fe_guard_enter((ff_guard_mark){.path = NULL});
@@ -99,7 +99,7 @@ static ff_status protect(fe_instance *instance, void (*function)(void *ctx), voi
 
 typedef struct table_call {
     fe_tables *tables;
-    const char *item, *text; /* the path, or what is wrong */
+    const char *item, *text; /* the path, or the error text */
     const ff_param *rows;
     size_t count, stride;
     const ff_table *table;
@@ -167,8 +167,8 @@ static int32_t host_given(void *ctx, uint32_t param)
     return 0;
 }
 
-/* Whether the model has a parameter, a column of a table ("file.time"), an input or a wire of
- * that name. */
+/* Whether the model has a parameter, a table column ("file.time"), an input or a wire with that
+   name. */
 static bool has_item(const ff_model *model, const char *item)
 {
     if (ff_model_find_param(model, item) >= 0 || fe_find_table(model, item) >= 0)
@@ -205,7 +205,7 @@ static void free_serving(fe_serving *serving)
     fe_free(serving->text);
 }
 
-/* Keeps what the model says of an item. A later call for the same item replaces it. */
+/* Stores which outputs an item affects. A later call for the same item replaces it. */
 static void keep_serving(void *ctx)
 {
     const serves_call *call = ctx;
@@ -324,10 +324,10 @@ void fe_forget_servings(fe_instance *instance)
     instance->serving_count = 0;
 }
 
-/* False if the machine's memory cannot hold that many numbers, so that the shape must be wrong. */
+/* False if the machine's memory cannot hold so many numbers; the shape must then be wrong. */
 static bool has_room(uint32_t rank, const size_t *shape)
 {
-    const double surely = 1e6; /* this many surely fit */
+    const double surely = 1e6; /* this many certainly fit */
     double product = 1;
     for (uint32_t i = 0; i < rank; i++)
         product *= (double)shape[i];
@@ -394,7 +394,7 @@ static double *host_output(void *ctx, uint32_t index, uint32_t rank, const size_
             snprintf(instance->text, sizeof instance->text,
                      "there is not enough memory for the output \"%s\"", name);
     }
-    const bool knows = loaded->model->abi_minor >= 3; /* before it, all memory was zeroed */
+    const bool knows = loaded->model->abi_minor >= 3; /* before 1.3, all memory was zeroed */
     for (size_t k = 0; call.data && knows && !result->wanted && k < result->count; k++)
         call.data[k] = NAN;
     return call.data;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The life of a model's object: create, set, wire, ready, destroy. */
+/* The calls in the life of a model's object: create, set, wire, ready, destroy. */
 #include "build.h"
 
 #include "../plugin/param.h"
@@ -11,7 +11,7 @@ static void destroy(void *of)
 {
     fe_instance *instance = of;
     const ff_stage *stage = instance->stage;
-    /* a stage that nothing needs has no model */
+    /* a stage that is not needed has no model */
     const ff_model *model = instance->created ? stage->loaded->model : NULL;
     if (model && model->destroy) {
         fe_serial_enter(instance->alone);
@@ -33,7 +33,7 @@ void fe_place_params(const ff_stage *stage)
     }
 }
 
-/* Notes which parameters cannot be placed, and why. */
+/* Finds the parameters that cannot be placed, and stores the reason. */
 static void inspect(fe_instance *instance)
 {
     const ff_hooks *hooks = instance->hooks;
@@ -85,9 +85,9 @@ static bool set(ff_stage *stage, ff_report *report)
     return good;
 }
 
-/* Writes what is wrong with a service table, to complete 'the plugin gave ...'; "": nothing. A
- * table of an interface of flankfilm's own begins with its size and `self`, followed by
- * functions and positive numbers. */
+/* Describes what is wrong with a service table, to complete 'the plugin gave ...'; "": nothing. A
+   table of flankfilm's own interfaces begins with its size and `self`, followed by functions and
+   positive numbers. */
 static void look_at_table(const void *table, const char *id, char *wrong, size_t wrong_size)
 {
     enum { LARGEST = 4096 };
@@ -115,8 +115,8 @@ const void *fe_fetch_service(ff_stage *stage, uint32_t output, bool wired, ff_re
     char what[200], wrong[80] = "no table";
     fe_call call = fe_call_begin(stage, "service");
     const void *table = stage->loaded->model->service(stage->instance->self, output);
-    if (table &&
-        wired) /* Reads it here, so that a wild pointer crashes in the call that names its maker. */
+    if (table && wired) /* Reads the table here, so that an invalid pointer crashes in the call that
+                           names the plugin. */
         look_at_table(table, row->service, wrong, sizeof wrong);
     if (!fe_call_end(&call, FF_OK, report) || (table && (!wired || !wrong[0])))
         return table;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Texts that live as long as the pipeline, and parts that several messages share. */
+/* Texts that are valid as long as the pipeline, and phrases shared by several messages. */
 #include "build.h"
 
 #include "../value/tree.h"

@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* Leaves out outputs whose model says, by host->needs, that a parameter or an input is missing.
- * An output that is left out may be the input that another stage lacks, so stages are visited in
- * the order of the run. */
+/* Leaves out outputs for which the model lacks a parameter or an input (flankfilm.needs/1). Another
+   stage may then lack this output as its input, so stages are visited in the order of the run. */
 #include "build.h"
 
 #include "../plugin/param.h"
 
 #include <string.h>
 
-/* Whether the input or wire of that name brings anything. */
+/* Whether the input or wire with that name has a value. */
 static bool is_fed(const ff_pipeline *pipeline, const ff_stage *stage, const char *item)
 {
     for (size_t i = 0; stage->wire_count && i < stage->loaded->model->input_count; i++) {

@@ -31,7 +31,8 @@ static void say_why(ff_pipeline *pipeline, ff_stage *stage)
         stage->why = fe_pipeline_print(pipeline, "no requested output needs it");
 }
 
-/* Marks a stage as needed, its inputs as wanted, and so on with the stages that feed it. */
+/* Marks a stage as needed and its inputs as wanted, then does the same for the stages that feed
+   it. */
 static void mark(ff_pipeline *pipeline, ff_stage *stage)
 {
     if (stage->needed)
@@ -81,7 +82,7 @@ static void report_cycle(fe_build *b, const ff_stage *first, ff_place place)
              "pipeline: the stages wait for each other: %s%s", text, first->name);
 }
 
-/* Sorts depth first: a stage comes after those that feed it. Feedback wires do not count. */
+/* Depth-first sort: a stage comes after the stages that feed it. Feedback wires are ignored. */
 static void visit(fe_build *b, ff_stage *stage, size_t *sorted)
 {
     assert(stage->instance->sorting == FE_NEW);

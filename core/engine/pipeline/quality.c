@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* Quality lines: those that models give, unless the file accepts the doubt; results outside the
- * natural bounds of their rows; and differences between stages that give the same quantity. */
+/* Quality lines: those that models give, and whether the file accepts their doubts; results outside
+   the natural bounds of their rows; and differences between stages that give the same quantity. */
 #include "build.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Returns the file's reason for accepting a doubt of that name; NULL: it does not accept it. */
+/* Returns the file's reason for accepting the doubt with that name; NULL: the file does not accept
+   it. */
 static const char *reason_to_accept(const ff_stage *stage, const char *name)
 {
     const size_t length = strlen(stage->name);
@@ -71,8 +72,8 @@ typedef struct bounds {
     double least, most;
 } bounds;
 
-/* Returns the bounds of a row. Models before 1.3 cannot say that a number in K is a difference
- * of temperatures. */
+/* Returns the bounds of a row. Before 1.3 a model could not mark a number in K as a temperature
+   difference, so it has no lower bound. */
 static bounds bounds_of(const ff_model *model, const ff_port *row)
 {
     const bool point = !(row->flags & FF_DIFFERENCE) && !strcmp(row->unit, "K");
@@ -89,8 +90,8 @@ static double outside(const bounds *b, double value)
     return fmax(fmax(b->least - value, value - b->most), 0);
 }
 
-/* Returns the number that lies farthest outside the bounds; NULL: all are within. A distance
- * within rounding, of the bounds or of the largest number, is no violation. */
+/* Returns the number that lies farthest outside the bounds; NULL: all are inside. An excess within
+   rounding of the bounds or of the largest number does not count. */
 static const double *find_worst(const bounds *b, const ff_result *result)
 {
     const double rounding = 1e-12;
@@ -132,7 +133,7 @@ void fe_judge_bounds(ff_stage *stage)
     }
 }
 
-/* Returns the scalar output with which the stage gives the same quantity; NULL: none. */
+/* Returns the scalar output by which the stage gives the same quantity; NULL: none. */
 static ff_result *find_quantity(const ff_stage *stage, const ff_port *as)
 {
     for (size_t i = 0; stage->needed && stage->loaded && i < stage->loaded->model->output_count;
@@ -159,7 +160,7 @@ void fe_want_quantities(ff_pipeline *pipeline)
     }
 }
 
-/* One quantity, given by two stages. */
+/* Two stages that give the same quantity. */
 typedef struct pair {
     const ff_stage *stage;
     const ff_result *result;
@@ -185,8 +186,7 @@ static void add_agreement(ff_stage *stage, const ff_result *own, const pair *oth
              own->row->quantity, here, there, other->stage->name, other->result->row->name,
              own->row->unit);
     for (size_t i = stage->quality_count; i-- > 0;)
-        if (!strcmp(stage->quality[i].name,
-                    name)) /* from another run, whose results were taken over */
+        if (!strcmp(stage->quality[i].name, name)) /* reused from an earlier run */
             ff_drop_quality(stage, i);
     ff_add_quality(stage, name, other->apart, other->allowed,
                    other->apart > other->allowed ? FF_RANGE : FF_GOOD, text);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Reads the top of a file, and the names and models of its stages. */
+/* Reads the top-level keys of a file, and the names and models of its stages. */
 #include "build.h"
 
 #include "../value/tree.h"
@@ -108,7 +108,7 @@ static bool check_name(fe_build *b, const char *name, ff_place place)
         name, LONGEST_NAME);
 }
 
-/* Reports a stage without `use`; its name may be mistyped, as in a --set. */
+/* Reports a stage without `use`; its name may be misspelt, as in a --set. */
 static void refuse_unused(fe_build *b, const ff_stage *stage, const ff_node *map)
 {
     const char **others = fe_alloc(map->count * sizeof *others), *list = "";

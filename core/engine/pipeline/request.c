@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Gives an output the next place among the requested ones, unless it has one. */
+/* Gives an output the next position among the requested ones, unless it has one. */
 static void request(fe_build *b, ff_result *result)
 {
     if (!result->requested)
@@ -27,8 +27,8 @@ static bool request_all(fe_build *b, ff_stage *stage)
     return some;
 }
 
-/* A text "STAGE.NAME" in the file: the key it stands under, and what NAME is there, for
- * messages. */
+/* A text "STAGE.NAME" in the file. For messages: the key it stands under, and what NAME is
+   there. */
 typedef struct naming {
     const char *key, *item;
 } naming;
@@ -92,7 +92,7 @@ static void read_request(fe_build *b, const ff_node *item)
 }
 
 /* Requests the default outputs if the file lists none: those of the stages that feed no other
- * stage. Feedback wires do not count. */
+   stage. Feedback wires are ignored. */
 static void request_default(fe_build *b)
 {
     ff_pipeline *pipeline = b->pipeline;
@@ -112,7 +112,7 @@ static void request_default(fe_build *b)
     fe_free(feeds);
 }
 
-/* Whether an earlier entry named the same missing stage, so that it was reported. */
+/* Whether an earlier entry named the same missing stage, so that it was already reported. */
 static bool is_missed_again(const fe_build *b, const ff_node *outputs, size_t index)
 {
     const ff_node *item = outputs->items[index];

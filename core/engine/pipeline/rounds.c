@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Runs a loop: evaluates its stages in order, round after round, until the values on its
- * feedback wires no longer change. In the first round these are absent, which is the run without
- * feedback. A stage whose inputs equal those of its last evaluation to the bit is not evaluated
- * again. */
+/* Runs a loop: evaluates its stages in order, round after round, until the values on its feedback
+   wires have converged. In the first round these values are absent, as in a run without feedback. A
+   stage whose inputs are bitwise equal to those of its last evaluation is not evaluated again. */
 #include "build.h"
 
 #include <assert.h>
@@ -36,7 +35,7 @@ static bool same_bits(const ff_result *a, const ff_result *b)
     return same_shape(a, b) && !memcmp(a->data, b->data, a->count * sizeof *a->data);
 }
 
-/* Returns the largest change over the largest number; 1 if the two cannot be compared. */
+/* Returns the largest change relative to the largest number; 1 if the two cannot be compared. */
 static double change(const ff_result *now, const ff_result *before)
 {
     double most = 0, off = 0;
@@ -51,8 +50,7 @@ static double change(const ff_result *now, const ff_result *before)
     return off > 0 ? most > 0 ? off / most : 1 : 0;
 }
 
-/* Returns what the stage at the other end of a feedback wire gave; NULL: the input is on no such
- * wire. */
+/* Returns the output at the other end of a feedback wire; NULL: the input is on no such wire. */
 static const ff_result *given_back(const iteration *it, const fe_loop_stage *m, size_t input)
 {
     return fe_is_fed_back(m->stage, input) ? ff_feeding_result(it->pipeline, m->stage, input)
@@ -103,7 +101,7 @@ static void feed_all(iteration *it)
     }
 }
 
-/* Whether an input has changed since the stage was evaluated last. */
+/* Whether an input has changed since the stage was last evaluated. */
 static bool is_fed_anew(const iteration *it, const fe_loop_stage *m)
 {
     const ff_model *model = m->stage->loaded->model;
@@ -123,8 +121,8 @@ static bool is_fed_anew(const iteration *it, const fe_loop_stage *m)
 static void ask_for_all(fe_loop_stage *m)
 {
     for (size_t i = 0; i < m->stage->loaded->model->output_count; i++) {
-        m->stage->results[i].wanted = m->asked[i].wanted;
-        m->stage->results[i].requested = m->asked[i].requested;
+        m->stage->results[i].wanted = m->initial[i].wanted;
+        m->stage->results[i].requested = m->initial[i].requested;
     }
 }
 
@@ -133,8 +131,8 @@ static bool lacks_output(const fe_loop_stage *m)
 {
     bool lacks = false;
     for (size_t i = 0; i < m->stage->loaded->model->output_count; i++)
-        lacks =
-            lacks || (m->asked[i].required && m->asked[i].wanted != m->stage->results[i].wanted);
+        lacks = lacks ||
+                (m->initial[i].required && m->initial[i].wanted != m->stage->results[i].wanted);
     return lacks;
 }
 
@@ -154,7 +152,7 @@ static void hand_on(const ff_report *from, ff_report *to)
         fe_report_note_no_memory(to);
 }
 
-/* Evaluates a stage, and notes which of its outputs have changed. */
+/* Evaluates a stage, and records which of its outputs have changed. */
 static bool evaluate(iteration *it, fe_loop_stage *m)
 {
     ff_stage *stage = m->stage;
@@ -194,8 +192,8 @@ static bool run_round(iteration *it, bool first)
     return true;
 }
 
-/* Notes the first input whose series has another length than in the round before; its residual
- * cannot become small. */
+/* Records the first input whose series has another length than in the round before; its residual
+   cannot become small. */
 static void note_uneven(iteration *it)
 {
     for (size_t k = 0; k < it->count; k++) {
@@ -212,8 +210,8 @@ static void note_uneven(iteration *it)
     }
 }
 
-/* Prints the stages, and the residuals of the first rounds and the last: "a, b: 1, 0.5, ...,
- * 0.01". */
+/* Prints the stages, the residuals of the first rounds and the last one: "a, b: 1, 0.5, ...,
+   0.01". */
 static char *print_history(const iteration *it)
 {
     enum { AT_FIRST = 4, AT_LAST = 8 };
@@ -284,7 +282,7 @@ static bool iterate(iteration *it)
     return good;
 }
 
-/* Takes over the results of an earlier run, or computes them. */
+/* Reuses the results of an earlier run, or computes them. */
 static bool obtain(iteration *it, const ff_observer *watch)
 {
     ff_stage *first = it->members[0].stage;
@@ -326,12 +324,12 @@ static void enter(fe_loop_stage *m, ff_stage *stage, const ff_observer *watch)
 {
     const ff_model *model = stage->loaded->model;
     *m = (fe_loop_stage){.stage = stage,
-                         .asked = fe_alloc(model->output_count * sizeof *m->asked),
+                         .initial = fe_alloc(model->output_count * sizeof *m->initial),
                          .fed = fe_alloc(model->input_count * sizeof *m->fed),
                          .fed_anew = fe_alloc(model->input_count * sizeof *m->fed_anew),
                          .gave_anew = fe_alloc(model->output_count * sizeof *m->gave_anew)};
     fe_forget_results(stage);
-    memcpy(m->asked, stage->results, model->output_count * sizeof *m->asked);
+    memcpy(m->initial, stage->results, model->output_count * sizeof *m->initial);
     stage->instance->member = m;
     stage->instance->watch = watch;
 }
@@ -342,7 +340,7 @@ static void leave(fe_loop_stage *m)
         ask_for_all(m);
     for (size_t i = 0; i < m->stage->loaded->model->input_count; i++)
         forget(&m->fed[i]);
-    fe_free(m->asked);
+    fe_free(m->initial);
     fe_free(m->fed);
     fe_free(m->fed_anew);
     fe_free(m->gave_anew);

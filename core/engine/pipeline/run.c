@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Runs the needed stages in order: a stage once, a loop round after round. */
+/* Runs the needed stages in order: a stage once, a loop in rounds. */
 #include "../plugin/engine.h"
 #include "build.h"
 #include "pipeline.h"
@@ -12,8 +12,8 @@ static bool evaluate(const ff_pipeline *pipeline, ff_stage *stage, const ff_arra
     return fe_evaluate(pipeline, stage, in, report) && fe_save_state(pipeline, stage, report);
 }
 
-/* Evaluates the stage, or takes over the results of an earlier run. A stage that is needed only
- * for its service computes nothing. */
+/* Evaluates the stage, or reuses the results of an earlier run. A stage that is needed only for its
+   service computes nothing. */
 static bool obtain(const ff_pipeline *pipeline, ff_stage *stage, const ff_array *in,
                    ff_report *report)
 {
@@ -59,8 +59,8 @@ static void begin_run(ff_pipeline *pipeline)
     }
 }
 
-/* Reports plugins whose file was overwritten in place, which changes their code while it runs.
- * Putting a new file in its place, as `install` does, is harmless. */
+/* Reports plugins whose file was overwritten in place, which changes their running code. Replacing
+   the file by a new one, as `install` does, is harmless. */
 static bool check_files(const ff_pipeline *pipeline, ff_report *report)
 {
     static const char what[] =

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Finds what the file says for a parameter or a wire. */
+/* Finds the value of a parameter or a wire in the file. */
 #include "build.h"
 
 #include <stdio.h>

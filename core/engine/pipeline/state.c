@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The state that a stage hands on to the next case of a chain, which starts from it. */
+/* The chain state: a stage hands it to the next case of a chain, which starts from it. */
 #include "build.h"
 
 #include <stdio.h>
@@ -51,7 +51,7 @@ bool fe_save_state(const ff_pipeline *pipeline, ff_stage *stage, ff_report *repo
                  to.count, to.bytes ? "" : " without their address", MOST_BYTES);
         return fe_plugin_fault(stage, report, what);
     }
-    if (to.count) /* otherwise the state that the stage was given is handed on */
+    if (to.count) /* if evaluate left no state, the state before it is handed on */
         ff_stage_set_state(stage, to.bytes, to.count);
     return true;
 }

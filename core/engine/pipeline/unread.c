@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Reports settings without effect: those of stages that do not run, and parameters and wires
- * that serve no requested output, as their models say by host->serves. Refuses what is said in
- * two places. */
+/* Reports settings without effect: those of stages that do not run, and parameters and wires that
+   affect no requested output (host->serves). Refuses values that are given twice. */
 #include "build.h"
 
 #include "../plugin/param.h"
@@ -21,8 +20,8 @@ int fe_find_table(const ff_model *model, const char *item)
     return -1;
 }
 
-/* Returns what the model has said of the item, a parameter or an input; an input may be named by
- * its wire. NULL: nothing, so that it serves all outputs. */
+/* Returns what the model stated about an item by host->serves; an input may be named by its wire.
+   NULL: nothing, so that the item affects all outputs. */
 static const fe_serving *serving_of(const ff_stage *stage, const char *item)
 {
     const fe_instance *instance = stage->instance;
@@ -35,7 +34,7 @@ static const fe_serving *serving_of(const ff_stage *stage, const char *item)
     return NULL;
 }
 
-/* Returns the stage that feeds an input, and in *output which of its outputs; NULL: none. */
+/* Returns the stage that feeds an input, and in *output the index of the output; NULL: none. */
 static ff_stage *feeding(const ff_pipeline *pipeline, const ff_stage *stage, size_t input,
                          size_t *output)
 {
@@ -48,7 +47,7 @@ static ff_stage *feeding(const ff_pipeline *pipeline, const ff_stage *stage, siz
     return offer < 0 ? NULL : from;
 }
 
-/* Marks an output that a requested one depends on, and the outputs that it depends on itself. */
+/* Marks an output on which a requested one depends, and all outputs on which it depends itself. */
 static void mark_read(const ff_pipeline *pipeline, ff_stage *stage, size_t output)
 {
     bool *read = stage->instance->read;
@@ -75,7 +74,8 @@ static bool reads_any(const ff_stage *stage, const char *outputs)
     return false;
 }
 
-/* Returns where a parameter or a wire of the stage is written; its source is NULL if it is not. */
+/* Returns the place where a parameter or a wire of the stage is written; its source is NULL if it
+   is not written. */
 static ff_place written_at(const fe_build *b, const ff_stage *stage, const char *item)
 {
     int param = ff_model_find_param(stage->loaded->model, item);
@@ -89,8 +89,8 @@ static ff_place written_at(const fe_build *b, const ff_stage *stage, const char 
     return FF_NOWHERE;
 }
 
-/* Explains why a stage that takes this output, on which no requested output depends, does not
- * use it. */
+/* For an output that affects no requested output: returns why a stage that takes it does not use
+   it. */
 static const fe_serving *excuse_of(const fe_build *b, const ff_stage *from, size_t output,
                                    const ff_stage **taker)
 {
@@ -111,10 +111,10 @@ static const fe_serving *excuse_of(const fe_build *b, const ff_stage *from, size
     return NULL;
 }
 
-/* Refuses a parameter that another setting replaces: `serving`, of the stage `by`, says the same
- * thing a second time. */
-static bool refuse_twice(fe_build *b, const ff_stage *stage, const fe_serving *said, ff_place place,
-                         const ff_stage *by, const fe_serving *serving)
+/* Refuses a parameter whose value stage `by` gives a second time: `stated` names the parameter,
+   `serving` the item of stage `by` that replaces it. */
+static bool refuse_twice(fe_build *b, const ff_stage *stage, const fe_serving *stated,
+                         ff_place place, const ff_stage *by, const fe_serving *serving)
 {
     ff_place other = *serving->by ? written_at(b, by, serving->by) : FF_NOWHERE;
     if (!other.source)
@@ -123,8 +123,8 @@ static bool refuse_twice(fe_build *b, const ff_stage *stage, const fe_serving *s
              fe_pipeline_print(b->pipeline,
                                "leave one of both out; an empty value takes it away: "
                                "--set %s.%s=",
-                               stage->name, said->item),
-             "%s.%s and %s.%s (%s) say the same thing in two places%s%s", stage->name, said->item,
+                               stage->name, stated->item),
+             "%s.%s and %s.%s (%s) say the same thing in two places%s%s", stage->name, stated->item,
              by->name, serving->by, fe_place_text(b->pipeline, other), *serving->text ? ": " : "",
              serving->text);
     return true;
@@ -143,46 +143,46 @@ static const char *list_outputs(fe_build *b, const char *outputs)
     return text;
 }
 
-/* Whether the outputs were chosen after the value was written, by a file that includes it, a
- * study or an assignment. The value then served other outputs. */
+/* Whether the outputs were chosen after the value was written: by a file that includes it, by a
+   study or by an assignment. The value was then written for other outputs. */
 static bool is_chosen_later(const ff_stage *stage, const char *item, const ff_node *outputs)
 {
     const ff_node *value = ff_node_get(stage->node, item);
     return value && outputs && outputs->rank > value->rank;
 }
 
-static void check_serving(fe_build *b, const ff_stage *stage, const fe_serving *said,
+static void check_serving(fe_build *b, const ff_stage *stage, const fe_serving *serving,
                           const ff_node *outputs)
 {
-    ff_place place = written_at(b, stage, said->item);
+    ff_place place = written_at(b, stage, serving->item);
     const ff_stage *taker = NULL;
     const fe_serving *excuse = NULL;
-    int param = ff_model_find_param(stage->loaded->model, said->item);
-    if (!place.source || reads_any(stage, said->outputs) ||
-        refuse_twice(b, stage, said, place, stage, said))
+    int param = ff_model_find_param(stage->loaded->model, serving->item);
+    if (!place.source || reads_any(stage, serving->outputs) ||
+        refuse_twice(b, stage, serving, place, stage, serving))
         return;
     for (size_t i = 0; i < stage->loaded->model->output_count && !excuse; i++)
-        if (fe_word_find(said->outputs, stage->results[i].row->name) >= 0)
+        if (fe_word_find(serving->outputs, stage->results[i].row->name) >= 0)
             excuse = excuse_of(b, stage, i, &taker);
-    if (excuse && param >= 0 && refuse_twice(b, stage, said, place, taker, excuse))
+    if (excuse && param >= 0 && refuse_twice(b, stage, serving, place, taker, excuse))
         return;
-    if (*said->text)
-        ff_warn(b->report, place, "%s.%s changes nothing: %s", stage->name, said->item, said->text);
+    if (*serving->text)
+        ff_warn(b->report, place, "%s.%s changes nothing: %s", stage->name, serving->item,
+                serving->text);
     else if (excuse && *excuse->text)
-        ff_warn(b->report, place, "%s.%s changes nothing: %s: %s", stage->name, said->item,
+        ff_warn(b->report, place, "%s.%s changes nothing: %s: %s", stage->name, serving->item,
                 taker->name, excuse->text);
-    else if (*said->outputs && is_chosen_later(stage, said->item, outputs))
+    else if (*serving->outputs && is_chosen_later(stage, serving->item, outputs))
         return;
-    else if (*said->outputs)
+    else if (*serving->outputs)
         ff_warn(b->report, place, "%s.%s changes nothing: no requested output depends on %s of %s",
-                stage->name, said->item, list_outputs(b, said->outputs), stage->name);
+                stage->name, serving->item, list_outputs(b, serving->outputs), stage->name);
     else
         ff_warn(b->report, place, "%s.%s changes nothing with these settings", stage->name,
-                said->item);
+                serving->item);
 }
 
-/* Warns of a stage that runs because others take its outputs, none of which affects a requested
- * one. */
+/* Warns of a stage whose outputs are used by other stages but affect no requested output. */
 static void warn_of_stage(fe_build *b, const ff_stage *stage)
 {
     const ff_stage *taker = NULL;
@@ -219,7 +219,7 @@ static void warn_of_idle(fe_build *b, const ff_node *outputs)
     for (size_t i = 0; i < b->pipeline->count; i++) {
         const ff_stage *stage = &b->pipeline->stages[i];
         if (stage->needed || fe_latest_rank(stage->node) < b->file_rank)
-            continue; /* an included file may offer more than is used */
+            continue; /* an included file may define more than is used */
         if (warn_of_assigned(b, stage, stage->node, stage->name))
             continue;
         names = fe_join(b->pipeline, names,

@@ -7,8 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Compares names from the last one backwards. An optional first dimension may be absent on
- * either side; the run checks that. */
+/* Compares the dimension names from the last to the first. An optional first dimension may be
+   absent on either side; the run checks that. */
 static bool dims_agree(const ff_dims *given, const ff_dims *taken)
 {
     const ff_dims *longer = given->rank > taken->rank ? given : taken;
@@ -21,7 +21,7 @@ static bool dims_agree(const ff_dims *given, const ff_dims *taken)
     return true;
 }
 
-/* The units were read when the models were loaded. */
+/* Compares the units, which were parsed when the models were loaded. */
 static bool units_agree(const ff_port *given, const ff_port *taken)
 {
     ff_unit one, other;
@@ -46,7 +46,7 @@ static const char *row_misfit(fe_build *b, const ff_loaded *to, size_t input, co
     return NULL;
 }
 
-/* Whether the row is a service that a wire may carry beside its first one. */
+/* Whether the row is a second service of its wire. */
 static bool is_further_service(const ff_port *row)
 {
     return (row->flags & FF_OPTIONAL) && strchr(row->name, '.');
@@ -73,7 +73,7 @@ const char *fe_wire_misfit(fe_build *b, const ff_stage *stage, const char *wire,
     return why || feeds ? why : "offers nothing that this wire carries";
 }
 
-/* Lists what the wire must carry: "time, load_per_width", or the id of a service; "": nothing. */
+/* Lists what the wire must carry: "time, load_per_width", or a service id; "": nothing. */
 static const char *wire_needs(fe_build *b, const ff_stage *stage, const ff_wire *wire)
 {
     const char *needs = "";
@@ -148,8 +148,8 @@ static bool is_kind_installed(fe_build *b, const char *use)
     return false;
 }
 
-/* Whether some stage has no model or an unknown kind, which is reported already. That stage may
- * be the one that is meant to feed a wire. */
+/* Whether some stage has no model or an unknown kind, which is already reported. That stage may be
+   the one that should feed a wire. */
 static bool is_some_kind_unknown(fe_build *b)
 {
     bool some = false;
@@ -161,7 +161,7 @@ static bool is_some_kind_unknown(fe_build *b)
     return some;
 }
 
-/* Connects the only stage, among the kinds of the wire, that can feed it; false after an error. */
+/* Connects the only stage that can feed the wire, among the wire's kinds; false after an error. */
 static bool link_automatic(fe_build *b, const ff_stage *stage, ff_wire *wire, const char *kinds)
 {
     const char *fitting = "", *why_not = NULL;
@@ -201,8 +201,8 @@ static bool link_automatic(fe_build *b, const ff_stage *stage, ff_wire *wire, co
                     fitting);
 }
 
-/* Makes a wire for each word that stands before the dot in names of input rows, and finds what
- * feeds it. */
+/* Creates a wire for each prefix before the dot in the names of input rows, and finds the stage
+   that feeds it. */
 static void link_stage(fe_build *b, ff_stage *stage)
 {
     const ff_model *model = stage->loaded->model;
@@ -242,7 +242,7 @@ void fe_link_from(fe_build *b, ff_stage *stage)
 /* The stage and output that determine the length of a dimension. */
 typedef struct fe_origin {
     const ff_stage *stage;
-    bool known; /* false for a model older than 1.3, which cannot tell */
+    bool known; /* false for a model older than 1.3, whose dimensions do not tell their origin */
 } fe_origin;
 
 static int find_dim(const ff_dims *dims, const char *name)
@@ -253,7 +253,7 @@ static int find_dim(const ff_dims *dims, const char *name)
     return -1;
 }
 
-/* Returns an input that brings a dimension of that name over that wire in each round; -1: none. */
+/* Returns an input that has this dimension on this wire in each round; -1: none. */
 static int find_bringer(const ff_pipeline *pipeline, const ff_stage *stage, const char *wire,
                         size_t length, const char *dim)
 {
@@ -277,7 +277,7 @@ static fe_origin origin_of(const ff_pipeline *pipeline, const ff_stage *stage, s
         const ff_stage *from = &pipeline->stages[fe_input_wire(stage, input)->stage];
         const int at = find_dim(&from->loaded->output_dims[given - from->results], dim);
         size_t length;
-        if (at < 0) /* the optional first dimension, which is never given here */
+        if (at < 0) /* the optional first dimension is absent here */
             break;
         const char *wire = fe_dim_wire(from->loaded->model, given->row, (uint32_t)at, &length);
         if (length == 0)
@@ -291,8 +291,8 @@ static fe_origin origin_of(const ff_pipeline *pipeline, const ff_stage *stage, s
     return (fe_origin){.known = false};
 }
 
-/* Whether input `i`, whose dimension `at` belongs to another wire, is fed along that wire's
- * dimension. */
+/* Checks input `i`, whose dimension number `at` belongs to another wire: it must be fed along that
+   wire's dimension. */
 static bool check_dim(fe_build *b, const ff_stage *stage, size_t i, uint32_t at)
 {
     const ff_loaded *loaded = stage->loaded;

@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-/* Whether the character is in neither of the two ranges of control characters. */
+/* Whether the character lies outside the two ranges of control characters. */
 static bool is_clean(uint32_t c)
 {
     return c >= 0x20 && (c < 0x7f || c > 0x9f) && c != FE_NO_CHAR;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Texts without control characters, which a terminal would act on. */
+/* Removes control characters, which would affect a terminal, from texts. */
 #ifndef FE_CLEAN_H
 #define FE_CLEAN_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The dimensions of a row: their names, and the wires that they belong to. */
+/* The dimensions of a row: their names, and the wires to which they belong. */
 #include "rows.h"
 
 #include <string.h>

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Checks a shared object before dlopen, which maps the file: reading behind the end of a
- * truncated one would end the program with a bus error. So the extent that the file states is
- * compared with its size. The file is also hashed, which tells one build of a plugin from
- * another. */
+/* Checks a shared object before dlopen. dlopen maps the file, and reading beyond the end of a
+   truncated file would end the program with a bus error. The size of the file is therefore compared
+   with its header. The file is also hashed, to distinguish builds of a plugin. */
 #include "private.h"
 
 #include <errno.h>
@@ -13,8 +12,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Reads until `size` bytes are there or the file ends. The system may interrupt a read or give
- * less than asked. */
+/* Reads until `size` bytes are read or the file ends. The system may interrupt a read or return
+   fewer bytes than requested. */
 static size_t read_at(int file, void *to, size_t size, off_t at)
 {
     size_t done = 0;
@@ -27,8 +26,8 @@ static size_t read_at(int file, void *to, size_t size, off_t at)
     return done;
 }
 
-/* Returns NULL, or what is wrong. The section table is at the end of the file, so any truncation
- * loses it first. */
+/* Returns NULL, or a description of the fault. The section table is at the end of the file, so any
+   truncation damages it first. */
 static const char *find_fault(int file, struct stat *status)
 {
     static const char cut[] = "is not a complete shared object: it was cut short";
@@ -52,7 +51,7 @@ static const char *find_fault(int file, struct stat *status)
     return head.e_type == ET_DYN ? NULL : "is not a shared object";
 }
 
-/* FNV-1a over words of eight bytes; the high bits of a word are folded into the low ones. */
+/* FNV-1a over words of eight bytes; the high bits of each word are folded into the low ones. */
 static uint64_t hash_file(int file)
 {
     uint64_t block[2048], hash = UINT64_C(0xcbf29ce484222325);

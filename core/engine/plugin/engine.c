@@ -17,8 +17,8 @@ static ff_status protect(fe_heap *heap, void (*function)(void *ctx), void *ctx)
 
 static void be_silent(ff_engine *engine)
 {
-    fe_free(engine->said);
-    engine->said = NULL;
+    fe_free(engine->report_text);
+    engine->report_text = NULL;
     engine->message = "";
 }
 
@@ -39,8 +39,8 @@ void fe_engine_say(ff_engine *engine, const ff_report *report)
 {
     be_silent(engine);
     fe_heap *before = fe_heap_use(&engine->heap);
-    engine->said = ff_report_text(report, false);
-    engine->message = engine->said;
+    engine->report_text = ff_report_text(report, false);
+    engine->message = engine->report_text;
     fe_heap_use(before);
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Finds the model with an id among those that a shared object exports. */
+/* Finds the model with a given id among those that a shared object exports. */
 #include "private.h"
 
 #include <dlfcn.h>
@@ -11,8 +11,8 @@ enum { MOST_MODELS = 1000 };
 typedef const ff_model *one_model(void);
 typedef const ff_model *const *list_of_models(void);
 
-/* Returns NULL, or what is wrong with entry `index` of the list; the entries before it are
- * sound. */
+/* Returns NULL, or a description of the fault of entry `index` of the list; the earlier entries are
+   correct. */
 static const char *find_fault(const ff_model *const *list, size_t index)
 {
     const ff_model *model = list[index];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The working directory, which a plugin must leave as it is. */
+/* The working directory, which a plugin must not change. */
 #ifndef FE_FOLDER_H
 #define FE_FOLDER_H
 
@@ -7,11 +7,11 @@
 #include <stdbool.h>
 
 typedef struct fe_folder {
-    char path[PATH_MAX]; /* "" if it is not known */
+    char path[PATH_MAX]; /* "" if unknown */
 } fe_folder;
 
 void fe_folder_keep(fe_folder *folder);
-/* Returns to the working directory that was kept; true if it had been left. */
+/* Returns to the saved working directory; true if it had been left. */
 bool fe_folder_restore(const fe_folder *folder);
 
 #endif

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* Keeps the mark of the code that is running, for each thread, and names it for messages. */
+/* Stores a mark of the running code for each thread, and prints it for messages. */
 #include "guard.h"
 
 #include "private.h"
 
 #include <string.h>
 
-/* The initial-exec model needs no allocation when a signal handler is the first to read these. */
+/* With the initial-exec model, nothing is allocated if a signal handler is the first to read
+   these. */
 static _Thread_local ff_guard_mark running __attribute__((tls_model("initial-exec")));
 static _Thread_local ff_guard_mirror *mirror __attribute__((tls_model("initial-exec")));
 

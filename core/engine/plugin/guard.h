@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Marks which code runs from here on, for ff_guard_current. Calls may nest: fe_guard_leave takes
- * the mark that fe_guard_enter returned. */
+/* Sets and restores the mark of ff_guard_current. Calls may nest: fe_guard_leave takes the mark
+   that fe_guard_enter returned. */
 #ifndef FE_GUARD_H
 #define FE_GUARD_H
 

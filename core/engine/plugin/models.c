@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The models of an engine: those that can be found, and those that are loaded. */
+/* The models of an engine: those on the search path, and those that are loaded. */
 #include "environment.h"
 #include "folder.h"
 #include "private.h"
@@ -47,7 +47,8 @@ char *ff_engine_file(const ff_engine *engine, const char *name)
     return NULL;
 }
 
-/* Returns the message of the dynamic linker without the path, which our own sentence contains. */
+/* Returns the message of the dynamic linker without the path, which the engine's message already
+   has. */
 static const char *linker_words(const char *path)
 {
     const char *words = dlerror();
@@ -57,8 +58,8 @@ static const char *linker_words(const char *path)
     return words ? words : "for a reason that the linker does not tell";
 }
 
-/* Whether the linker failed for want of memory. If it cannot map a file it gives no reason:
- * either memory is missing, or the file system forbids programs. */
+/* Whether the linker failed because of missing memory. If it cannot map a file it gives no reason:
+   either memory is missing, or the file system forbids execution. */
 static bool is_of_memory(const char *path, const char *words)
 {
     struct statvfs system;
@@ -67,10 +68,10 @@ static bool is_of_memory(const char *path, const char *words)
            (strstr(words, unmapped) && statvfs(path, &system) == 0 && !(system.f_flag & ST_NOEXEC));
 }
 
-/* Opens a shared object for good, since unloading breaks what it registered. RTLD_LOCAL keeps
- * the names of plugins apart; RTLD_DEEPBIND is not used, since it would give a plugin an
- * allocator of its own. Without memory the linker often gives another reason, so it is asked
- * twice: a fault of the file is the same again. */
+/* Opens a shared object for the rest of the process, since unloading breaks what it registered.
+   RTLD_LOCAL separates the symbols of plugins. RTLD_DEEPBIND is not used, since it would give a
+   plugin an allocator of its own. If memory is missing, the linker often gives another reason. The
+   open is therefore tried twice: a fault of the file gives the same reason again. */
 static void *open_file(const char *path, char *why, size_t why_size)
 {
     char first[1024];
@@ -95,7 +96,7 @@ typedef struct loading {
     ff_report *report;
     ff_loaded *loaded;
     bool good;
-    char why[1024]; /* why it cannot be loaded */
+    char why[1024]; /* reason for the failure */
 } loading;
 
 static void open_object(void *ctx)
@@ -104,7 +105,7 @@ static void open_object(void *ctx)
     fe_object_file file;
     if (!fe_elf_check(l->loaded->path, &file, l->why, sizeof l->why))
         return;
-    /* to come back, since a constructor of the plugin may change the folder */
+    /* to return to, since a constructor of the plugin may change the directory */
     int folder = open(".", O_PATH | O_DIRECTORY | O_CLOEXEC);
     void *object = open_file(l->loaded->path, l->why, sizeof l->why);
     l->loaded->build = file.hash;
@@ -150,8 +151,8 @@ static bool load_file(loading *l, char *path)
     return ff_error(l->report, FF_FAULT_PLUGIN, l->place, NULL, "the plugin %s %s", path, clean);
 }
 
-/* Returns the id nearest to a wrong one, or that of a model with the same name in another kind;
- * NULL: none. */
+/* Returns the id that was probably meant: the nearest one, or one with the same name and another
+   kind; NULL: none. */
 static const char *meant(ff_engine *engine, const char *id)
 {
     size_t count;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Reads the value of a parameter from the file, as its row in the model's table says. */
+/* Reads the value of a parameter from the file, according to its row. */
 #include "param.h"
 
 #include "../value/limits.h"
@@ -18,7 +18,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* A parameter that is being read. */
+/* The state of reading one parameter. */
 typedef struct reading {
     const ff_param *row;
     const ff_unit *unit;
@@ -109,8 +109,8 @@ static void print(const reading *r, double si, char out[80])
     ff_quantity_print(si, r->unit, r->row->unit, out, 80);
 }
 
-/* Refuses a value outside the physical limits, sets one within rounding of a closed limit to it,
-   and warns outside the calibrated range. */
+/* Refuses a value outside the physical limits, sets a value within rounding of a closed limit to
+   the limit, and warns outside the calibrated range. */
 static bool check_range(const reading *r, const ff_node *node, double *si)
 {
     const ff_param *row = r->row;
@@ -135,7 +135,7 @@ static bool check_range(const reading *r, const ff_node *node, double *si)
     return true;
 }
 
-/* Reads a value with a tolerance, and returns its middle. Both ends must be possible values. */
+/* Reads a value with a tolerance, and returns its middle. Both ends must be allowed values. */
 static bool read_toleranced(const reading *r, const ff_node *node, const ff_tolerance *t,
                             double *si)
 {
@@ -237,7 +237,7 @@ static bool read_reals(const reading *r, const ff_node *node, ff_value *value)
     return good;
 }
 
-/* Reads the path of a file. A relative one is relative to the folder of the text that gives it. */
+/* Reads the path of a file. A relative path starts at the directory of the source that gives it. */
 static bool read_file(const reading *r, const ff_node *node, ff_value *value)
 {
     const ff_source *source = node->place.source;
@@ -272,7 +272,7 @@ static bool read_scalar(const reading *r, const ff_node *node, ff_value *value)
         return true;
     }
     if (row->choices && !ff_number_parse(node->text, &ignored, &end))
-        return refuse_kind(r, node); /* lists the words that are possible, too */
+        return refuse_kind(r, node); /* also lists the allowed words */
     switch (row->type) {
     case FF_REAL:
         return read_real(r, node, &value->real);
@@ -341,7 +341,7 @@ bool ff_param_read_preset(const ff_param *row, const ff_unit *unit, const char *
     return good;
 }
 
-/* The node of a number from memory, which stands in no file. */
+/* The node of a number from memory, which has no place in a file. */
 static const ff_node nowhere = {.kind = FF_SCALAR};
 
 static bool refuse_number(const reading *r, double number)
@@ -353,7 +353,7 @@ static bool refuse_number(const reading *r, double number)
 
 static const double LARGEST_WHOLE = 9007199254740992; /* 2^53 */
 
-/* Takes one number, alone or of a list. */
+/* Takes one number: a scalar, or an item of a list. */
 static bool take_number(const reading *r, double *si)
 {
     bool whole = r->row->type == FF_INT || r->row->flags & FF_WHOLE;

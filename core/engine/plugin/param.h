@@ -1,20 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-/* Values of parameters from texts, from numbers in SI, and into the memory of a model. */
+/* Reads parameter values from texts or from numbers in SI, and writes them into the memory of a
+   model. */
 #ifndef FE_PARAM_H
 #define FE_PARAM_H
 
 #include <flankfilm/engine.h>
 
-/* Does what ff_param_read does, with a text as a user writes it in a file: "3 mm", "[1 mm, 2
- * mm]". */
+/* Like ff_param_read, for a text as a user writes it in a file: "3 mm", "[1 mm, 2 mm]". */
 bool fe_param_read_text(const ff_param *row, const ff_unit *unit, const char *name,
                         const char *text, ff_value *value, ff_report *report);
-/* Does the same with numbers in SI; a switch is 0 or 1, a choice the rank of its word. */
+/* Like ff_param_read, for numbers in SI; a switch is 0 or 1, a choice the rank of its word. */
 bool fe_param_take(const ff_param *row, const ff_unit *unit, const char *name, const double *si,
                    size_t count, ff_value *value, ff_report *report);
 
-/* Size and alignment of the instance's member for a row of that type, as the table in plugin.h
- * says. */
+/* Size and alignment of the instance member for a row of that type, from the table in plugin.h. */
 typedef struct fe_member {
     size_t size, alignment; /* bytes */
 } fe_member;
@@ -23,8 +22,8 @@ fe_member fe_param_member(int32_t type);
 
 int fe_word_find(const char *words, const char *word); /* rank in "a|b|c"; -1: not there */
 
-/* Writes the value into the member that the row's `place` names; NULL: no value was given. Texts
- * and lists are not copied: they live until the instance is destroyed. */
+/* Writes the value into the member given by the row's `place`; NULL: no value was given. Texts and
+   lists are not copied; they must be valid until the instance is destroyed. */
 void fe_param_place(const ff_param *row, void *self, const ff_value *value);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Writes parameters into the members of an instance that their rows name. */
+/* Writes parameter values into the instance members given by their rows. */
 #include <flankfilm/engine.h>
 
 #include "param.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The directories in which plugins are looked for. */
+/* The directories that are searched for plugins. */
 #include "../value/home.h"
 #include "private.h"
 
@@ -10,8 +10,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Adds `directory` and takes ownership of it. Empty ones are left out, since "" would be the
- * current directory, and so are repeated ones. */
+/* Adds `directory` and takes ownership of it. Repeated and empty ones are left out; "" would mean
+   the current directory. */
 static void add(fe_search_path *search, char *directory)
 {
     bool known = !directory[0];
@@ -45,7 +45,7 @@ static void add_user(fe_search_path *search)
         add(search, fe_print_text("%s/.local/share/flankfilm/plugins", home));
 }
 
-/* Adds a directory that was found beside the engine. */
+/* Adds a directory found beside the engine's own file. */
 static void add_own(fe_search_path *search, char *directory)
 {
     if (directory)
@@ -80,7 +80,7 @@ char *fe_search_path_find(const fe_search_path *search, const char *id, char **t
     return NULL;
 }
 
-/* Whether both paths lead to one file. */
+/* Whether both paths lead to the same file. */
 static bool is_same_file(const char *a, const char *b)
 {
     struct stat first, second;
@@ -134,8 +134,8 @@ static folder *open_folder(const char *path)
     return NULL;
 }
 
-/* Returns the next name that has that ending, something before it, and no leading dot; NULL
- * after the last one. */
+/* Returns the next name with that ending, at least one character before it, and no leading dot;
+   NULL after the last one. */
 static const char *next_name(folder *f, const char *ending)
 {
     const struct dirent *entry;

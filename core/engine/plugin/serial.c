@@ -10,10 +10,10 @@ enum { LOCKS = 64 };
 static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
 static pthread_cond_t freed = PTHREAD_COND_INITIALIZER;
 
-/* The state of each lock; the mutex guards it. */
+/* The state of each lock, protected by the mutex. */
 static struct {
     pthread_t owner;
-    size_t entered; /* how often its owner has entered it; 0: it is free */
+    size_t entered; /* how often its owner has entered it; 0: free */
 } locks[LOCKS];
 
 fe_serial fe_serial_of(const ff_model *model)
@@ -24,7 +24,8 @@ fe_serial fe_serial_of(const ff_model *model)
     uintptr_t code = (uintptr_t)model->create, page = 4096;
     if (dladdr((const void *)code, &object))
         code = (uintptr_t)object.dli_fbase;
-    return (fe_serial)1 << (1 + code / page % (LOCKS - 1)); /* the first lock is that of loading */
+    /* the first lock is the one for loading */
+    return (fe_serial)1 << (1 + code / page % (LOCKS - 1));
 }
 
 static bool is_in(fe_serial set, size_t lock)

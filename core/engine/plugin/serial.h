@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Locks for models with the flag FF_SERIAL: a shared object with such a model runs one call at a
- * time in the process, whichever engine makes it. A call takes all locks it may need at once,
- * those of its model and of the services that the model is wired to, and holds none of them
- * while it waits, so that calls cannot deadlock. A thread may take a lock again that it has. */
+/* Locks for models with the flag FF_SERIAL: a shared object with such a model runs only one call at
+   a time in the process, for all engines together. A call takes all its locks at once: those of its
+   model and of the services wired to the model. While it waits it holds none of them, so that calls
+   cannot deadlock. Locks are recursive: a thread may take a lock again that it holds. */
 #ifndef FE_SERIAL_H
 #define FE_SERIAL_H
 
@@ -11,11 +11,11 @@
 /* A set of locks, one bit for each. */
 typedef uint64_t fe_serial;
 
-/* The lock for loading objects, which may fill their tables only during loading. */
+/* The lock for loading: an object may fill its tables only while it is being loaded. */
 #define FE_SERIAL_LOADING ((fe_serial)1)
 
-/* Returns the lock of the object that the model is in; the empty set if it may run beside
- * others. Two objects may share a lock, since few are serial. */
+/* Returns the lock of the shared object that has the model; the empty set if the object may run in
+   parallel with others. Two objects may share a lock, since serial objects are few. */
 fe_serial fe_serial_of(const ff_model *model);
 
 void fe_serial_enter(fe_serial set);

@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Size of a row in version 1.0; newer rows continue after it. */
+/* Size of a row in version 1.0; rows of later versions are longer. */
 static const size_t param_row_1_0 = offsetof(ff_param, place);
 static const size_t port_row_1_0 = offsetof(ff_port, min);
 
@@ -27,7 +27,7 @@ enum {
 
 typedef struct checking {
     const ff_model *model;
-    const char *what, *name; /* "parameter", "module": the row that is checked */
+    const char *what, *name; /* the row that is checked: "parameter", "module" */
     char *why;
     size_t why_size;
 } checking;
@@ -47,7 +47,8 @@ typedef struct claim {
     const char *fault;
 } claim;
 
-/* Reports the first condition that does not hold, about the row that is checked or the model. */
+/* Reports the first condition that does not hold; the message names the current row, or the
+   model. */
 static bool check_claims(const checking *c, const claim *claims, size_t count)
 {
     for (size_t i = 0; i < count; i++)
@@ -78,7 +79,7 @@ static bool same_first_name(const char *a, const char *b)
     return strcspn(b, ".") == length && !strncmp(a, b, length);
 }
 
-/* Whether the word is a key that the file itself uses in a stage. */
+/* Whether the word is a key of every stage in a file, such as `use`. */
 static bool is_reserved(const char *name)
 {
     return same_first_name(name, "use") || same_first_name(name, "with");
@@ -192,7 +193,7 @@ static bool check_words(const checking *c, const ff_param *row)
         const char *end;
         size_t length = strlen(word);
         bool plain = length > 0 && length < FE_LONGEST_NAME && fe_text_is_clean(word);
-        /* "16MnCr5" is a word, unless a number may stand in its place */
+        /* "16MnCr5" is a word; a word may begin with a number only if the row takes no number */
         bool numeric = ff_number_parse(word, &number, &end) && (row->type != FF_CHOICE || !*end);
         if (!plain || (row->type != FF_TEXT && (strpbrk(word, " \"'[]{},:#") || numeric)))
             return fault(c, "has the choice \"%s\" for the parameter \"%s\", which is not a word",
@@ -203,7 +204,7 @@ static bool check_words(const checking *c, const ff_param *row)
     return true;
 }
 
-/* Whether the first number of a range is the smaller one; two zeros stand for no range. */
+/* Whether the first number of a range is the smaller one; two zeros mean no range. */
 static bool is_range(double from, double to)
 {
     return from < to || (from == 0 && to == 0);
@@ -247,8 +248,8 @@ static bool check_preset(const checking *c, const ff_param *row, const ff_unit *
     return good;
 }
 
-/* Checks that the member lies within the instance, is aligned, and does not overlap those of
- * earlier rows. */
+/* Checks that the member lies inside the instance, is aligned, and does not overlap the members of
+   earlier rows. */
 static bool check_place(const checking *c, size_t index)
 {
     const ff_model *m = c->model;
@@ -298,8 +299,7 @@ static bool check_param(checking *c, size_t index, ff_unit *unit)
                      index + 1, c->name);
     if (is_reserved(c->name))
         return fault(c, "calls a parameter \"%s\", a word of the file's own", c->name);
-    /* names must differ, and none may be the map of another, as "atlas" would be for
-     * "atlas.from" */
+    /* names must differ, and none may be a map of another, as "atlas" is for "atlas.from" */
     for (size_t i = 0; i < index; i++) {
         const char *other = ff_model_param(c->model, i)->name;
         size_t n = strlen(c->name), m = strlen(other), least = n < m ? n : m;
@@ -346,8 +346,8 @@ static bool check_feedback(const checking *c, const ff_port *row)
     return !(row->flags & FF_FEEDBACK) || check_claims(c, claims, sizeof claims / sizeof *claims);
 }
 
-/* Checks an input row: its wire must not have the name of a parameter, and the rows of a wire
- * come from one stage. */
+/* Checks an input row: its wire must not have the name of a parameter, and all rows of the wire
+   must have the same `from`. */
 static bool check_input(checking *c, size_t index, ff_dims *dims)
 {
     enum { LONGEST_WIRE = 47 };
@@ -381,8 +381,8 @@ static bool check_input(checking *c, size_t index, ff_dims *dims)
     return check_feedback(c, row) && check_port(c, row, dims);
 }
 
-/* Checks that the input which replaces a parameter is optional: a service, or since 1.3 a data
- * input or a wire. */
+/* Checks that the input which replaces a parameter is optional: a service or, since 1.3, a data
+   input or a wire. */
 static bool check_instead(const checking *c, size_t index)
 {
     const ff_param *row = ff_model_param(c->model, index);
@@ -403,7 +403,7 @@ static bool check_instead(const checking *c, size_t index)
                      : "is not an optional input");
 }
 
-/* Checks the members of an output row that came with 1.3. */
+/* Checks the members of an output row that were added in 1.3. */
 static bool check_meaning(const checking *c, const ff_port *row)
 {
     ff_unit unit, shown;

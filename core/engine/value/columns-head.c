@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Reads the header of a table: names and units of its columns, and whether required ones are
- * missing. */
+/* Reads the header of a table: names and units of its columns. Checks that the required columns
+   exist. */
 #include "columns-read.h"
 
 #include "memory.h"
@@ -12,7 +12,8 @@ static int find(const fe_columns *c, fe_field name)
 {
     size_t length = (size_t)(name.end - name.at);
     for (size_t k = 0; k < c->count; k++)
-        if (strlen(c->asked[k]->name) == length && !memcmp(c->asked[k]->name, name.at, length))
+        if (strlen(c->requested[k]->name) == length &&
+            !memcmp(c->requested[k]->name, name.at, length))
             return (int)k;
     return FE_NO_COLUMN;
 }
@@ -20,9 +21,9 @@ static int find(const fe_columns *c, fe_field name)
 /* Prints a column as a header names it: "time [s]". */
 static void print_head(const fe_columns *c, size_t k, char *out, size_t size)
 {
-    bool bare = ff_unit_is_dimensionless(&c->units[k]) && strcmp(c->asked[k]->unit, "%") != 0;
-    snprintf(out, size, "%s%s%s%s", c->asked[k]->name, bare ? "" : " [",
-             bare ? "" : c->asked[k]->unit, bare ? "" : "]");
+    bool bare = ff_unit_is_dimensionless(&c->units[k]) && strcmp(c->requested[k]->unit, "%") != 0;
+    snprintf(out, size, "%s%s%s%s", c->requested[k]->name, bare ? "" : " [",
+             bare ? "" : c->requested[k]->unit, bare ? "" : "]");
 }
 
 static bool refuse_name(const fe_column_reader *r, fe_field head, const char *word)
@@ -32,7 +33,7 @@ static bool refuse_name(const fe_column_reader *r, fe_field head, const char *wo
     char list[800] = "", name[160], hint[1000];
     size_t count = c->count < FE_MOST_FIELDS ? c->count : FE_MOST_FIELDS, used = 0;
     for (size_t k = 0; k < count; k++) {
-        names[k] = c->asked[k]->name;
+        names[k] = c->requested[k]->name;
         print_head(c, k, name, sizeof name);
         if (used < sizeof list)
             used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", k ? ", " : "", name);
@@ -45,7 +46,7 @@ static bool refuse_name(const fe_column_reader *r, fe_field head, const char *wo
     return fe_column_refuse(r, head, hint, "no column is called \"%s\"", word);
 }
 
-/* Reads the unit "[GPa]" behind a name, or nothing; `head` is the whole field. */
+/* Reads the unit "[GPa]" behind a name, which may be absent; `head` is the whole field. */
 static bool read_unit(fe_column_reader *r, size_t index, fe_field head, const char *open,
                       const char *word)
 {
@@ -72,7 +73,7 @@ static bool read_unit(fe_column_reader *r, size_t index, fe_field head, const ch
     return ff_unit_same_dimension(&r->unit_of[index], &c->units[k]) ||
            fe_column_refuse(r, head, NULL,
                             "the column \"%s\" is in \"%s\", but should be in %s or the like", word,
-                            unit, c->asked[k]->unit);
+                            unit, c->requested[k]->unit);
 }
 
 /* Reads one field of the header: "pressure [GPa]". */
@@ -96,7 +97,7 @@ static bool read_head(fe_column_reader *r, size_t index, fe_field head)
 
 static bool same_group(const fe_columns *c, size_t i, size_t k)
 {
-    const char *a = c->asked[i]->group, *b = c->asked[k]->group;
+    const char *a = c->requested[i]->group, *b = c->requested[k]->group;
     return i == k || (a && b && !strcmp(a, b));
 }
 
@@ -124,22 +125,22 @@ static bool refuse_missing(const fe_column_reader *r, size_t k, fe_field line)
                                      i > k ? " or " : "", name);
     }
     return fe_column_refuse(r, (fe_field){line.at, line.at}, NULL, "the column %s is missing: %s",
-                            names, c->asked[k]->doc);
+                            names, c->requested[k]->doc);
 }
 
-/* Checks that required columns are there, and at most one column of each group. */
+/* Checks that the required columns exist, and at most one column of each group. */
 static bool check_heads(const fe_column_reader *r, fe_field line)
 {
     const fe_columns *c = r->c;
     bool good = true, first;
     for (size_t k = 0; k < c->count; k++) {
-        if (count_group(c, k, &first) == 0 && first && c->asked[k]->flags & FF_REQUIRED)
+        if (count_group(c, k, &first) == 0 && first && c->requested[k]->flags & FF_REQUIRED)
             good = refuse_missing(r, k, line);
         for (size_t i = 0; i < k; i++)
             if (c->values[i] && c->values[k] && same_group(c, i, k))
                 good = ff_error(r->report, FF_FAULT_INPUT, c->heads[k], NULL,
                                 "the columns \"%s\" and \"%s\" exclude each other",
-                                c->asked[i]->name, c->asked[k]->name);
+                                c->requested[i]->name, c->requested[k]->name);
     }
     return good;
 }

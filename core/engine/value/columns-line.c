@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Separators of fields, in the order in which they are tried; " " stands for any blanks. */
+/* Field separators in the order in which they are tried; " " stands for any number of blanks. */
 static const char separators[] = ";,\t ";
 
 static bool is_blank(char c)
@@ -62,8 +62,8 @@ static bool has(const char *at, const char *end, char c)
     return memchr(at, c, (size_t)(end - at));
 }
 
-/* Returns the character behind the quote that closes the one at `at`. A doubled quote stands for
- * itself and closes nothing. */
+/* Returns the character behind the quote that closes the quote at `at`. A doubled quote stands for
+   one quote character and closes nothing. */
 static const char *skip_quoted(const char *at, const char *end)
 {
     for (at++; at < end; at++) {
@@ -75,10 +75,10 @@ static const char *skip_quoted(const char *at, const char *end)
     return end;
 }
 
-/* Returns where a character first stands outside of quotes; `end`: nowhere. */
+/* Returns the first position of a character outside of quotes; `end`: there is none. */
 static const char *find(const char *at, const char *end, char wanted)
 {
-    bool fresh = true; /* a quote at this place opens a quoted field */
+    bool fresh = true; /* a quote here opens a quoted field */
     while (at < end) {
         bool quoted = fresh && *at == '"';
         if (!quoted && *at == wanted)
@@ -89,8 +89,8 @@ static const char *find(const char *at, const char *end, char wanted)
     return end;
 }
 
-/* Returns the end of a field. If blanks separate the fields, a name and its unit still make one:
- * "time [s]". */
+/* Returns the end of a field. If blanks separate the fields, a name and its unit still form one
+   field: "time [s]". */
 static const char *field_end(const char *at, const char *end, char separator, bool quotes)
 {
     if (separator != ' ' && quotes)
@@ -113,8 +113,8 @@ static const char *field_end(const char *at, const char *end, char separator, bo
     return at;
 }
 
-/* Takes off the quotes that spreadsheets and R put around texts. No text that is read contains a
- * quote. */
+/* Removes the quotes that spreadsheets and R write around texts. No text that the engine reads
+   contains a quote. */
 static fe_field unquote(fe_field field)
 {
     bool quoted = field.end - field.at >= 2 && *field.at == '"' && field.end[-1] == '"';
@@ -167,7 +167,8 @@ char fe_line_separator(fe_field line)
     return *s;
 }
 
-/* Finds the part of a field within its quotes, and its column and width in characters. */
+/* Finds the content of a field inside its quotes, and the column and width of the field in
+   characters. */
 static ff_field read_field(const char *begin, fe_field text, const char *end)
 {
     ff_field field = {.at = text.at, .end = text.end, .column = 1};

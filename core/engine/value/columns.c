@@ -15,7 +15,7 @@
 
 enum { MOST_BYTES = 1 << 27, MOST_ROWS = 2000000, MOST_ERRORS = 20 };
 
-/* Stands for the whole file where an error is not about one field. */
+/* Stands for the whole file in errors that are not about one field. */
 static const fe_field whole = {NULL, NULL};
 
 static bool load(fe_column_reader *r, const char *path)
@@ -31,7 +31,7 @@ static bool load(fe_column_reader *r, const char *path)
     if (about.st_size > MOST_BYTES)
         return fe_column_refuse(r, whole, NULL, "the file has more than 128 MiB");
     size_t most = (size_t)about.st_size;
-    /* before the file is opened, so that a failure leaves no open file */
+    /* allocated before the file is opened, so that a failure leaves no open file */
     source->text = fe_resize(source->text, most + 1);
     FILE *file = fopen(path, "rb");
     if (file)
@@ -64,33 +64,33 @@ static bool check_text(fe_column_reader *r)
 
 static void print_value(const fe_columns *c, size_t k, double si, char out[80])
 {
-    ff_quantity_print(si, &c->units[k], c->asked[k]->unit, out, 80);
+    ff_quantity_print(si, &c->units[k], c->requested[k]->unit, out, 80);
 }
 
 static bool check_limits(const fe_column_reader *r, size_t k, double *si, fe_field text)
 {
     char value[80], wanted[100];
-    if (fe_limits_check(r->c->asked[k], &r->c->units[k], si, wanted) == 0)
+    if (fe_limits_check(r->c->requested[k], &r->c->units[k], si, wanted) == 0)
         return true;
     print_value(r->c, k, *si, value);
-    return fe_column_refuse(r, text, NULL, "%s must be %s, but is %s", r->c->asked[k]->name, wanted,
-                            value);
+    return fe_column_refuse(r, text, NULL, "%s must be %s, but is %s", r->c->requested[k]->name,
+                            wanted, value);
 }
 
 /* Checks a number against the flags of its column. */
 static bool check_flags(const fe_column_reader *r, size_t k, size_t row, fe_field text)
 {
     const fe_columns *c = r->c;
-    const ff_param *asked = c->asked[k];
+    const ff_param *column = c->requested[k];
     double si = c->values[k][row];
     char value[80], before[80];
-    if (asked->flags & FF_WHOLE && si != floor(si))
-        return fe_column_refuse(r, text, NULL, "%s must be a whole number", asked->name);
-    if (!(asked->flags & FF_INCREASING) || row == 0 || !(si < c->values[k][row - 1]))
+    if (column->flags & FF_WHOLE && si != floor(si))
+        return fe_column_refuse(r, text, NULL, "%s must be a whole number", column->name);
+    if (!(column->flags & FF_INCREASING) || row == 0 || !(si < c->values[k][row - 1]))
         return true;
     print_value(c, k, si, value);
     print_value(c, k, c->values[k][row - 1], before);
-    return fe_column_refuse(r, text, NULL, "%s must not decrease, but %s follows %s", asked->name,
+    return fe_column_refuse(r, text, NULL, "%s must not decrease, but %s follows %s", column->name,
                             value, before);
 }
 
@@ -99,7 +99,7 @@ static bool read_number(fe_column_reader *r, size_t index, fe_field text, size_t
     assert(r->column_of[index] >= 0);
     fe_columns *c = r->c;
     size_t k = (size_t)r->column_of[index];
-    const char *end = text.at, *name = c->asked[k]->name;
+    const char *end = text.at, *name = c->requested[k]->name;
     double number = 0;
     int shown = (int)(text.end - text.at > 40 ? 40 : text.end - text.at);
     if (text.at == text.end)
@@ -129,7 +129,7 @@ static void make_room(fe_column_reader *r)
     c->lines = fe_resize(c->lines, r->room * sizeof *c->lines);
 }
 
-/* Reads a row. False if reading on would serve nothing. */
+/* Reads a row. False if there is no point in reading further rows. */
 static bool read_row(fe_column_reader *r, fe_field line)
 {
     fe_columns *c = r->c;
@@ -141,7 +141,7 @@ static bool read_row(fe_column_reader *r, fe_field line)
     c->lines[c->rows++] = r->line;
     for (size_t k = 0; k < c->count; k++)
         if (c->values[k])
-            c->values[k][row] = 0; /* until the field is read */
+            c->values[k][row] = 0; /* value until the field is read */
     if (!fe_line_is_closed(r, count, fields))
         return true;
     if (count != c->width)
@@ -158,7 +158,7 @@ static bool take_rows(fe_column_reader *r, const ff_param *rows, size_t count, s
     fe_columns *c = r->c;
     char why[200];
     c->count = count;
-    c->asked = fe_alloc(count * sizeof *c->asked);
+    c->requested = fe_alloc(count * sizeof *c->requested);
     c->units = fe_alloc(count * sizeof *c->units);
     c->values = fe_alloc(count * sizeof *c->values);
     c->heads = fe_alloc(count * sizeof *c->heads);
@@ -166,7 +166,7 @@ static bool take_rows(fe_column_reader *r, const ff_param *rows, size_t count, s
     r->most = MOST_ROWS;
     for (size_t k = 0; k < count; k++) {
         const ff_param *row = (const ff_param *)(const void *)((const char *)rows + k * stride);
-        c->asked[k] = row;
+        c->requested[k] = row;
         if (row->max_count > 0 && row->max_count < r->most)
             r->most = row->max_count;
         if (!ff_unit_parse(row->unit, &c->units[k], why, sizeof why))
@@ -188,9 +188,9 @@ static bool check_count(const fe_column_reader *r)
     if (c->rows == 0)
         return fe_column_refuse(r, whole, NULL, "the file has no rows of numbers below its header");
     for (size_t k = 0; k < c->count && good; k++)
-        if (c->values[k] && c->rows < c->asked[k]->min_count)
+        if (c->values[k] && c->rows < c->requested[k]->min_count)
             good = fe_column_refuse(r, whole, NULL, "the table must have at least %u rows",
-                                    c->asked[k]->min_count);
+                                    c->requested[k]->min_count);
     return good;
 }
 
@@ -239,7 +239,7 @@ void ff_columns_free(const ff_table *table)
         return;
     for (size_t k = 0; k < c->count; k++)
         fe_free(c->values[k]);
-    fe_free(c->asked);
+    fe_free(c->requested);
     fe_free(c->units);
     fe_free(c->values);
     fe_free(c->lines);

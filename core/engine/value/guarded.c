@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Arrays between guard zones, which show writes outside of them. */
+/* Arrays between guard zones, which reveal writes outside of the arrays. */
 #include "memory.h"
 
 #include <flankfilm/engine.h>
@@ -8,11 +8,11 @@
 
 enum { LEAST = 128, MOST = 512, MULTIPLE = 8 };
 
-/* The content of the zones, a value that no model has a reason to write. */
+/* The content of the zones, a value that no model would write. */
 static const double canary = -7.6543210987e-123;
 
-/* Returns the length of a zone. It grows with the array, so that writing one row too many still
- * lies in it. */
+/* Returns the length of a zone. It grows with the array, so that a write one row beyond the array
+   is still inside the zone. */
 static size_t zone_of(size_t count)
 {
     size_t zone = count < LEAST ? LEAST : count > MOST ? MOST : count;
@@ -25,7 +25,7 @@ static void fill(double *zone, size_t count)
         zone[i] = canary;
 }
 
-/* Whether a zone is unchanged: its first number is right, and each equals the next. */
+/* Whether a zone is unchanged: its first number is the canary, and each number equals the next. */
 static bool is_filled(const double *zone, size_t count)
 {
     return !memcmp(zone, &canary, sizeof canary) &&

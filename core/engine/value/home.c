@@ -13,14 +13,14 @@
 /* The longest path that realpath writes on Linux. */
 enum { LONGEST_PATH = 4096 };
 
-/* Writes the folder of the file that this code is in; false: not known. */
+/* Writes the directory of the file that contains this code; false: unknown. */
 static bool find_folder(char folder[LONGEST_PATH])
 {
     static const char here = 0;
     Dl_info about;
     struct link_map *object = NULL;
     dladdr1(&here, &about, (void **)&object, RTLD_DL_LINKMAP);
-    /* a program itself has no name in the list of loaded objects */
+    /* the program itself has no name in the list of loaded objects */
     const char *file = object && object->l_name[0] ? object->l_name : "/proc/self/exe";
     char *slash = realpath(file, folder) ? strrchr(folder, '/') : NULL;
     if (slash)
@@ -42,7 +42,7 @@ char *fe_installed_file(const char *path)
     char folder[LONGEST_PATH];
     if (!find_folder(folder))
         return NULL;
-    char *file = find(folder, "../", path); /* from the program's folder, bin */
+    char *file = find(folder, "../", path); /* starting from the program's directory, bin */
     return file ? file : find(folder, FE_UP_FROM_LIBRARY, path);
 }
 
@@ -54,7 +54,7 @@ static bool is_there(const char *folder, const char *name)
     return there;
 }
 
-/* Finds the build tree beside the code, or beside a build file in a folder above. */
+/* Finds the build tree beside this code, or beside a build file in a parent directory. */
 char *fe_built_file(const char *path)
 {
     char folder[LONGEST_PATH];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Finds files that came with the engine, from the place of the file that holds this code: the
- * library, or a program that it is linked into. */
+/* Finds files that came with the engine, relative to the file that contains this code: the library,
+   or a program into which it is linked. */
 #ifndef FE_HOME_H
 #define FE_HOME_H
 

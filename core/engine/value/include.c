@@ -11,12 +11,12 @@
 #include "node.h"
 #include "tree.h"
 
-/* A file that is being read. */
+/* The state of reading one file. */
 typedef struct file {
     fe_tree *tree;
     ff_report *report;
     const struct file *parent; /* the file that includes this one, or NULL */
-    ff_place place;            /* of this file's name in the parent */
+    ff_place place;            /* place of this file's name in the parent */
     const char *path;
     const char *hint; /* added to the message if the file cannot be read, or NULL */
     struct stat info;
@@ -40,7 +40,7 @@ static char *read_file(file *f, size_t *length)
         return refuse(f, "it is a directory");
     if (!S_ISREG(f->info.st_mode)) /* reading a named pipe would block */
         return refuse(f, "it is not a regular file");
-    /* before the stream is opened, so that a failure leaves no open stream */
+    /* allocated before the stream is opened, so that a failure leaves no open stream */
     char *text = fe_alloc(FE_MOST_TEXT + 1);
     FILE *stream = fopen(f->path, "re");
     if (!stream)
@@ -58,7 +58,7 @@ static char *read_file(file *f, size_t *length)
     return refuse(f, why);
 }
 
-/* Joins the paths, without a leading "./". */
+/* Joins the two paths and removes a leading "./". */
 char *ff_path_beside(const char *directory, const char *path)
 {
     bool alone = *path == '/' || !strcmp(directory, ".");
@@ -66,7 +66,7 @@ char *ff_path_beside(const char *directory, const char *path)
 }
 
 /* Returns the path of an example that came with the engine, in the installed or the build tree.
- * NULL: there is none of that name. The caller frees it. */
+   NULL: there is none with that name. The caller frees it. */
 static char *shipped(const char *path)
 {
     if (*path == '/')
@@ -82,7 +82,7 @@ static char *shipped(const char *path)
     return found;
 }
 
-/* Returns the example with a name near to that of a path; NULL: none. The caller frees it. */
+/* Returns the example whose name is nearest to that of a path; NULL: none. The caller frees it. */
 static char *near_example(const char *path)
 {
     const char *slash = strrchr(path, '/'), *word = slash ? slash + 1 : path;
@@ -96,9 +96,9 @@ static char *near_example(const char *path)
     return hint;
 }
 
-/* Suggests a file in place of one that does not exist: one with a near name in that folder or
- * among the examples, or the example meant by "../gears/x.yaml" in a copy of an example. NULL:
- * none. The caller frees it. */
+/* Suggests a file to use instead of one that does not exist: a file with a similar name in the same
+   directory or among the examples, or the example meant by "../gears/x.yaml" in a copy of an
+   example. NULL: none. The caller frees it. */
 static char *hint_at(const char *whole, const char *path)
 {
     const char *below = path;
@@ -195,8 +195,8 @@ static ff_node *read_source(const file *f, const ff_source *source)
     }
     if (!root)
         return NULL;
-    /* Stops at another format, whose other names would only give useless errors. An included
-     * file may leave `format` out. */
+    /* Stops here for another format, whose keys would only cause useless errors. An included file
+       may omit `format`. */
     const ff_node *format = ff_node_get(root, "format");
     if (format && format->kind == FF_SCALAR && !fe_check_format(f->report, format))
         return NULL;

@@ -12,22 +12,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The blocks of a heap form a doubly linked list. A block knows the pointer to it, so that it
- * can be taken out without knowing its heap. */
+/* The blocks of a heap form a doubly linked list. Each block has the address of the pointer to it,
+   so that it can be unlinked without access to its heap. */
 struct fe_block {
     struct fe_block *next, **link; /* link NULL: it belongs to no heap */
     max_align_t memory[];
 };
 
-/* A bracket. */
+/* A bracket of fe_protected. */
 typedef struct frame {
-    fe_heap *heap; /* in use */
+    fe_heap *heap; /* heap in use */
     struct frame *outer;
     jmp_buf escape;
 } frame;
 
-/* The innermost bracket of the thread. The initial-exec model allows a signal handler to be the
- * first to read it, since nothing is allocated for that. */
+/* The innermost bracket of the thread. The initial-exec model allocates nothing on first access, so
+   that a signal handler may read it first. */
 static _Thread_local frame *innermost __attribute__((tls_model("initial-exec")));
 
 ff_status fe_protected(fe_heap *heap, void (*function)(void *ctx), void *ctx)
@@ -91,7 +91,7 @@ static struct fe_block *block_of(void *memory)
     return (struct fe_block *)(void *)((char *)memory - offsetof(struct fe_block, memory));
 }
 
-/* Allocates zeroed memory, or resizes a block; NULL if there is no room. */
+/* Allocates zeroed memory, or resizes a block; NULL if there is no memory. */
 static struct fe_block *allocate(struct fe_block *old, size_t size)
 {
     size_t whole = sizeof *old + (size ? size : 1);

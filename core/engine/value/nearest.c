@@ -6,7 +6,8 @@
 
 enum { LONGEST = 63, NEVER = 1000 };
 
-/* Folds letter case and the signs that join words, which do not count as mistakes. */
+/* Maps upper case to lower case and word separators to one character, since these differences are
+   no mistakes. */
 static char fold(char c)
 {
     if (c >= 'A' && c <= 'Z')
@@ -53,14 +54,15 @@ static int beginning(const char *a, const char *b)
 const char *ff_nearest(const char *word, const char *const *candidates, size_t count)
 {
     const char *best = NULL;
-    /* one mistake in three letters is near; a word of two letters with a mistake is another word */
+    /* up to one mistake per three letters is near; a two-letter word with a mistake is another
+       word */
     size_t n = strlen(word);
     int near = n < 3 ? 0 : min((int)((n + 1) / 3), 4), shared = -1, least = NEVER;
     for (size_t i = 0; i < count; i++) {
         int mistakes = distance(word, candidates[i]), cost = mistakes;
         int same = beginning(word, candidates[i]);
         if (n >= 3 && (size_t)same == n)
-            cost = min(cost, 1); /* the word is a shortened form */
+            cost = min(cost, 1); /* the word is an abbreviation */
         if (cost > near || (cost == near && same < shared))
             continue;
         if (cost < near || same > shared || mistakes < least) {

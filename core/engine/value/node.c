@@ -29,7 +29,7 @@ static void *grow(fe_tree *tree, const void *old, size_t count, size_t size)
 void fe_node_add(fe_tree *tree, ff_node *node, char *key, ff_place key_place, ff_node *item)
 {
     size_t n = node->count++;
-    if ((n & (n - 1)) == 0) { /* arrays have room for the next power of two */
+    if ((n & (n - 1)) == 0) { /* the capacity of the arrays is a power of two */
         node->items = grow(tree, node->items, n, sizeof *node->items);
         if (key) {
             node->keys = grow(tree, node->keys, n, sizeof *node->keys);
@@ -135,13 +135,13 @@ ff_source *fe_tree_source(fe_tree *tree, const char *name, const char *directory
     return source;
 }
 
-/* Returns a copy that belongs to the same layers and remembers what the node replaced. */
+/* Returns a copy in the same layers, including the nodes that the node replaced. */
 static ff_node *copy_layers(fe_tree *tree, const ff_node *node)
 {
     ff_node *copy = fe_arena_alloc(&tree->arena, sizeof *copy);
     size_t room = 1;
     *copy = *node;
-    while (room < node->count) /* the room that fe_node_add would have left */
+    while (room < node->count) /* the capacity that fe_node_add would have allocated */
         room *= 2;
     if (node->kind == FF_SCALAR || node->count == 0)
         return copy;

@@ -12,14 +12,14 @@
 
 enum { LONGEST_QUOTE = 60 };
 
-/* The text that is read, and a buffer for the sentence that explains a failure. */
+/* The text being read, and a buffer for the sentence that explains a failure. */
 typedef struct reading {
     const char *text;
     char *why;
     size_t why_size;
 } reading;
 
-/* Returns how many bytes of the text a message quotes, ending between two characters. */
+/* Returns how many bytes of the text a message quotes; does not split a character. */
 static int quoted(const char *text)
 {
     size_t n = strnlen(text, LONGEST_QUOTE);
@@ -28,7 +28,7 @@ static int quoted(const char *text)
     return (int)n;
 }
 
-/* Writes a sentence that begins with the text. */
+/* Writes a sentence that begins with the quoted text. */
 __attribute__((format(printf, 2, 3))) static bool refuse(const reading *r, const char *format, ...)
 {
     char sentence[400];
@@ -90,8 +90,8 @@ static void expect(const ff_unit *row, const char *row_text, char out[120])
         snprintf(out, 120, "%s (%s)", name, ff_unit_examples(row));
 }
 
-/* Returns how to write a number without the mark at `rest`, such as a comma; NULL: it is no such
- * mark. */
+/* Returns advice for a mark in a number that is not allowed, such as a comma; NULL: `rest` begins
+   with no such mark. */
 static const char *wrong_mark(const char *rest)
 {
     if (*rest == '\0' || !is_digit(rest[1]))
@@ -128,8 +128,8 @@ static bool read_unit(const char *text, ff_unit *unit, const char *wanted, const
     return false;
 }
 
-/* Whether the text is "min^-1" for a rotational speed, where drawings mean revolutions. For a
- * frequency it stays 1/min. */
+/* Whether the text is "min^-1" for a rotational speed, where drawings mean revolutions per minute.
+   For a frequency it stays 1/min. */
 static bool is_per_minute(const char *text, const ff_unit *row)
 {
     static const ff_unit turning = {.power = {0, 0, -1, 0, 1}};

@@ -10,7 +10,7 @@
 
 enum { MOST_PRINTED = 20, WINDOW = 90, LEAD = 40 };
 
-/* The text that is being written. */
+/* The text being written. */
 typedef struct printer {
     char *text;
     size_t length, room;
@@ -61,8 +61,8 @@ static bool is_printable(uint32_t c)
     return !control && !turning;
 }
 
-/* Returns how many columns a character takes on a terminal: none for combining marks, two for
- * East Asian characters. */
+/* Returns the terminal columns of a character: none for combining marks, two for East Asian
+   characters. */
 static int width_of(uint32_t c)
 {
     if ((c >= 0x300 && c <= 0x36F) || (c >= 0x200B && c <= 0x200D))
@@ -94,7 +94,7 @@ static void print_text(printer *p, const char *text)
     }
 }
 
-/* Prints the line, or the part of a long line around the place, and underlines the place. */
+/* Prints the line, or the part of a long line near the place, and underlines the place. */
 static void print_line(printer *p, const ff_place *place)
 {
     const char *end, *at = fe_line_begin(place->source, place->line, &end);
@@ -123,8 +123,8 @@ static void print_line(printer *p, const ff_place *place)
     add(p, "\n");
 }
 
-/* Prints a hint. One that begins with a line break has several lines, such as the text to be
- * written instead. */
+/* Prints a hint. A hint that begins with a line break has several lines, such as a text to be
+   written instead. */
 static void print_hint(printer *p, const char *hint)
 {
     const char *end = hint + strlen(hint);
@@ -180,7 +180,7 @@ static int compare(const void *a, const void *b)
         return p->line < q->line ? -1 : 1;
     if (p->column != q->column)
         return p->column < q->column ? -1 : 1;
-    /* messages of one place stay in the order in which they were added */
+    /* messages at one place keep the order in which they were added */
     return x->message < y->message ? -1 : x->message > y->message;
 }
 

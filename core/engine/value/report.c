@@ -8,14 +8,15 @@
 
 #include "memory.h"
 
-/* Nobody reads more messages, and a file full of mistakes must not cost quadratic time. */
+/* More messages are of no use to a reader, and a file full of errors must not cost quadratic
+   time. */
 enum { MOST_KEPT = 1000 };
 
 struct ff_report {
     fe_heap *heap; /* memory of its messages */
     ff_message *messages;
     size_t count;
-    size_t errors; /* all errors, including those beyond MOST_KEPT */
+    size_t errors; /* number of errors, including those beyond MOST_KEPT */
     int fault;
     bool lacked_memory;
     ff_source **sources; /* copies of temporary sources */
@@ -48,31 +49,31 @@ void ff_report_free(ff_report *report)
     fe_free(report);
 }
 
-/* Whether both are the same text. A source may be read twice: by a file, and by a case of its
- * study. */
+/* Whether both sources have the same text. A source may be read twice: for a file, and for a case
+   of its study. */
 static bool same_source(const ff_source *a, const ff_source *b)
 {
     return a == b || (a && b && a->length == b->length && !strcmp(a->name, b->name) &&
                       !memcmp(a->text, b->text, a->length));
 }
 
-/* Returns the report's own copy of a temporary source. */
+/* Returns the report's copy copy of a temporary source. */
 static const ff_source *keep_source(ff_report *report, const ff_source *source)
 {
     for (size_t i = 0; i < report->source_count; i++) {
-        const ff_source *own = report->sources[i];
-        if (same_source(own, source))
-            return own;
+        const ff_source *copy = report->sources[i];
+        if (same_source(copy, source))
+            return copy;
     }
     report->sources =
         fe_resize(report->sources, (report->source_count + 1) * sizeof *report->sources);
-    ff_source *own = fe_alloc(sizeof *own);
-    *own = (ff_source){.name = fe_copy_text(source->name, strlen(source->name)),
-                       .text = fe_copy_text(source->text, source->length),
-                       .length = source->length,
-                       .directory = fe_copy_text(source->directory, strlen(source->directory)),
-                       .temporary = true};
-    return report->sources[report->source_count++] = own;
+    ff_source *copy = fe_alloc(sizeof *copy);
+    *copy = (ff_source){.name = fe_copy_text(source->name, strlen(source->name)),
+                        .text = fe_copy_text(source->text, source->length),
+                        .length = source->length,
+                        .directory = fe_copy_text(source->directory, strlen(source->directory)),
+                        .temporary = true};
+    return report->sources[report->source_count++] = copy;
 }
 
 static bool is_known(const ff_report *report, const ff_message *message)

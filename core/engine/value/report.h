@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What a report notes of an error beside its text. */
+/* Properties of an error that a report stores beside its text. */
 #ifndef FE_REPORT_H
 #define FE_REPORT_H
 

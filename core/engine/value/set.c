@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* Assignments from the command line, which override what the files say. */
+/* Command-line assignments, which override the files. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "node.h"
 #include "text.h"
 
-/* The walk along the path of one assignment through the tree. */
+/* The traversal of one assignment's path through the tree. */
 typedef struct walk {
     fe_tree *tree;
     ff_report *report;
     uint32_t rank;
-    const ff_place *at; /* the place given to all words of the path; NULL: their own */
+    const ff_place *at; /* place of all words of the path; NULL: each word has its own */
     ff_node **slot;     /* the node that the path has reached */
     size_t level;
 } walk;
@@ -27,7 +27,7 @@ static bool step_into_map(walk *w, char *word, ff_place place, bool last)
     size_t at = fe_map_find(map, word);
     if (at == map->count)
         fe_node_add(w->tree, map, word, place, fe_node_new(w->tree, FF_SCALAR, place));
-    if (last) /* keys before the last one keep their places in the file */
+    if (last) /* only the last key gets a new place; the others keep theirs in the file */
         map->key_places[at] = place;
     w->slot = &map->items[at];
     return true;
@@ -45,7 +45,7 @@ static bool step_into_list(walk *w, const char *word, ff_place place)
     return true;
 }
 
-/* Follows one word of the path. An empty value on the way becomes a map. */
+/* Follows one word of the path. An empty value on the path becomes a map. */
 static bool step(walk *w, char *word, ff_place place, bool last)
 {
     ff_node *node = *w->slot;
@@ -62,7 +62,7 @@ static bool step(walk *w, char *word, ff_place place, bool last)
 }
 
 /* Returns the length of the next word. It ends at a dot, unless the map has a longer key that
- * contains dots, such as the paths of a sweep. */
+   contains dots, as the paths of a sweep do. */
 static size_t word_length(const walk *w, const char *at, const char *end)
 {
     const ff_node *map = *w->slot;
@@ -77,8 +77,8 @@ static size_t word_length(const walk *w, const char *at, const char *end)
     return length;
 }
 
-/* Follows the words between `at` and `end`, which dots separate, and merges the value into the
- * node reached. */
+/* Follows the words between `at` and `end`, which are separated by dots, and merges the value into
+   the node that it reaches. */
 static bool apply(walk *w, const ff_source *source, const char *at, const char *end, ff_node *value)
 {
     for (bool last = false; !last; at++) {
@@ -116,8 +116,8 @@ static bool is_file_key(const char *word, size_t length)
     return false;
 }
 
-/* Reads the value behind "=". The path before it is blanked, so that columns still count from
- * the start of the assignment. */
+/* Reads the value behind "=". The path before it is overwritten with blanks, so that columns still
+   count from the start of the assignment. */
 static ff_node *read_value(fe_tree *tree, const ff_source *source, const char *equals,
                            ff_report *report)
 {
@@ -175,7 +175,7 @@ bool fe_tree_set(fe_tree *tree, const char *assignment, const ff_place *path, co
     return apply(&w, source, at, end, value);
 }
 
-/* Returns the node at the path that ends at `end`; NULL: there is none. */
+/* Returns the node whose path ends at `end`; NULL: there is none. */
 static ff_node *find(fe_tree *tree, const char *at, const char *end)
 {
     walk w = {.tree = tree, .slot = &tree->root};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Reads tables for a model, and keeps each one as long as its file is unchanged. */
+/* Reads tables for a model, and caches each one as long as its file is unchanged. */
 #include "tables.h"
 
 #include "memory.h"
@@ -12,9 +12,10 @@
 struct fe_kept_table {
     const ff_table *table; /* NULL: it could not be read */
     char *item;
-    char *asked; /* what the rows request of the columns, packed */
-    size_t asked_size;
-    struct stat file; /* state before the file was read; st_nlink 0: a change might go unnoticed */
+    char *request; /* the requested column rows, packed */
+    size_t request_size;
+    struct stat file; /* file state before reading; st_nlink 0: a later change might not be
+                         detected */
     struct fe_kept_table *next;
 };
 
@@ -25,8 +26,8 @@ static void append(char *out, size_t *at, const void *bytes, size_t size)
     *at += size;
 }
 
-/* Packs the request that the rows make, since a model may have made the rows for this call
- * alone. Returns its size in bytes; `out` may be NULL. */
+/* Packs the requested rows into bytes, since a model may have built the rows for this call only.
+   Returns the size in bytes; `out` may be NULL. */
 static size_t pack_rows(const ff_param *rows, size_t count, size_t stride, char *out)
 {
     size_t at = 0;
@@ -51,17 +52,17 @@ static void free_list(struct fe_kept_table **list)
         next = kept->next;
         ff_columns_free(kept->table);
         fe_free(kept->item);
-        fe_free(kept->asked);
+        fe_free(kept->request);
         fe_free(kept);
     }
     *list = NULL;
 }
 
-/* Returns the state of a file before it is read. A file written a moment ago may be written
- * again within the resolution of its clock, so its state is marked as unsafe. */
+/* Returns the state of a file before it is read. If the file was written within the last seconds,
+   another write may leave the same time stamp, so that its state is marked as unsafe. */
 static struct stat state_of(const char *path)
 {
-    enum { MOMENT = 2 }; /* s */
+    enum { MOMENT = 2 }; /* in s */
     struct stat file;
     if (!path || stat(path, &file) != 0 || time(NULL) - file.st_mtim.tv_sec < MOMENT)
         return (struct stat){.st_nlink = 0};
@@ -76,21 +77,21 @@ static bool same_file(const struct stat *a, const struct stat *b)
            a->st_ctim.tv_nsec == b->st_ctim.tv_nsec;
 }
 
-/* Whether both request the same columns of the same unchanged file. */
+/* Whether both request the same columns of the same, unchanged file. */
 static bool is_same(const struct fe_kept_table *a, const struct fe_kept_table *b, const char *path)
 {
-    return a->table && same_file(&a->file, &b->file) && a->asked_size == b->asked_size &&
-           !memcmp(a->asked, b->asked, a->asked_size) &&
+    return a->table && same_file(&a->file, &b->file) && a->request_size == b->request_size &&
+           !memcmp(a->request, b->request, a->request_size) &&
            !strcmp(ff_columns_place(a->table, SIZE_MAX, SIZE_MAX).source->name, path);
 }
 
-/* Takes the table over from the previous instance if that has read it, or reads it. */
+/* Takes the table from the previous instance if it has read the same one, otherwise reads it. */
 static void find_table(fe_tables *tables, struct fe_kept_table *kept, const char *path,
                        const ff_param *rows, size_t count, size_t stride, ff_report *report)
 {
-    kept->asked_size = pack_rows(rows, count, stride, NULL);
-    kept->asked = fe_alloc(kept->asked_size + 1);
-    pack_rows(rows, count, stride, kept->asked);
+    kept->request_size = pack_rows(rows, count, stride, NULL);
+    kept->request = fe_alloc(kept->request_size + 1);
+    pack_rows(rows, count, stride, kept->request);
     kept->file = state_of(path);
     for (struct fe_kept_table *spare = tables->spare; spare; spare = spare->next)
         if (is_same(spare, kept, path)) {

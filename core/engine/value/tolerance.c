@@ -13,8 +13,8 @@ typedef struct part {
     ff_unit unit;
 } part;
 
-/* Finds the tolerance mark between the two parts; `pass` is where the second part begins. NULL:
- * there is none. */
+/* Finds the tolerance mark between the two parts; *pass is the start of the second part. NULL:
+   there is no mark. */
 static const char *find_mark(const char *text, const char **pass)
 {
     static const char *const marks[] = {"+-", "+/-", "\xc2\xb1", " to "};
@@ -28,8 +28,8 @@ static const char *find_mark(const char *text, const char **pass)
     return NULL;
 }
 
-/* Reads a number with a unit, "20 um", up to `end`. False if it begins with no number or has no
- * known unit. */
+/* Reads a number with a unit, "20 um", up to `end`. False if it does not begin with a number or its
+   unit is unknown. */
 static bool read_part(const char *at, const char *end, part *p)
 {
     char why[200];

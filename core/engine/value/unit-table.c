@@ -11,8 +11,8 @@ static const double PI = 3.14159265358979323846;
 static const double LBF = 4.4482216152605;
 static const double PSI = 6894.757293168361; /* lbf / (0.0254 m)^2 */
 
-/* The powers are those of m, kg, s, K, rad. Products that engineers write without a separator
- * (Nm, Pas) are symbols of their own; mN is always a millinewton. */
+/* The powers are those of m, kg, s, K, rad. Products that engineers write without a separator (Nm,
+   Pas) are symbols of their own; mN is always millinewton. */
 static const fe_symbol symbols[] = {
     {"m", 1, 0, {1, 0, 0, 0, 0}, true, 0},
     {"g", 1, -3, {0, 1, 0, 0, 0}, true, 0},
@@ -101,7 +101,7 @@ const char *fe_symbol_nearest(const char *word)
     return ff_nearest(word, common, COUNT(common));
 }
 
-/* Names of the dimensions of this field for messages, with the units to suggest. */
+/* Names of the dimensions used in this field, for messages, with the units to suggest. */
 static const struct dimension {
     int8_t power[FF_DIMENSIONS];
     const char *name, *examples;

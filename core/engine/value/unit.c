@@ -22,13 +22,13 @@ static const char digits[] = "0123456789";
 static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ%";
 
 typedef struct reader {
-    char text[LONGEST + 1]; /* plain: see `spellings` */
+    char text[LONGEST + 1]; /* the unit in plain spelling, see `spellings` */
     const char *at;
     int power[FF_DIMENSIONS];
     double scale;
     int ten;
     int factors;
-    const char *offset_at; /* where degC or degF stands in the text */
+    const char *offset_at; /* position of degC or degF in the text */
     double offset;
     int offset_power;
     char *why;
@@ -44,8 +44,8 @@ __attribute__((format(printf, 2, 3))) static bool refuse(const reader *r, const 
     return false;
 }
 
-/* Spellings that keyboards and papers use, and the plain ones that the grammar knows. "u" stands
- * for both the micro sign and the Greek letter; the last three are no-break and thin spaces. */
+/* Spellings used on keyboards and in papers, and the plain ones of the grammar. "u" replaces both
+   the micro sign and the Greek letter mu. The last three are no-break and thin spaces. */
 static const char *const spellings[][2] = {
     {"**", "^"}, {"*", "."},      {"·", "."},      {"⋅", "."},      {"⁻", "-"}, {"⁰", "0"},
     {"¹", "1"},  {"²", "2"},      {"³", "3"},      {"⁴", "4"},      {"⁵", "5"}, {"⁶", "6"},
@@ -53,7 +53,7 @@ static const char *const spellings[][2] = {
     {"\t", " "}, {"\u00A0", " "}, {"\u2009", " "}, {"\u202F", " "},
 };
 
-/* Appends a piece. A blank is kept only between two factors. */
+/* Appends a piece of text. A blank is kept only between two factors. */
 static void append(reader *r, const char *piece)
 {
     size_t used = strlen(r->text);
@@ -63,8 +63,8 @@ static void append(reader *r, const char *piece)
     strcpy(r->text + used - (blank_before && strchr("./)", *piece)), piece);
 }
 
-/* Reads one character of `text` and returns its plain spelling; for a character of one byte, the
- * byte itself. */
+/* Reads one character of `text` and returns its plain spelling. A one-byte character is returned
+   unchanged. */
 static const char *next_piece(const char **text, char byte[2])
 {
     bool plain = strchr(letters, **text) || strchr(digits, **text) || strchr(" ./()^-", **text);
@@ -94,7 +94,7 @@ static bool spell_plainly(reader *r, const char *text)
     return true;
 }
 
-/* Explains what is wrong with the character at a place where a unit should stand. */
+/* Explains an error at a position where a unit is expected. */
 static bool refuse_here(const reader *r)
 {
     int length = 1;
@@ -193,7 +193,8 @@ static bool read_product(reader *r, int sign)
     return false;
 }
 
-/* Explains a text behind a complete "a/b", and how to write what it may mean. */
+/* Explains an error in the text that follows a complete "a/b", and suggests how to write its
+   probable meaning. */
 static bool refuse_tail(const reader *r, const char *slash)
 {
     int above = (int)(slash - r->text), below = (int)(r->at - slash) - 1;
@@ -250,7 +251,7 @@ static bool finish(const reader *r, ff_unit *unit)
     }
     for (int i = 0; i < FF_DIMENSIONS; i++)
         unit->power[i] = (int8_t)r->power[i];
-    /* correctly rounded if scale is a whole number and `ten` is moderate */
+    /* correctly rounded if scale is a whole number and `ten` is not large */
     double tens = pow(10, abs(r->ten));
     unit->factor = r->ten < 0 ? r->scale / tens : r->scale * tens;
     unit->offset = r->offset;
@@ -280,8 +281,8 @@ bool ff_unit_is_dimensionless(const ff_unit *unit)
     return ff_unit_same_dimension(unit, &none);
 }
 
-/* Returns n if the factor is 1/n for a whole n, else 0. A factor such as 1e-3 is rounded itself,
- * so dividing by 1000 saves one rounding. */
+/* Returns n if the factor is 1/n with a whole n, else 0. A factor such as 1e-3 is itself rounded,
+   so dividing by 1000 avoids one rounding error. */
 static double inverse(const ff_unit *unit)
 {
     double n = unit->factor < 1 ? round(1 / unit->factor) : 0;

@@ -7,26 +7,26 @@
 #include "node.h"
 #include "text.h"
 
-/* Places that a message can be about. */
+/* The places that a message can refer to. */
 enum { AT, BEGIN, LINE, COLON, PLACES };
 
 typedef struct fault {
-    const char *problem, *context; /* of libyaml; never NULL */
-    ff_place
-        places[PLACES]; /* where the problem is; where the construct being read began; the line's
-                           first character; a ":" that no blank follows (column 0: none) */
-    char c, opening;    /* the characters AT and at BEGIN; ' ' at the end of a line */
-    bool after_colon;   /* the line has "key: " before the problem */
+    const char *problem, *context; /* texts of libyaml; never NULL */
+    ff_place places[PLACES]; /* by place: the problem; the start of the construct being read; the
+                                first character of the line; a ":" that no blank follows (column 0:
+                                none) */
+    char c, opening;         /* the characters at AT and BEGIN; ' ' at the end of a line */
+    bool after_colon;        /* the line has "key: " before the problem */
 } fault;
 
 /* Conditions of a rule. */
 enum { ALWAYS, LATER_IN_LINE, AFTER_COLON, TIGHT_COLON };
 
-/* The first rule that applies gives the message. If its text ends in a blank, the character is
- * added. */
+/* The first applicable rule gives the message. If its text ends in a blank, the character is
+   added. */
 static const struct rule {
-    const char *context, *problem; /* parts of libyaml's texts */
-    const char *characters;        /* AT must be one of them; "": any */
+    const char *context, *problem; /* substrings of libyaml's texts */
+    const char *characters;        /* allowed characters at AT; "": any */
     int when, where;
     const char *text, *hint;
 } rules[] = {
@@ -96,7 +96,7 @@ static char char_at(const ff_place *place)
     return at < end ? *at : '\n';
 }
 
-/* Finds the first ":" behind the place, in its line, that no blank follows. */
+/* Finds the first ":" behind the place, in the same line, that no blank follows. */
 static ff_place find_tight_colon(ff_place place)
 {
     const char *end, *at = fe_text_at(&place, &end);

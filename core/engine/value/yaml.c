@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Turns the events of libyaml into nodes, within limits, and refuses parts of YAML that are not
- * used. */
+/* Converts the events of libyaml into nodes, within limits, and refuses parts of YAML that are not
+   used. */
 #include <stdlib.h>
 #include <string.h>
 #include <yaml.h>
@@ -8,16 +8,16 @@
 #include "node.h"
 #include "text.h"
 
-/* Lookup of anchors is linear, so their number is limited. */
+/* Anchors are searched linearly, so their number is limited. */
 enum { MOST_ANCHORS = 1000, TO_THE_END = 1 << 20 };
 
 typedef struct anchor {
     const char *name;
-    const ff_node *node; /* NULL while it is being read */
+    const ff_node *node; /* NULL while the node is being read */
 } anchor;
 
 typedef struct reader {
-    fe_resource open; /* the parser and its last event */
+    fe_resource open; /* registers the parser and its last event */
     yaml_parser_t parser;
     yaml_event_t event;
     fe_tree *tree;
@@ -25,11 +25,10 @@ typedef struct reader {
     ff_report *report;
     anchor *anchors;
     size_t anchor_count;
-    bool stopped; /* the rest cannot be read, and what was read is lost */
+    bool stopped; /* the rest cannot be read, and the content so far is lost */
 } reader;
 
-/* Returns the place of an event. If its text has several lines, this is the part in the first
- * line. */
+/* Returns the place of an event. For a text of several lines this is the part in the first line. */
 static ff_place event_place(const reader *r, const yaml_event_t *event)
 {
     const yaml_mark_t *start = &event->start_mark, *end = &event->end_mark;
@@ -72,7 +71,8 @@ static yaml_event_t take_event(reader *r)
         copy_word(r, &taken.data.alias.anchor);
     } else if (taken.type == YAML_SCALAR_EVENT || taken.type == YAML_SEQUENCE_START_EVENT ||
                taken.type == YAML_MAPPING_START_EVENT) {
-        copy_word(r, &taken.data.scalar.anchor); /* all three events begin with anchor and tag */
+        copy_word(r, &taken.data.scalar.anchor); /* all three event types begin with anchor and
+                                                    tag */
         copy_word(r, &taken.data.scalar.tag);
     }
     if (taken.type == YAML_SCALAR_EVENT)
@@ -124,7 +124,7 @@ static const anchor *find_anchor(const reader *r, const char *name)
     return NULL;
 }
 
-/* Returns a copy of the node that the alias names; an empty map if it names nothing. */
+/* Returns a copy of the node that the alias names; an empty map if there is no such anchor. */
 static ff_node *read_alias(reader *r, const yaml_event_t *event, ff_place place, size_t level)
 {
     const char *name = (const char *)event->data.alias.anchor;
@@ -162,7 +162,7 @@ static void add_pair(reader *r, ff_node *map, char *key, ff_place place, ff_node
         stop(r, place, NULL, "the map has more than 4096 keys");
     else if (strchr(key, ':') && fe_node_is_empty(item) && item->place.line == place.line &&
              item->place.column == place.column + place.width)
-        /* within braces, "use:gear" is a key without a value */
+        /* inside braces, "use:gear" is a key without a value */
         ff_error(r->report, FF_FAULT_INPUT, place, "write \"key: value\"",
                  "a space is missing after \":\" in \"%.60s\"", key);
     else
@@ -180,8 +180,8 @@ static void check_merge(reader *r, const ff_node *item, bool alias, ff_place pla
              "\"<<\" takes aliases of maps only");
 }
 
-/* Merges maps into the map. Their keys replace neither the map's own nor those of earlier merged
- * maps. */
+/* Merges maps into the map. Their keys replace neither the map's own keys nor those of maps merged
+   earlier. */
 static void merge_maps(reader *r, ff_node *map)
 {
     size_t at = fe_map_find(map, "<<");
@@ -242,7 +242,7 @@ static ff_node *read_content(reader *r, const yaml_event_t *event, ff_place plac
     static const ff_node_kind kinds[] = {[YAML_SCALAR_EVENT] = FF_SCALAR,
                                          [YAML_SEQUENCE_START_EVENT] = FF_SEQUENCE,
                                          [YAML_MAPPING_START_EVENT] = FF_MAP};
-    /* at the same offset for lists and maps */
+    /* same offset for lists and maps */
     const char *name = (const char *)event->data.scalar.anchor;
     ff_node *node = fe_node_new(r->tree, kinds[event->type], place);
     size_t at = r->anchor_count;
@@ -308,8 +308,8 @@ static ff_node *read_document(reader *r)
     return NULL;
 }
 
-/* Refuses control characters and ill-formed bytes. libyaml names these only by their offset, and
- * takes some of them for line breaks. */
+/* Refuses control characters and invalid bytes. libyaml reports these only by offset, and treats
+   some of them as line breaks. */
 static bool check_characters(const ff_source *source, ff_report *report)
 {
     const char *at = source->text, *end = at + source->length;
