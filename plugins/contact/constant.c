@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* contact/constant: a line contact whose radius, speeds and load do not change. */
+/* contact/constant: a line contact with constant radius, speeds and load. */
 #include "history.h"
 #include "line-contact.h"
 #include "references.h"
@@ -22,26 +22,25 @@ typedef struct constant_contact {
 
 static const ff_param params[] = {
     FF_QUANTITY("radius", "mm", constant_contact, radius, FF_REQUIRED, NULL, "radius", 1e-6, 1e9, 0,
-                0, "equivalent radius R; both surfaces are then given 2 R"),
+                0, "equivalent radius R; both surfaces then get the radius 2 R"),
     FF_QUANTITY("radius_1", "mm", constant_contact, radius_1, FF_REQUIRED, NULL, "radius", 1e-6,
-                1e9, 0, 0, "radius of surface 1, together with radius_2, in place of `radius`"),
+                1e9, 0, 0, "radius of surface 1; with radius_2, instead of `radius`"),
     FF_QUANTITY("radius_2", "mm", constant_contact, radius_2, 0, NULL, NULL, 1e-6, 1e9, 0, 0,
-                "radius of surface 2, together with radius_1"),
+                "radius of surface 2; with radius_1"),
     FF_QUANTITY("entrainment_speed", "m/s", constant_contact, entrainment_speed, FF_REQUIRED, NULL,
                 "speed", 1e-9, 1e6, 0, 0, "mean surface speed u_r = (u1 + u2)/2"),
-    FF_QUANTITY("slide_roll_ratio", "1", constant_contact, slide_roll_ratio, 0, NULL, NULL, -1e3,
-                1e3, 0, 0,
-                "(u1 - u2)/u_r, together with entrainment_speed; left out: 0, pure rolling"),
+    FF_QUANTITY(
+        "slide_roll_ratio", "1", constant_contact, slide_roll_ratio, 0, NULL, NULL, -1e3, 1e3, 0, 0,
+        "slide-roll ratio (u1 - u2)/u_r; with entrainment_speed; left out: 0, pure rolling"),
     FF_QUANTITY("speed_1", "m/s", constant_contact, speed_1, FF_REQUIRED, NULL, "speed", -1e6, 1e6,
-                0, 0,
-                "speed u1 of surface 1, together with speed_2, in place of entrainment_speed"),
+                0, 0, "speed u1 of surface 1; with speed_2, instead of entrainment_speed"),
     FF_QUANTITY("speed_2", "m/s", constant_contact, speed_2, 0, NULL, NULL, -1e6, 1e6, 0, 0,
-                "speed u2 of surface 2, together with speed_1"),
+                "speed u2 of surface 2; with speed_1"),
     FF_QUANTITY("load_per_width", "N/mm", constant_contact, load_per_width, FF_REQUIRED, NULL, NULL,
                 1e-9, 1e9, 0, 0, "load per width of the contact"),
     CONTACT_MODULI_ROWS(constant_contact),
     FF_QUANTITY("duration", "s", constant_contact, duration, 0, "0 s", NULL, 0, 1e9, 0, 0,
-                "length of the history; 0: a steady contact, one instant"),
+                "duration of the history; 0: a steady contact with one instant"),
 };
 
 static ff_status wire(void *self, uint32_t input, const void *service)

@@ -6,8 +6,9 @@
 #include <math.h>
 
 /* If a motion nearly repeats after 2, 3 or 4 mesh cycles, equal steps would always pick the same
- * phase of it. So the place within each of the equal parts moves by the golden section, whose
- * multiples fill the unit interval evenly (Kronecker's sequence; Niederreiter 1992, ch. 3). */
+   phase of it. Therefore one engagement is picked in each of `most` equal parts, and its position
+   within the part advances by the golden section, whose multiples fill the unit interval evenly
+   (Kronecker's sequence; Niederreiter 1992, ch. 3). */
 size_t contact_engagements_pick(size_t available, size_t most, size_t *picked)
 {
     assert(most >= 1);

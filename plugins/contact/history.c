@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Outputs of a contact over time: Hertz pressure, half width, Moes numbers. */
+/* Outputs of a contact history: Hertz pressure, half width, Moes numbers. */
 #include "history.h"
 
 #include "../numerics/isothermal.h"
@@ -9,21 +9,24 @@
 #include <math.h>
 
 const ff_port contact_outputs[CONTACT_OUTPUTS] = {
-    {.name = "time", .unit = "s", .doc = "time since the history began", .dims = "t"},
+    {.name = "time", .unit = "s", .doc = "time since the start of the history", .dims = "t"},
     {.name = "radius_1", .unit = "m", .doc = "radius of curvature of surface 1", .dims = "t"},
     {.name = "radius_2", .unit = "m", .doc = "radius of curvature of surface 2", .dims = "t"},
-    {.name = "equivalent_radius", .unit = "m", .doc = "R = R1 R2/(R1 + R2)", .dims = "t"},
+    {.name = "equivalent_radius",
+     .unit = "m",
+     .doc = "equivalent radius R = R1 R2/(R1 + R2)",
+     .dims = "t"},
     {.name = "speed_1", .unit = "m/s", .doc = "surface speed u1 along the contact", .dims = "t"},
     {.name = "speed_2", .unit = "m/s", .doc = "surface speed u2 along the contact", .dims = "t"},
     {.name = "entrainment_speed",
      .label = "entrainment speed",
      .unit = "m/s",
-     .doc = "u_r = (u1 + u2)/2",
+     .doc = "entrainment speed u_r = (u1 + u2)/2",
      .dims = "t"},
     {.name = "sliding_speed",
      .label = "sliding speed",
      .unit = "m/s",
-     .doc = "u_s = u1 - u2",
+     .doc = "sliding speed u_s = u1 - u2",
      .dims = "t"},
     {.name = "slide_roll_ratio",
      .label = "slide-to-roll ratio",
@@ -38,55 +41,56 @@ const ff_port contact_outputs[CONTACT_OUTPUTS] = {
      .max = INFINITY},
     {.name = "hertz_half_width",
      .unit = "m",
-     .doc = "dry half width a = sqrt(8 w R/(pi E')), 0 without load",
+     .doc = "Hertzian half width a = sqrt(8 w R/(pi E')) of the dry contact; 0 without load",
      .dims = "t",
      .max = INFINITY},
     {.name = "hertz_pressure",
      .unit = "Pa",
-     .doc = "dry maximum pressure p_H = 2 w/(pi a), 0 without load",
+     .doc = "Hertzian maximum pressure p_H = 2 w/(pi a) of the dry contact; 0 without load",
      .dims = "t",
      .max = INFINITY},
     {.name = "moes_M",
      .unit = "1",
-     .doc = "Moes' load number W/sqrt(2 U), U = eta0 u_r/(E' R), W = w/(E' R); needs a viscosity",
+     .doc =
+         "Moes' load number M = W/sqrt(2 U), U = eta0 u_r/(E' R), W = w/(E' R); needs a viscosity",
      .dims = "t"},
     {.name = "moes_L",
      .unit = "1",
-     .doc = "Moes' lubricant number G (2 U)^(1/4), G = alpha* E', 1/alpha* = integral of eta0/eta "
-            "over p (Barus: alpha); needs a viscosity",
+     .doc = "Moes' lubricant number L = G (2 U)^(1/4), G = alpha* E', 1/alpha* = integral of "
+            "eta0/eta over p (Barus: alpha* = alpha); needs a viscosity",
      .dims = "t"},
     {.name = "gap",
      .unit = "m",
-     .doc = "separation of the surfaces along the line of action, 0 from where they meet; a "
-            "damper may load them before",
+     .doc = "separation of the surfaces along the line of action, 0 in contact; a damping force "
+            "may act while it is above 0",
      .dims = "t"},
     {.name = "reduced_modulus",
      .unit = "Pa",
-     .doc = "E' of 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2",
+     .doc = "reduced modulus E': 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2",
      .dims = "",
      .max = INFINITY},
     {.name = "roll_angle", .unit = "rad", .doc = "roll angle of gear 1", .dims = "t"},
     {.name = "engagement",
      .unit = "1",
-     .doc = "mesh cycle of the motion in which the pair begins, from 0; where it changes, another "
-            "engagement begins with a history of its own",
+     .doc = "index of the mesh cycle in which the pair enters contact, from 0; a change of it "
+            "begins another engagement with a history of its own",
      .dims = "t"},
     {.name = "engagements_judged",
      .unit = "1",
-     .doc = "engagements of the motion that follow one another in the history",
+     .doc = "number of engagements of the motion in the history, one after the other",
      .dims = "",
      .max = INFINITY},
     {.name = "mesh_load_mean",
      .unit = "N",
-     .doc = "mean force of all pairs in mesh, over the engagements",
+     .doc = "mean over the engagements of the total force of all pairs in mesh",
      .dims = ""},
 };
 
 enum { PANELS = 512 }; /* for Simpson's rule, an even number */
 
-/* Film-forming pressure coefficient alpha* (reciprocal asymptotic isoviscous pressure; Blok
- * 1963), 1/alpha* = int_0^inf eta0/eta dp, integrated over t from 0 to 1 with p = t/((1 - t)
- * slope), slope = d ln eta/dp at p = 0. If eta does not rise, it is 0. */
+/* Film-forming pressure coefficient alpha*, the reciprocal asymptotic isoviscous pressure (Blok
+   1963): 1/alpha* = int_0^inf eta0/eta dp. The integral is taken over t from 0 to 1 with p = t/((1
+   - t) slope), slope = d ln eta/dp at p = 0. If eta does not rise with p, alpha* is 0. */
 static ff_status film_coefficient(const ff_viscosity *law, double ln_eta0, double slope,
                                   double *alpha)
 {
@@ -105,7 +109,7 @@ static ff_status film_coefficient(const ff_viscosity *law, double ln_eta0, doubl
     return status;
 }
 
-/* Reads eta0 and alpha* at the temperature of the oil or, if no oil is wired, of the law. */
+/* Reads eta0 and alpha* at the temperature of the oil; if no oil is wired, at that of the law. */
 static ff_status read_viscosity(contact_history *h, const ff_viscosity *law, const ff_array *oil)
 {
     numerics_answers answers = {.status = FF_OK};

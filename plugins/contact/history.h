@@ -25,7 +25,7 @@ enum {
     CONTACT_MOES_L,
     CONTACT_GAP,
     CONTACT_REDUCED_MODULUS,
-    CONTACT_ROLL_ANGLE, /* this row and those after it are given for tooth pairs only */
+    CONTACT_ROLL_ANGLE, /* rows from here on are for tooth pairs only */
     CONTACT_ENGAGEMENT,
     CONTACT_SERIES_END,
     CONTACT_ENGAGEMENTS_JUDGED = CONTACT_SERIES_END,
@@ -47,7 +47,7 @@ typedef struct contact_history {
     double *series[CONTACT_SERIES_END]; /* NULL: not wanted */
     double reduced_modulus;
     double eta0, alpha; /* eta0 in Pa s; alpha*, 1/Pa; both 0 if no Moes number is wanted */
-    double hertz_error; /* largest relative error of the load pi a p_H/2 against w */
+    double hertz_error; /* largest relative difference between pi a p_H/2 and the load w */
 } contact_history;
 
 /* Allocates the wanted outputs for `count` instants. `law` may be NULL if no Moes number is
@@ -56,7 +56,7 @@ ff_status contact_history_open(contact_history *h, const ff_host *host, uint64_t
                                size_t count, double reduced_modulus, const ff_viscosity *law,
                                const ff_array *oil);
 
-/* Sets the wanted outputs of instant i. Refuses an instant with a number that is not finite. */
+/* Writes the wanted outputs of instant i. Refuses an instant with a non-finite number. */
 ff_status contact_history_set(contact_history *h, size_t i, const contact_point *point);
 
 /* Reports as quality how well Hertz pressure and half width balance the load. */

@@ -6,7 +6,7 @@
 
 #include <flankfilm/author.h>
 
-/* The elastic moduli, the member `moduli` of the instance, and their parameters. */
+/* The elastic moduli: the member `moduli` of the instance, and its parameter rows. */
 typedef struct contact_moduli {
     double reduced;            /* Pa; NaN if `elastic` is given */
     ff_reals elastic, poisson; /* Pa, 1; one value or two, or none */
@@ -14,11 +14,11 @@ typedef struct contact_moduli {
 
 #define CONTACT_MODULI_ROWS(type)                                                                  \
     FF_QUANTITY("reduced_modulus", "GPa", type, moduli.reduced, 0, "226.4 GPa", "modulus", 1e-6,   \
-                1e6, 0, 0, "E' of 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2"),                        \
+                1e6, 0, 0, "reduced modulus E': 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2"),          \
         FF_LIST("elastic_modulus", "GPa", type, moduli.elastic, 0, NULL, "modulus", 1e-6, 1e6, 0,  \
-                0, 1, 2, "Young's moduli E1 and E2, in place of reduced_modulus"),                 \
+                0, 1, 2, "Young's moduli E1 and E2, instead of reduced_modulus"),                  \
         FF_LIST("poisson_ratio", "1", type, moduli.poisson, 0, NULL, NULL, 0, 0.5, 0, 0, 1, 2,     \
-                "Poisson's ratios, together with elastic_modulus; left out: 0.3")
+                "Poisson's ratios, with elastic_modulus; left out: 0.3")
 
 /* Computes E' from these parameters, Pa. Refuses a Poisson's ratio without elastic moduli. */
 ff_status contact_reduced_modulus(const ff_host *host, const contact_moduli *moduli,

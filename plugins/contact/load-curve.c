@@ -37,8 +37,8 @@ double contact_pieces_make_ramps(size_t count, contact_piece *pieces, double wid
     return most;
 }
 
-/* Extrapolates the line through the forces at `last` and at the station before it, in the
- * direction of `step`, to the next two stations, which are without force, up to `end`. */
+/* Extrapolates the line through the forces at `last` and at the previous station to the next two
+   stations, which have no force, but not beyond `end`. `step` is the direction, 1 or -1. */
 static void continue_line(const double *angle, const double *force, ptrdiff_t last, ptrdiff_t step,
                           ptrdiff_t end, double *value)
 {
@@ -46,7 +46,7 @@ static void continue_line(const double *angle, const double *force, ptrdiff_t la
     ptrdiff_t i = last + step;
     for (int count = 0; count < 2 && i != end && force[i] == 0; count++, i += step) {
         double line = force[last] + slope * (angle[i] - angle[last]);
-        if (line < 0) /* if two lines meet, the one nearer to 0 holds */
+        if (line < 0) /* if two lines meet at a station, the one nearer to 0 is used */
             value[i] = value[i] < 0 ? fmax(value[i], line) : line;
     }
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The contacts that this shared object exports. */
+/* Lists the contact models of this shared object. */
 #include <flankfilm/author.h>
 
 extern const ff_model contact_constant, contact_table, contact_tooth_pair;

@@ -15,14 +15,14 @@ static const ff_param columns[] = {
     FF_ROW("time", "s", "of the instant", FF_REALS, FF_REQUIRED | FF_INCREASING, NULL, NULL, NULL,
            0, 0, 0, 0, 0, 1000000, 0),
     FF_COLUMN("radius", "mm", FF_REQUIRED, "radius", 1e-6, 1e9,
-              "equivalent radius of the contact, or both radii"),
+              "equivalent radius of the contact, instead of radius_1 and radius_2"),
     FF_COLUMN("radius_1", "mm", FF_REQUIRED, "radius", 1e-6, 1e9,
-              "radius of body 1, beside radius_2"),
-    FF_COLUMN("radius_2", "mm", 0, NULL, 1e-6, 1e9, "radius of body 2, beside radius_1"),
+              "radius of surface 1; with radius_2"),
+    FF_COLUMN("radius_2", "mm", 0, NULL, 1e-6, 1e9, "radius of surface 2; with radius_1"),
     FF_COLUMN("speed_1", "m/s", FF_REQUIRED, NULL, -1e6, 1e6, "speed of surface 1"),
     FF_COLUMN("speed_2", "m/s", FF_REQUIRED, NULL, -1e6, 1e6, "speed of surface 2"),
-    FF_COLUMN("load_per_width", "N/mm", FF_REQUIRED, NULL, 0, 1e9, "normal force over the width"),
-    FF_COLUMN("gap", "um", 0, NULL, 0, 1e12, "between the surfaces; 0 from where they meet"),
+    FF_COLUMN("load_per_width", "N/mm", FF_REQUIRED, NULL, 0, 1e9, "load per width"),
+    FF_COLUMN("gap", "um", 0, NULL, 0, 1e12, "separation of the surfaces; 0 in contact"),
 };
 
 typedef struct table_contact {
@@ -37,9 +37,9 @@ typedef struct table_contact {
 static const ff_param params[] = {
     FF_PATH("file", table_contact, path, FF_REQUIRED, NULL,
             "table with the columns time [s], radius [mm] (equivalent) or radius_1 [mm] and "
-            "radius_2 [mm], speed_1 [m/s], speed_2 [m/s], load_per_width [N/mm], and gap [um] "
-            "where the contact is lost; straight lines between the rows, a time given twice is a "
-            "jump, at the first time from the film of the first row"),
+            "radius_2 [mm], speed_1 [m/s], speed_2 [m/s], load_per_width [N/mm], and optionally "
+            "gap [um] for a lost contact; linear between the rows. A repeated time is a jump; at "
+            "the first time it starts from the film of the first row"),
     CONTACT_MODULI_ROWS(table_contact),
 };
 

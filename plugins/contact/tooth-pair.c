@@ -15,8 +15,8 @@
 
 static const double degree = M_PI / 180;
 
-/* Width of the ramp of a load step, relative to the length of the path. Zones up to twice that
- * length are left out, so that ramps always fit. */
+/* Width of the ramp of a load step, relative to the length of the path. Zones up to twice this
+   length are dropped, so that ramps always fit. */
 static const double step_width = 1e-6;
 
 enum { P_LOAD_RAMP };
@@ -31,17 +31,18 @@ typedef struct tooth_pair {
 
 static const ff_param params[] = {
     FF_QUANTITY("load_ramp", "deg", tooth_pair, load_ramp, 0, "0.2 deg", NULL, 0, 90, 0, 0,
-                "roll angle over which the load passes linearly from before to after a change in "
-                "the number of pairs, centred on it; left out: less where changes are nearer than "
-                "that; 0: a step, 1e-6 of the path wide"),
-    FF_COUNT("points", tooth_pair, points, FF_TUNABLE, "4000", NULL, 16, 1e6, 0, 0,
-             "instants of each engagement; the ends of the ramps and of the load are among them"),
-    FF_COUNT_OR("all", "engagement", tooth_pair, engagements.one, 0, "all", NULL, 0, 1e6, 0, 0,
-                "which mesh cycle of a motion that lasts several the pair begins in, from 0; all: "
-                "one after the other, each a history of its own"),
+                "width in roll angle of the linear load ramp at each change in the number of "
+                "pairs, centred on the change; left out: the preset, or less if the changes are "
+                "closer; 0: a step with a width of 1e-6 of the path"),
     FF_COUNT(
-        "max_engagements", tooth_pair, engagements.most, 0, "16", NULL, 1, 1e6, 0, 0,
-        "the most engagements that `all` takes; of a longer motion as many, spread over all of it"),
+        "points", tooth_pair, points, FF_TUNABLE, "4000", NULL, 16, 1e6, 0, 0,
+        "number of instants of each engagement, including the ends of the ramps and of the load"),
+    FF_COUNT_OR("all", "engagement", tooth_pair, engagements.one, 0, "all", NULL, 0, 1e6, 0, 0,
+                "mesh cycle in which the pair enters contact, from 0, for a motion of several mesh "
+                "cycles; all: all of them in sequence, each with its own history"),
+    FF_COUNT("max_engagements", tooth_pair, engagements.most, 0, "16", NULL, 1, 1e6, 0, 0,
+             "largest number of engagements for `all`; from a longer motion this many are taken, "
+             "spread evenly over it"),
 };
 
 static ff_status ready(void *self)
@@ -82,8 +83,8 @@ static int by_angle(const void *a, const void *b)
     return (*one > *other) - (*one < *other);
 }
 
-/* Adds the roll angles at which the load begins and ends, as long as half of the remaining
- * instants stay free for the rest. Angles next to another breakpoint are not added. */
+/* Adds the roll angles at which the load begins and ends, as long as half of the remaining instants
+   stay free for other points. Angles next to another breakpoint are not added. */
 static size_t add_load_ends(const contact_load_curve *force, size_t points, double *breaks,
                             size_t count)
 {
@@ -102,9 +103,9 @@ static size_t add_load_ends(const contact_load_curve *force, size_t points, doub
     return n;
 }
 
-/* One engagement of the load. */
+/* One engagement of the load: its tooth force over the path. */
 typedef struct engagement {
-    double number, begin; /* `begin`: time of the history at which it begins, s */
+    double number, begin; /* `begin`: time in the history at which the engagement begins, s */
     contact_load_curve force, gap;
 } engagement;
 
@@ -130,7 +131,7 @@ static contact_point point_at(const contact_tooth_path *p, const engagement *e, 
     return point;
 }
 
-/* Converts a point of exchanged gears back to gear 1 and gear 2 of the user. */
+/* Converts a point of the pair with exchanged gears back to gear 1 and gear 2 of the user. */
 static contact_point of_gears(const contact_tooth_path *p, contact_point point)
 {
     const contact_point as = point;
@@ -147,11 +148,11 @@ static contact_point of_gears(const contact_tooth_path *p, contact_point point)
 /* The history being written, and integrals of the load over the roll angle. */
 typedef struct load_record {
     contact_history history;
-    size_t instants;   /* number written so far */
-    double angle;      /* of the last instant, rad */
-    double load;       /* per width, at that angle, N/m */
-    double load_sum;   /* N rad, integral of the load that the pair carries */
-    double negative;   /* N rad, integral of negative forces, which the pair does not carry */
+    size_t instants;   /* number of instants written so far */
+    double angle;      /* roll angle of the last instant, rad */
+    double load;       /* load per width at that angle, N/m */
+    double load_sum;   /* integral of the load on the pair, N rad */
+    double negative;   /* integral of negative forces, which the pair cannot carry, N rad */
     double top, error; /* largest force, and largest error between stations, N */
 } load_record;
 
@@ -188,8 +189,7 @@ static ff_status add_instants(const tooth_pair *s, const contact_tooth_path *p, 
     return status;
 }
 
-/* Makes the ramps half as wide as would fit, so that half of the shortest zone stays free of
- * them. */
+/* Sets the ramps to half the width that fits, so that half of the shortest zone has no ramp. */
 static void shrink_ramps(const tooth_pair *s, contact_piece *pieces, size_t count, double most)
 {
     char text[200];
@@ -255,8 +255,8 @@ static void report_engagements(const tooth_pair *s, const contact_tooth_path *p)
                      text);
 }
 
-/* Reports the load as quality. Over whole periods the mean of the mesh force is F, since the
- * gears do not accelerate. A negative force acts on the other flank and is no load of this one. */
+/* Reports the load as quality. Over whole periods, the mean of the mesh force is F, since the gears
+   do not accelerate. A negative force acts on the other flank and is no load of this one. */
 static void report_load(const tooth_pair *s, const contact_tooth_path *p, const load_record *r)
 {
     const double limit = 0.01, turns = p->pitch * (double)p->count;
@@ -266,15 +266,15 @@ static void report_load(const tooth_pair *s, const contact_tooth_path *p, const 
     double off = fabs((r->load_sum - r->negative) / turns / p->line_force - 1);
     if (p->count < p->available)
         snprintf(text, sizeof text,
-                 "mean force of all pairs in mesh against torque over base radius, over that; %zu "
-                 "of %zu engagements are not the whole motion; %s takes more",
+                 "relative difference between the mean mesh force and torque over base radius; "
+                 "only %zu of %zu engagements are included; %s takes more",
                  p->count, p->available,
                  s->engagements.one == CONTACT_ENGAGEMENTS_ALL ? "max_engagements"
                                                                : "engagement: all");
     else
         snprintf(text, sizeof text,
-                 "mean force of all pairs in mesh against torque over base radius, over that; over "
-                 "whole periods of the motion both are equal, unless forces beyond the path bear");
+                 "relative difference between the mean mesh force and torque over base radius; "
+                 "over whole periods both are equal, unless teeth carry load beyond the path");
     s->host->quality(s->host->ctx, "mesh_load", off, limit, off <= limit ? FF_GOOD : FF_DOUBTFUL,
                      text);
 }
@@ -282,13 +282,13 @@ static void report_load(const tooth_pair *s, const contact_tooth_path *p, const 
 static ff_status report(const tooth_pair *s, const contact_tooth_path *p, const load_record *r,
                         uint64_t wanted)
 {
-    /* the relative error of the Hertz pressure is half of that */
+    /* the relative error of the Hertz pressure is half of this */
     const double limit = 0.02;
     double error = r->top > 0 ? r->error / r->top : 0;
     s->host->quality(s->host->ctx, "load_interpolation", error, limit,
                      error <= limit ? FF_GOOD : FF_DOUBTFUL,
-                     "estimated error of the tooth force between stations, over its maximum; more "
-                     "stations of the gear follow the vibration, and as many points");
+                     "estimated interpolation error of the tooth force between stations, relative "
+                     "to its maximum; more stations of the gear and more points reduce it");
     contact_history_report(&r->history);
     report_engagements(s, p);
     report_load(s, p, r);
@@ -309,8 +309,8 @@ static void set_slopes(const contact_load_curve *curve, double *slope)
     }
 }
 
-/* Makes the history for n stations; `curves` has room for 3 n numbers, `breaks` for 3 n, and
- * `pieces` for n/2 pieces. */
+/* Writes the history for n stations; `curves` has room for 3 n numbers, `breaks` for 3 n, and
+   `pieces` for n/2 pieces. */
 static ff_status make_history(const tooth_pair *s, const contact_tooth_path *p, uint64_t wanted,
                               contact_piece *pieces, double *curves, double *breaks)
 {

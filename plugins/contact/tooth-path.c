@@ -40,17 +40,17 @@ const ff_port contact_tooth_inputs[CONTACT_TOOTH_INPUTS] = {
     {.name = "operating.speed", .unit = "rad/s", .doc = "speed of gear 1", .dims = ""},
     {.name = "operating.line_force",
      .unit = "N",
-     .doc = "static force along the line of action, which the pairs carry together on the mean",
+     .doc = "static force along the line of action: the mean total force of all pairs",
      .dims = "",
      .flags = FF_OPTIONAL},
     {.name = "load.tooth_force",
      .unit = "N",
-     .doc = "force on the pair, quasi-static or dynamic",
+     .doc = "tooth force on the pair, quasi-static or dynamic",
      .dims = "engagement? gear.station",
      .from = "stiffness|dynamics"},
     {.name = "load.gap",
      .unit = "m",
-     .doc = "separation of the flanks; 0 from where they meet",
+     .doc = "separation of the flanks; 0 in contact",
      .dims = "engagement? gear.station",
      .flags = FF_OPTIONAL,
      .from = "stiffness|dynamics"},
@@ -82,8 +82,8 @@ static ff_status read_positive(const ff_host *host, const ff_array *in, uint32_t
     return FF_OK;
 }
 
-/* Reads a series over the stations, or one for each of several engagements, whose number is
- * returned. */
+/* Reads a series over the stations, or one for each of several engagements. Returns the number of
+   engagements. */
 static ff_status read_series(const ff_host *host, const ff_array *in, uint32_t row, size_t n,
                              double least, const double **series, size_t *engagements)
 {

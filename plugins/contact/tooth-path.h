@@ -26,14 +26,14 @@ enum {
 
 extern const ff_port contact_tooth_inputs[CONTACT_TOOTH_INPUTS];
 
-/* The inputs after their checks, in SI units. */
+/* The checked inputs, in SI units. */
 typedef struct contact_tooth_path {
-    size_t n; /* stations */
+    size_t n; /* number of stations */
     const double *angle, *radius_1, *radius_2;
-    const double *force, *gap; /* gap NULL: none */
-    size_t gaps;               /* engagements that have a gap of their own */
-    size_t available, count;   /* engagements in the load, and those that are used */
-    size_t *engagement;        /* their numbers */
+    const double *force, *gap; /* `gap` NULL: no gap */
+    size_t gaps;               /* number of engagements that have their own gap */
+    size_t available, count;   /* engagements in the load, and engagements used */
+    size_t *engagement;        /* indices of the used engagements */
     double pitch;              /* roll angle from one pair to the next, rad */
     double face_width, ratio;  /* ratio: omega2 / omega1 */
     double speed, reduced_modulus;

@@ -41,7 +41,7 @@ static const ff_param params[] = {
     FF_QUANTITY("a", "1/GPa", dowson_higginson, a, 0, "0.6 1/GPa", NULL, 0, 1000, 0.3, 3,
                 "compressibility at ambient pressure"),
     FF_QUANTITY("b", "1/GPa", dowson_higginson, b, 0, "1.7 1/GPa", NULL, 0, 1000, 1, 5,
-                "how fast it stiffens: the density rises by a/b at most"),
+                "stiffening coefficient b: the relative density rise is at most a/b"),
     DENSITY_SOFTENING_ROWS(dowson_higginson, softening),
 };
 

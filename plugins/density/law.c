@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What density laws share: the oil's density, and the softening with temperature. */
+/* Functions shared by the density laws: the density of the oil, and the softening with
+   temperature. */
 #include "law.h"
 
 #include "tension.h"
@@ -12,7 +13,7 @@ enum { BLOCK = 256 };
 
 const ff_port density_inputs[1] = {{.name = "oil",
                                     .unit = "",
-                                    .doc = "the oil over temperature, in place of rho0",
+                                    .doc = "the oil as a function of temperature, instead of rho0",
                                     .dims = "",
                                     .service = FF_LIQUID_ID,
                                     .flags = FF_OPTIONAL,
@@ -40,7 +41,7 @@ density_ambient density_begin(const void *self, size_t n, const double *T)
     return ambient;
 }
 
-/* Multiplies rho, which is for rho0 = 1, by the density of the liquid. */
+/* Multiplies rho, which was computed for rho0 = 1, by the density of the liquid. */
 static ff_status multiply(const ff_liquid *liquid, size_t n, const double *T, double *rho,
                           double *drho_dp, double *drho_dT)
 {
@@ -95,7 +96,7 @@ static void bend_tension(double rho0, double K0, size_t n, const double *p, doub
     }
 }
 
-/* `eval` for a law that does not soften. */
+/* `eval` for a law that does not soften with temperature. */
 static ff_status eval_cold(const void *law, const density_shape *shape, size_t n, const double *p,
                            const double *T, double *rho, double *drho_dp, double *drho_dT)
 {
@@ -114,7 +115,7 @@ static ff_status eval_cold(const void *law, const density_shape *shape, size_t n
     return density_end(law, &ambient, outside ? FF_DOMAIN : FF_OK, n, T, rho, drho_dp, drho_dT);
 }
 
-/* How an oil expands at `at`, and the exponent of density_softening. */
+/* The thermal expansion of the oil at `at`, and the exponent of density_softening. */
 typedef struct expansion {
     double rho0, exponent;
     int known;
@@ -130,8 +131,8 @@ static expansion expansion_at(const ff_liquid *liquid, const density_softening *
     return e;
 }
 
-/* At n <= BLOCK points, whose rho and by_p are those of rho0 = 1 at `at`; `s` is (rho0(at)/rho0)^n
-   of (6.26). Below ambient pressure the tangent of the law is bent. */
+/* For n <= BLOCK points, with rho and by_p for rho0 = 1 at `at`; `s` is (rho0(at)/rho0)^n of
+   (6.26). Below ambient pressure the tangent of the law is bent. */
 static void scale(const density_shape *shape, double exponent, size_t n, const double *p,
                   const double *rho0, const double *slope, const double *s, double *rho,
                   double *by_p, double *by_T)
@@ -157,7 +158,7 @@ static void scale(const density_shape *shape, double exponent, size_t n, const d
     }
 }
 
-/* At n <= BLOCK points. */
+/* Evaluates n <= BLOCK points. */
 static ff_status eval_soft(const void *law, const density_shape *shape, size_t n, const double *p,
                            const double *T, double *rho, double *drho_dp, double *drho_dT)
 {
@@ -198,15 +199,16 @@ ff_status density_softening_ready(const void *self, density_softening *softening
     const density_law *law = self;
     int given = !isnan(softening->at), flat = softening->decay <= 0;
     if (!given)
-        softening->at = 313.15; /* of no effect */
+        softening->at = 313.15; /* `at` then has no effect */
     if (!flat && !law->liquid) {
         law->host->log(law->host->ctx, FF_LOG_WARNING,
-                       "K0_decay has no effect without an oil, whose expansion it goes with");
+                       "K0_decay has no effect without an oil, since it acts through the expansion "
+                       "of the oil");
         softening->decay = 0;
         return FF_OK;
     }
     return given || flat ? FF_OK
                          : ff_failf(law->host, FF_INVALID, "at",
-                                    "K0_decay needs the temperature that the other constants of "
-                                    "the law hold at: at");
+                                    "K0_decay needs the temperature for which the other constants "
+                                    "of the law are given: at");
 }

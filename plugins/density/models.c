@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The density laws that this shared object exports. */
+/* Lists the density laws of this shared object. */
 #include <flankfilm/author.h>
 
 extern const ff_model density_incompressible, density_dowson_higginson, density_tait;

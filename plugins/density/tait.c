@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tait: rho = rho0/V, V = 1 - ln(1 + p (1 + K0')/K0) / (1 + K0'), the equation of state of the
- * Doolittle-Tait viscosity (Dymond & Malhotra 1988). Beyond V = 1/2 rho continues linearly: no
- * liquid is compressed that far, and V would reach 0. */
+   Doolittle-Tait viscosity (Dymond & Malhotra 1988). Beyond V = 1/2 rho continues linearly, since V
+   would reach 0; no liquid is compressed that far. */
 #include "law.h"
 #include "references.h"
 
@@ -47,7 +47,7 @@ static const ff_param params[] = {
     FF_QUANTITY("K0", "GPa", tait, K0, FF_REQUIRED, NULL, NULL, 0.01, 1000, 0.5, 3,
                 "bulk modulus at ambient pressure"),
     FF_QUANTITY("K0_prime", "1", tait, K0_prime, FF_REQUIRED, NULL, NULL, 0, 100, 8, 13,
-                "rise of the bulk modulus with pressure"),
+                "derivative of the bulk modulus over pressure"),
     DENSITY_SOFTENING_ROWS(tait, softening),
 };
 

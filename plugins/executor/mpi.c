@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The ranks of an MPI job as a task farm. Rank 0 leads, and also works as the others do: a rank
- * has as many tasks as slots, and gets a new task for each one that is over. No rank blocks
- * inside MPI, which would keep a core busy. */
+/* Runs the ranks of an MPI job as a task farm. Rank 0 leads, and also works like the others. Each
+   rank has as many tasks as slots, and gets a new task whenever one is finished. No rank blocks
+   inside MPI, since that would keep a core busy. */
 #include <flankfilm/author.h>
 #include <flankfilm/executor.h>
 
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <time.h>
 
-enum { TASK = 1, END, ANSWER, OVER, LOST }; /* tags of the messages */
+enum { TASK = 1, END, ANSWER, OVER, LOST }; /* message tags */
 
 typedef struct farm {
     const ff_host *host;
@@ -18,13 +18,13 @@ typedef struct farm {
     int rank, ranks;
 } farm;
 
-/* What rank 0 knows of the others. */
+/* The state of the other ranks, on rank 0. */
 typedef struct leader {
     const farm *f;
     const ff_tasks *t;
-    int *slots;  /* of each rank: how many tasks it can run at a time */
-    int *busy;   /* of each rank: how many tasks it is running */
-    int working; /* the sum of `busy` */
+    int *slots;  /* by rank: number of tasks it can run at a time */
+    int *busy;   /* by rank: number of tasks it is running */
+    int working; /* sum of `busy` */
     bool ended;  /* no tasks are left */
     bool lost;   /* a rank has lost its workers and their tasks */
 } leader;
@@ -74,7 +74,8 @@ static bool receive(leader *w)
     MPI_Get_count(&message, MPI_BYTE, &size);
     char *answer = malloc((size_t)size + 1);
     if (!answer)
-        MPI_Abort(MPI_COMM_WORLD, 1); /* such a rank could not be ended either */
+        MPI_Abort(MPI_COMM_WORLD, 1); /* without memory for the message, this rank cannot be told
+                                         to end */
     MPI_Recv(answer, size, MPI_BYTE, rank, tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
     if (tag == LOST)
         drop_rank(w, rank);
@@ -84,8 +85,8 @@ static bool receive(leader *w)
     return true;
 }
 
-/* Asks whether a task of this process has answered, and waits for up to 1 ms, longer the longer
- * nothing has happened. */
+/* Checks for an answer of a task in this process. Waits up to 1 ms, longer the longer nothing has
+   happened. */
 static int32_t poll_worker(const ff_tasks *t, bool busy, int *idle, size_t *task,
                            const void **answer, size_t *size)
 {
@@ -134,7 +135,7 @@ static ff_status lead(const farm *f, const ff_tasks *t, int *slots)
                   : FF_OK;
 }
 
-/* Runs the tasks that rank 0 sends, on the other ranks, until it sends the end. */
+/* Runs the tasks that rank 0 sends until it sends END; on the other ranks. */
 static void follow(const ff_tasks *t)
 {
     int working = 0, idle = 0, there;
@@ -170,7 +171,7 @@ static ff_status farm_out(farm *f, const ff_tasks *t)
     good = f->rank != 0 || t->lead(t->ctx) >= 0;
     MPI_Bcast(&good, 1, MPI_INT, 0, MPI_COMM_WORLD);
     if (!good)
-        return FF_OK; /* rank 0 reports why */
+        return FF_OK; /* rank 0 reports the reason */
     int *all = calloc((size_t)f->ranks, sizeof *all);
     if (!all)
         return f->host->fail(f->host->ctx, FF_NOMEM, NULL, "there is no memory for the ranks");

@@ -5,10 +5,11 @@
 
 #include <math.h>
 
-/* A unit in the last digit of a drawing: of measured lengths, m; of profile shift coefficients. */
+/* One unit of the last digit on a drawing: of a measured length, m; of a profile shift
+   coefficient. */
 static const double length = 1e-6, shift = 1e-4;
 
-/* Rounding error of the arithmetic, m; a smaller overlap counts as none. */
+/* Rounding error of the arithmetic, m; a smaller overlap is ignored. */
 static const double rounding_error = 1e-12;
 
 const double gear_rounding_roll = 0.01 * M_PI / 180;

@@ -13,11 +13,11 @@
 
 /* Steps of a curved profile. Straight lines between the points follow a parabola of height A to
  * within A/(4 PROFILE_STEPS^2). */
-enum { PROFILE_STEPS = 2048, MORE_POINTS = 8 /* at most, for ends and starts of reliefs */ };
+enum { PROFILE_STEPS = 2048, MORE_POINTS = 8 /* at most, for the starts and ends of reliefs */ };
 
 static const double degree = M_PI / 180;
 
-/* rad; closer roll angles count as one */
+/* rad; closer roll angles are treated as equal */
 static const double same_roll = 1e-9;
 
 /* Sets the roll angles between which each flank is in contact. On the path of contact, the tip
@@ -48,8 +48,8 @@ static const relief_end back_end = {true, "back_relief_start", "back_relief_diam
 static const relief_end root_end = {false, "root_relief_start", "root_relief_diameter",
                                     "root_relief_length"};
 
-/* The start of a relief as the drawing states it, the values of the two ends of the flank in the
- * same terms, and the drawing's rounding; `unit` converts all four for messages. */
+/* The start of a relief as the drawing gives it, the two ends of the flank in the same terms, and
+   the rounding of the drawing; `unit` converts all four for messages. */
 typedef struct stated_start {
     const char *item, *what, *unit;
     double value, from, to, open, scale;
@@ -60,8 +60,8 @@ static double diameter_at(double base, double roll)
     return 2 * base * hypot(1, roll);
 }
 
-/* Returns the roll angle at which a relief of gear g starts, from whichever of the three ways is
- * given. */
+/* Returns the roll angle at which a relief of gear g starts, from any of the three ways to give
+   it. */
 static double stated_roll(const gear_flanks *f, const gear_relief *r, const relief_end *end, int g,
                           double base, stated_start *s)
 {
@@ -96,7 +96,7 @@ static double stated_roll(const gear_flanks *f, const gear_relief *r, const reli
     return roll;
 }
 
-/* Finds where the relief of one end of the flank of gear g begins. */
+/* Finds where the relief at one end of the flank of gear g begins. */
 static ff_status set_start(const ff_host *host, gear_flanks *f, const gear_relief *relief,
                            const relief_end *end, int g, double base, double preset, double *start)
 {
@@ -139,16 +139,16 @@ static ff_status set_reliefs(const ff_host *host, const gear_flank_spec *s, cons
     return FF_OK;
 }
 
-/* Returns the metal that a relief takes off at the roll angle `beyond` from its start; `length`
- * is that from its start to the end of the flank. */
+/* Returns the metal that a relief removes at the roll angle `beyond` from its start; `length` is
+   the roll angle from its start to the end of the flank. */
 static double relieve(const gear_relief *relief, int g, double beyond, double length)
 {
     double u = length > 0 ? fmin(beyond / length, 1) : 0;
     return u > 0 ? ff_of_both(&relief->amount, g) * (relief->shape == 1 ? u * u : u) : 0;
 }
 
-/* Returns the deviation of a measured curve; beyond its ends the first and the last value
- * continue. */
+/* Returns the deviation of a measured curve. Beyond its ends, the first or the last value
+   applies. */
 static double curve_at(const gear_curve *c, double roll)
 {
     if (c->count == 0)
@@ -162,8 +162,8 @@ static double curve_at(const gear_curve *c, double roll)
     return c->deviation[low] + t * (c->deviation[high] - c->deviation[low]);
 }
 
-/* Returns the deviation of the profile at a roll angle. u runs from 0 at the lowest contact to 1
- * at the tip. */
+/* Returns the deviation of the profile at a roll angle. u is 0 at the lowest contact and 1 at the
+   tip. */
 static double deviation_at(const gear_flank_spec *s, const gear_flanks *f, int g, double roll)
 {
     double u = (roll - f->low[g]) / (f->high[g] - f->low[g]);
@@ -202,7 +202,8 @@ static size_t place_points(const gear_flank_spec *s, const gear_flanks *f, int g
     return kept;
 }
 
-/* Lengthens a list of roll angles to that of the other profile by halving its widest gaps. */
+/* Extends a list of roll angles to the length of the other profile's list by halving its widest
+   gaps. */
 static void fill_points(double *roll, size_t count, size_t wanted)
 {
     for (; count < wanted; count++) {

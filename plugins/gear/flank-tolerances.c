@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The text of ISO 1328-1:1995 was not read. Its formulas for class 5 come from public code
- * (f_pt, f_f_alpha, f_H_alpha). All five formulas, with the standard's ranges, steps and
- * rounding, reproduce every value of class 6 printed in the public reports of the NREL 5 MW
- * gearbox (gfsReboucas/Drivetrain, stage_01.rtf to stage_03.rtf; test `tolerances`). */
+/* The text of ISO 1328-1:1995 was not available. Its formulas for class 5 come from public code
+   (f_pt, f_f_alpha, f_H_alpha). All five formulas, with the standard's ranges, steps and rounding,
+   reproduce every value of class 6 printed in the public reports of the NREL 5 MW gearbox
+   (gfsReboucas/Drivetrain, stage_01.rtf to stage_03.rtf; test `tolerances`). */
 #include "flank-tolerances.h"
 
 #include <flankfilm/author.h>
@@ -13,7 +13,8 @@ static const double modules[] = {0.5, 2, 3.5, 6, 10, 16, 25, 40, 70};
 static const double diameters[] = {5,    20,   50,   125,  280,  560,  1000,
                                    1600, 2500, 4000, 6000, 8000, 10000};
 
-/* Returns the geometric mean of the ends of the range that holds the value; 0: none does. */
+/* Returns the geometric mean of the limits of the range that contains the value; 0: no range
+   does. */
 static double range_mean(const double *ends, size_t count, double value)
 {
     const double slack = 1 + 1e-9;
@@ -23,8 +24,8 @@ static double range_mean(const double *ends, size_t count, double value)
     return 0;
 }
 
-/* Returns the tolerance for a class; one class is a factor of sqrt 2. Values above 10 um are
- * rounded to 1 um, those from 5 um to 0.5 um, those below to 0.1 um. */
+/* Returns the tolerance of a class from that of class 5; one class is a factor of sqrt 2. Values
+   above 10 um are rounded to 1 um, values from 5 um to 0.5 um, smaller ones to 0.1 um. */
 static double of_class(double class_5, double quality)
 {
     const double value = class_5 * pow(2, 0.5 * (quality - 5));

@@ -10,8 +10,8 @@ typedef struct gear_tolerances {
     double single_pitch, total_pitch, profile_form, profile_slope, profile;
 } gear_tolerances;
 
-/* Gives the tolerances of a gear. Refuses, at the parameter `quality`, a gear outside the ranges
- * of the standard: modules of 0.5 to 70 mm and reference diameters of 5 to 10000 mm. */
+/* Computes the tolerances of a gear. Refuses, at the parameter `quality`, a gear outside the ranges
+   of the standard: modules of 0.5 to 70 mm and reference diameters of 5 to 10000 mm. */
 ff_status gear_tolerances_of(const ff_host *host, int gear, double quality, double module,
                              double reference_diameter, gear_tolerances *t);
 

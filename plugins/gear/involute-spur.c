@@ -12,10 +12,9 @@
 #include <string.h>
 
 static const ff_param params[] = {
-    FF_LIST(
-        "teeth", "1", spur, spec.teeth, FF_REQUIRED | FF_WHOLE, NULL, NULL, 3, 1e6, 0, 0, 1, 2,
-        "numbers of teeth of gear 1, which drives where its torque is positive, and gear 2; one "
-        "value: both the same"),
+    FF_LIST("teeth", "1", spur, spec.teeth, FF_REQUIRED | FF_WHOLE, NULL, NULL, 3, 1e6, 0, 0, 1, 2,
+            "numbers of teeth of gear 1 and gear 2; one value: both equal. Gear 1 drives if its "
+            "torque is positive"),
     FF_QUANTITY("module", "mm", spur, spec.module, FF_REQUIRED, NULL, NULL, 1e-3, 1e3, 0, 0,
                 "module: reference diameter over number of teeth"),
     FF_QUANTITY("pressure_angle", "deg", spur, spec.pressure_angle, 0, "20 deg", NULL, 5, 45, 0, 0,
@@ -23,58 +22,57 @@ static const ff_param params[] = {
     FF_QUANTITY("face_width", "mm", spur, face_width, FF_REQUIRED, NULL, NULL, 1e-3, 1e5, 0, 0,
                 "width of the teeth in contact"),
     FF_LIST("profile_shift", "1", spur, spec.shift, 0, "0", NULL, -10, 10, 0, 0, 1, 2,
-            "profile shift coefficients x1 and x2, positive outward; a shift that undercuts a "
-            "flank where it meshes is refused"),
+            "profile shift coefficients x1 and x2, positive outward; refused if the meshing part "
+            "of a flank is undercut"),
     FF_QUANTITY("centre_distance", "mm", spur, spec.centre_distance, 0, NULL, NULL, 1e-3, 1e9, 0, 0,
-                "working centre distance; left out: the one at which teeth of these profile shifts "
-                "mesh without backlash"),
+                "working centre distance; left out: that of a mesh without backlash for these "
+                "profile shifts"),
     FF_LIST("tip_diameter", "mm", spur, spec.tip_diameter, 0, NULL, NULL, 1e-3, 1e9, 0, 0, 1, 2,
             "tip (outside) diameters; left out: d + 2 m (1 + x), shortened by DIN 3960 if the "
             "profile shifts do not cancel"),
     FF_LIST("root_diameter", "mm", spur, spec.root_diameter, 0, NULL, NULL, 1e-3, 1e9, 0, 0, 1, 2,
             "root diameters; left out: d + 2 m (x - dedendum)"),
     FF_LIST("dedendum", "1", spur, spec.dedendum, 0, "1.25", NULL, 0.5, 3, 1, 1.6, 1, 2,
-            "dedendum of the basic rack over the module: how deep the tool cuts"),
+            "dedendum of the basic rack over the module: the depth that the tool cuts"),
     FF_LIST("tool_tip_radius", "1", spur, spec.tool_tip_radius, 0, NULL, NULL, 0, 1, 0, 0, 1, 2,
             "tip radius of the tool over the module, for the root form and the stiffness of the "
             "tooth; left out: a root form with the bottom clearance of 0.25, and 0.38 for the "
             "stiffness"),
     FF_LIST("protuberance", "um", spur, spec.protuberance, 0, NULL, NULL, 0, 1e3, 0, 0, 1, 2,
-            "protuberance of the tool's tip beyond its flank, normal to it: where the involute "
-            "begins"),
+            "protuberance of the tool's tip beyond its flank, normal to the flank; it determines "
+            "where the involute begins"),
     FF_LIST("machining_allowance", "um", spur, spec.machining_allowance, 0, NULL, NULL, 0, 1e3, 0,
             0, 1, 2,
-            "stock that is ground off the flank after the tool, normal to it; only the part of the "
-            "protuberance that is deeper than this stock undercuts the flank"),
+            "stock ground off the flank after cutting, normal to the flank; a protuberance "
+            "undercuts the flank only by its excess over this stock"),
     FF_QUANTITY("backlash", "mm", spur, spec.backlash, 0, NULL, "thickness", 0, 1e3, 0, 0,
-                "total backlash of the mounted pair, twice the half-gap b, for which both gears "
-                "are thinned alike; left out: as the tooth thickness gives it, of full teeth if "
-                "that is not given either"),
+                "total backlash of the mounted pair, twice the half-gap b; both gears are thinned "
+                "equally for it. Left out: it follows from the tooth thickness, or from full teeth "
+                "if that is not given either"),
     FF_ONE_OF("line-of-action|circular", "backlash_measure", spur, spec.backlash_measure, 0,
               "line-of-action",
               "where `backlash` is measured: along the line of action, or as an arc of the working "
               "pitch circle"),
     FF_LIST("thickness_allowance", "um", spur, spec.allowance, 0, NULL, "thickness", -1e4, 1e4,
             -1e3, 0, 1, 2,
-            "tooth thickness allowances E_sn of a drawing, arc at the reference circle, one value "
-            "or two; less than 0: thinner "
-            "than the profile shift makes the tooth"),
+            "tooth thickness allowances E_sn of a drawing, as arcs at the reference circle, one "
+            "value or two; negative: the tooth is thinner than the profile shift makes it"),
     FF_LIST("span", "mm", spur, spec.span, 0, NULL, "thickness", 1e-3, 1e5, 0, 0, 1, 2,
             "span measures W_k over span_teeth teeth, one value or two"),
     FF_LIST("span_teeth", "1", spur, spec.span_teeth, 0, NULL, NULL, 2, 1000, 0, 0, 1, 2,
-            "numbers of teeth k that `span` goes over"),
+            "numbers of teeth k over which `span` was measured"),
     FF_LIST("over_pins", "mm", spur, spec.over_pins, 0, NULL, "thickness", 1e-3, 1e5, 0, 0, 1, 2,
             "measures M_d over two pins (or balls) of pin_diameter, one value or two"),
     FF_LIST("pin_diameter", "mm", spur, spec.pin_diameter, 0, NULL, NULL, 1e-3, 1e4, 0, 0, 1, 2,
-            "diameters D_M of the pins that `over_pins` goes over"),
+            "diameters D_M of the pins over which `over_pins` was measured"),
     FF_LIST("bore_diameter", "mm", spur, bore, 0, "0 mm", NULL, 0, 1e9, 0, 0, 1, 2,
             "bore diameters, 0: none"),
     FF_LIST("inertia", "kg m2", spur, given_inertia, 0, NULL, NULL, 1e-20, 1e20, 0, 0, 1, 2,
             "polar moments of inertia; left out: discs of working pitch diameter and face width, "
             "less the bore"),
     FF_ONE_OF(GEAR_MATERIALS, "material", spur, material.name[0], 0, "steel",
-              "material of the gears: modulus, Poisson's ratio, density, heat, hardness and yield "
-              "strength, as far as they are known"),
+              "material of the gears: gives modulus, Poisson's ratio, density, heat data, hardness "
+              "and yield strength, as far as they are known"),
     FF_ONE_OF(GEAR_MATERIALS, "material_2", spur, material.name[1], 0, NULL,
               "material of gear 2; left out: that of gear 1"),
     FF_LIST("elastic_modulus", "GPa", spur, material.modulus, 0, NULL, NULL, 1e-3, 1e4, 0, 0, 1, 2,
@@ -90,87 +88,87 @@ static const ff_param params[] = {
     FF_LIST("specific_heat", "J/(kg K)", spur, material.specific_heat, 0, NULL, NULL, 1, 1e5, 0, 0,
             1, 2, "specific heats of the gears; left out: as for thermal_conductivity"),
     FF_LIST("hardness", "GPa", spur, material.hardness, FF_MIN_OPEN, NULL, NULL, 0, 1e3, 0, 0, 1, 2,
-            "hardness of the flanks, the pressure at which their metal yields, 7 GPa is 700 HV; "
-            "left out: as for thermal_conductivity"),
+            "indentation hardness of the flanks as a pressure: 7 GPa is 700 HV; left out: as for "
+            "thermal_conductivity"),
     FF_LIST("yield_strength", "MPa", spur, material.yield, FF_MIN_OPEN, NULL, NULL, 0, 1e4, 0, 0, 1,
             2, "yield strengths of the flanks in tension; left out: as for thermal_conductivity"),
     FF_COUNT("stations", spur, stations, FF_TUNABLE, "800", NULL, 8, 100000, 0, 0,
-             "about how many intervals the path of contact is cut into"),
+             "approximate number of intervals of the path of contact"),
     FF_LIST("tip_relief", "um", spur, flank_spec.tip.amount, 0, "0 um", NULL, 0, 1e4, 0, 0, 1, 2,
-            "metal taken off at the tip of the flank, normal to it, one value or two"),
-    FF_LIST(
-        "tip_relief_start", "deg", spur, flank_spec.tip.start, 0, NULL, "tip_relief_start", 0, 1e4,
-        0, 0, 1, 2,
-        "roll angle of the own gear from which the tip is relieved; left out: each gear's HPSTC"),
+            "metal removed at the tip of the flank, normal to it, one value or two"),
+    FF_LIST("tip_relief_start", "deg", spur, flank_spec.tip.start, 0, NULL, "tip_relief_start", 0,
+            1e4, 0, 0, 1, 2,
+            "roll angle, on the gear itself, at which the tip relief starts; left out: each gear's "
+            "HPSTC"),
     FF_LIST("tip_relief_diameter", "mm", spur, flank_spec.tip.diameter, 0, NULL, "tip_relief_start",
             1e-3, 1e9, 0, 0, 1, 2,
-            "diameter from which the tip is relieved, instead of tip_relief_start"),
+            "diameter at which the tip relief starts, instead of tip_relief_start"),
     FF_LIST("tip_relief_length", "mm", spur, flank_spec.tip.length, 0, NULL, "tip_relief_start", 0,
             1e5, 0, 0, 1, 2,
             "length of the tip relief from the tip, along the line of action as in profile "
             "diagrams, instead of tip_relief_start"),
     FF_ONE_OF("linear|parabolic", "tip_relief_shape", spur, flank_spec.tip.shape, 0, "linear",
-              "growth of the tip relief from its start to the tip"),
+              "shape of the tip relief between its start and the tip"),
     FF_LIST("back_relief", "um", spur, back_relief.amount, 0, NULL, NULL, 0, 1e4, 0, 0, 1, 2,
-            "tip relief of the back flanks, which bear the load if the torque is below 0; left "
-            "out: this and the other parameters of back_relief are those of the driving flank"),
+            "tip relief of the back flanks, which carry the load if the torque is negative; left "
+            "out: back_relief and its other parameters are those of the driving flank"),
     FF_LIST("back_relief_start", "deg", spur, back_relief.start, 0, NULL, "back_relief_start", 0,
             1e4, 0, 0, 1, 2,
-            "roll angle of the own gear from which the tip of its back flank is relieved"),
+            "roll angle, on the gear itself, at which the relief of its back flank starts"),
     FF_LIST("back_relief_diameter", "mm", spur, back_relief.diameter, 0, NULL, "back_relief_start",
             1e-3, 1e9, 0, 0, 1, 2,
-            "diameter from which the back flank is relieved, instead of back_relief_start"),
+            "diameter at which the relief of the back flank starts, instead of back_relief_start"),
     FF_LIST("back_relief_length", "mm", spur, back_relief.length, 0, NULL, "back_relief_start", 0,
             1e5, 0, 0, 1, 2,
             "length of the back relief from the tip along the line of action, instead of "
             "back_relief_start"),
     FF_ONE_OF("linear|parabolic", "back_relief_shape", spur, back_relief.shape, 0, NULL,
-              "growth of the back relief from its start to the tip"),
+              "shape of the back relief between its start and the tip"),
     FF_LIST("root_relief", "um", spur, flank_spec.root.amount, 0, "0 um", NULL, 0, 1e4, 0, 0, 1, 2,
-            "metal taken off at the lowest point of contact, one value or two"),
-    FF_LIST(
-        "root_relief_start", "deg", spur, flank_spec.root.start, 0, NULL, "root_relief_start", 0,
-        1e4, 0, 0, 1, 2,
-        "roll angle of the own gear below which the root is relieved; left out: each gear's LPSTC"),
+            "metal removed at the lowest point of contact, one value or two"),
+    FF_LIST("root_relief_start", "deg", spur, flank_spec.root.start, 0, NULL, "root_relief_start",
+            0, 1e4, 0, 0, 1, 2,
+            "roll angle, on the gear itself, at which the root relief starts; left out: each "
+            "gear's LPSTC"),
     FF_LIST("root_relief_diameter", "mm", spur, flank_spec.root.diameter, 0, NULL,
             "root_relief_start", 1e-3, 1e9, 0, 0, 1, 2,
-            "diameter below which the root is relieved, instead of root_relief_start"),
+            "diameter at which the root relief starts, instead of root_relief_start"),
     FF_LIST("root_relief_length", "mm", spur, flank_spec.root.length, 0, NULL, "root_relief_start",
             0, 1e5, 0, 0, 1, 2,
             "length of the root relief from the lowest contact, along the line of action as in "
             "profile diagrams, instead of root_relief_start"),
     FF_ONE_OF("linear|parabolic", "root_relief_shape", spur, flank_spec.root.shape, 0, "linear",
-              "growth of the root relief from its start to the lowest point of contact"),
+              "shape of the root relief between its start and the lowest point of contact"),
     FF_LIST("crowning", "um", spur, flank_spec.crown, 0, "0 um", NULL, 0, 1e4, 0, 0, 1, 2,
-            "profile crown (barrelling): parabola that takes this much off at both ends of the "
-            "flank, nothing in its middle"),
+            "profile crown (barrelling): a parabola that removes this much metal at both ends of "
+            "the flank and none in the middle"),
     FF_LIST(
         "profile_slope", "um", spur, flank_spec.slope, 0, "0 um", NULL, -1e4, 1e4, 0, 0, 1, 2,
-        "profile slope deviation f_H_alpha of ISO 1328-1, which a pressure-angle error gives: rise "
-        "of the flank from its lowest contact to the tip, positive where the tip has more metal"),
+        "profile slope deviation f_H_alpha of ISO 1328-1, caused by a pressure-angle error: rise "
+        "of the flank from its lowest contact to the tip, positive if the tip has more metal"),
     FF_LIST("pitch_error", "um", spur, flank_spec.index[0], 0, NULL, NULL, -1e4, 1e4, 0, 0, 1,
             100000,
-            "index deviations of the teeth of gear 1 along the line of action, tooth by tooth, "
-            "positive: more metal on the working flank; teeth not listed have none"),
+            "index deviations of the teeth of gear 1 along the line of action, one per tooth, "
+            "positive: more metal on the working flank; 0 for teeth not listed"),
     FF_LIST("pitch_error_2", "um", spur, flank_spec.index[1], 0, NULL, NULL, -1e4, 1e4, 0, 0, 1,
             100000, "index deviations of the teeth of gear 2, as pitch_error"),
     FF_LIST("quality", "1", spur, quality, FF_WHOLE, NULL, NULL, 0, 12, 0, 0, 1, 2,
-            "accuracy class of ISO 1328-1:1995, one value or two: the tolerances that a drawing "
-            "does not write out"),
+            "accuracy class of ISO 1328-1:1995, one value or two; gives the tolerance outputs"),
     FF_PATH("profile_file", spur, flank_spec.file, 0, NULL,
-            "measured profiles to be added: text with the header gear, roll_angle [deg], deviation "
-            "[um]; roll angle of the own gear, deviation positive: more metal"),
+            "file with measured profiles to be added; header: gear, roll_angle [deg], deviation "
+            "[um]. The roll angle is on the gear itself; a positive deviation is more metal"),
     FF_LIST("roughness_rq", "um", spur, roughness_rq, FF_MIN_OPEN, NULL, "roughness", 0, 100, 0.01,
             10, 1, 2,
             "root mean square roughness Rq of the flanks, one value or two, for the lambda ratio "
-            "of smooth films; a film between rough flanks takes a stage of the kind surface"),
+            "of smooth films; a film between rough flanks needs a stage of kind surface"),
     FF_LIST("roughness_ra", "um", spur, roughness_ra, FF_MIN_OPEN, NULL, "roughness", 0, 100, 0.01,
             10, 1, 2,
-            "mean roughness Ra instead, as on drawings: Rq = sqrt(pi/2) Ra of Gaussian heights"),
+            "mean roughness Ra, as on drawings, instead of `roughness`: Rq = sqrt(pi/2) Ra for "
+            "Gaussian heights"),
 };
 
-/* Sets mass and inertia from discs with the working pitch diameter and a bore. A stated inertia
- * replaces the disc's. */
+/* Sets mass and inertia for discs with the working pitch diameter and a bore. An inertia given by
+   the user replaces that of the disc. */
 static ff_status set_discs(spur *s)
 {
     for (int i = 0; i < 2; i++) {
@@ -190,8 +188,8 @@ static ff_status set_discs(spur *s)
     return FF_OK;
 }
 
-/* Tells the engine which parameters serve only a few outputs, so that they are reported as
- * unread when others are requested. */
+/* Tells the engine which parameters affect only a few outputs. It then warns of them if only other
+   outputs are requested. */
 static void tell_servings(const spur *s)
 {
     static const char back[] = "back_profile_roll|back_profile_deviation",
@@ -250,8 +248,8 @@ static void tell_servings(const spur *s)
     ff_serve(s->host, rows, sizeof rows / sizeof rows[0]);
 }
 
-/* Checks that a measure of the teeth comes with the number of teeth or the pin over which it was
- * taken. */
+/* Checks that a tooth measure comes with the number of teeth, or the pin diameter, over which it
+   was taken. */
 static ff_status check_tools(const spur *s)
 {
     const gear_spur_spec *g = &s->spec;
@@ -323,8 +321,8 @@ static void report_quality(const spur *s)
                   "least gap between tip and mating root, in modules");
     host->quality(host->ctx, "involute_margin", p->form_margin / m, 0,
                   p->form_margin >= -1e-9 * m ? FF_GOOD : FF_RANGE,
-                  "from the end of the involute to the contact nearest it, in modules; below 0 a "
-                  "tip may meet a fillet");
+                  "distance from the end of the involute to the nearest contact, in modules; below "
+                  "0 a tip may touch a fillet");
 }
 
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)

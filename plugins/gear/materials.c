@@ -48,8 +48,8 @@ static const gear_material materials[] = {
     {3.88e9, 0.4, 1340, 0.299, 1410, 0, 97.1e6},  /* PEEK */
 };
 
-/* Whether modulus and density agree with those of a material: metals within a tenth, polymers
- * within a third, since their grades differ by that much. */
+/* Whether modulus and density agree with those of a material: within a tenth for metals, within a
+   third for polymers, since the grades of a polymer differ by that much. */
 static bool is_alike(const gear_material *m, const gear_material *named)
 {
     const double alike = named->modulus < 10e9 ? 0.3 : 0.1;

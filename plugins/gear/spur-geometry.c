@@ -15,11 +15,11 @@
 /* Basic rack of ISO 53 (profile A), in modules: addendum and bottom clearance. */
 static const double addendum = 1.0, clearance = 0.25;
 
-/* In modules; a smaller undercut counts as none. Gears of 17 teeth at 20 degrees, usually cut
- * without profile shift, have 0.006. */
+/* In modules; a smaller undercut is ignored. Gears of 17 teeth at 20 degrees, usually cut without
+   profile shift, have 0.006. */
 static const double harmless_undercut = 0.01;
 
-/* Base pitches; closer places on the path of contact count as the same. */
+/* In base pitches; closer places on the path of contact are treated as equal. */
 static const double same_place = 1e-9;
 
 /* Contact ratios of this value or above are refused. */
@@ -130,8 +130,8 @@ static ff_status set_backlash(const ff_host *host, const gear_spur_spec *g, gear
     for (int i = 0; i < 2 && !stated; i++)
         if (g->allowance.count > 0 || g->span.count > 0 || g->over_pins.count > 0)
             p->allowance[i] = gear_measured_allowance(g, p, i);
-    /* distance from the least possible backlash: what full teeth leave if the backlash is given,
-     * otherwise 0 */
+    /* what the backlash exceeds its minimum by: that of full teeth if the backlash is given,
+       otherwise 0 */
     const double spare =
         stated ? p->backlash - full : full - (p->allowance[0] + p->allowance[1]) * cosine;
     p->rounding_of_backlash = gear_rounding_of_backlash(g, p);
@@ -205,8 +205,8 @@ typedef struct tool_tip {
     double round, centre, behind;
 } tool_tip;
 
-/* Returns the metal that the protuberance takes off beyond the later grinding, normal to the
- * flank. */
+/* Returns the metal, normal to the flank, that the protuberance removes beyond the stock that is
+   ground off later. */
 static double residual_undercut(const gear_spur_spec *g, int i)
 {
     double taken = g->protuberance.count > 0 ? ff_of_both(&g->protuberance, i) : 0;
@@ -232,10 +232,10 @@ static tool_tip tip_of(const gear_spur_spec *g, int i)
     return (tool_tip){round * g->module, depth * g->module, behind};
 }
 
-/* Returns how far inside the involute the tip of the tool cuts gear i if the centre of its
- * rounding lies `beside` the line of centres, as an angle that is positive in the tooth; *radius
- * is the distance of the cut from the axis. The normal at the cut passes through the pitch point
- * (Litvin & Fuentes 2004). */
+/* Returns how far inside the involute the tip of the tool cuts gear i if the centre of the tip's
+   rounding lies `beside` the line of centres. The result is an angle, positive inside the tooth;
+   *radius is the distance of the cut from the axis. The normal at the cut passes through the pitch
+   point (Litvin & Fuentes 2004). */
 static double tip_inside(const gear_spur_spec *g, const gear_spur_pair *p, int i, double beside,
                          double *radius)
 {
@@ -343,9 +343,9 @@ static ff_status set_thickness(const ff_host *host, const gear_spur_spec *g, gea
     return FF_OK;
 }
 
-/* Sets the zone with the fewest pairs, n. It lasts from where the n-th pair ahead leaves, tip -
- * n p_b, to where the n-th pair behind enters, SAP + n p_b. For n > 1 there are zones with one
- * pair more in between. */
+/* Finds the zone with the fewest pairs, n. It begins where the n-th pair ahead leaves, tip - n p_b,
+   and ends where the n-th pair behind enters, SAP + n p_b. For n > 1 there are zones in between
+   with n + 1 pairs. */
 static void set_fewest_pairs(gear_spur_pair *p)
 {
     double pairs = fmax(1, floor(p->contact_ratio + same_place));

@@ -9,21 +9,21 @@
 
 #include <stdbool.h>
 
-/* The pair as the user gives it; NaN or empty: not given. A list has one value or two. */
+/* The pair as given by the user; NaN or empty: not given. A list has one value or two. */
 typedef struct gear_spur_spec {
     ff_reals teeth;
     double module;
-    double pressure_angle;                /* of the reference rack */
+    double pressure_angle;                /* of the basic rack */
     ff_reals shift;                       /* profile shift coefficients */
-    double centre_distance;               /* not given: backlash 0 with these shifts */
-    ff_reals tip_diameter, root_diameter; /* not given: by the basic rack */
+    double centre_distance;               /* not given: that of a mesh without backlash */
+    ff_reals tip_diameter, root_diameter; /* not given: from the basic rack */
     /* The tool: depth of its tip below the middle of the basic rack and radius of that tip, in
-     * modules; metal that its protuberance takes off the flank, and allowance ground off
-     * afterwards. */
+       modules; metal that its protuberance removes from the flank, and stock ground off later, in
+       m. */
     ff_reals dedendum, tool_tip_radius, protuberance, machining_allowance;
-    /* Tooth thickness: one of these four, or none for teeth of full thickness. */
+    /* Tooth thickness: one of the next four, or none for teeth of full thickness. */
     double backlash;          /* of the mounted pair, half of it on the teeth of each gear */
-    int32_t backlash_measure; /* 1: as an arc of the working pitch circle */
+    int32_t backlash_measure; /* 1: measured as an arc of the working pitch circle */
     ff_reals allowance;       /* change of the arc at the reference circle; negative: thinner */
     ff_reals span;            /* over span_teeth teeth */
     ff_reals over_pins;       /* over two pins of pin_diameter */
@@ -40,22 +40,22 @@ typedef struct gear_spur_pair {
     double base_pitch;
     double line_length;           /* length of the common tangent of the base circles */
     double sap, pitch_point, tip; /* places on the path of contact */
-    double lpstc, hpstc; /* lowest and highest point with the fewest pairs in contact, which is one
-                            pair if the contact ratio is below 2 */
+    double lpstc, hpstc; /* ends of the zone with the fewest pairs in contact, which is one pair
+                            if the contact ratio is below 2 */
     double contact_ratio;
     double pitch_error; /* thicknesses + backlash - working pitch, relative to the pitch */
-    double
-        form_margin; /* least distance between contact and the end of the involute that a rack with
-                        a bottom clearance of 0.25 m cuts; negative: contact reaches the fillet */
-    double undercut[2]; /* radius of curvature up to which undercut removes the involute; 0: none */
-    double form[2];     /* radius of curvature at which the involute begins */
+    double form_margin; /* least distance between contact and the lower end of the involute, which a
+                           rack with a bottom clearance of 0.25 m cuts; negative: contact reaches
+                           the fillet */
+    double undercut[2]; /* radius of curvature below which undercut removes the involute; 0: none */
+    double form[2];     /* radius of curvature where the involute begins */
     double clearance;   /* least gap between a tip and the mating root */
-    /* How far dimensions were moved because of rounding: the backlash along the line of action,
-     * by at most rounding_of_backlash, and the root radii inwards; 0: not at all. */
+    /* Moves of dimensions due to the drawing's rounding: the backlash along the line of action, by
+       at most rounding_of_backlash, and the root radii inwards; 0: not moved. */
     double moved_backlash, rounding_of_backlash, moved_root[2];
 } gear_spur_pair;
 
-/* Computes the pair, or refuses it with the parameter at fault. */
+/* Computes the pair, or refuses it and names the parameter at fault. */
 ff_status gear_spur_pair_make(const ff_host *host, const gear_spur_spec *spec,
                               gear_spur_pair *pair);
 
@@ -63,7 +63,7 @@ ff_status gear_spur_pair_make(const ff_host *host, const gear_spur_spec *spec,
 typedef struct gear_spur_run {
     double from, to;
     size_t intervals;
-    bool joined; /* its first station is also the last one of the run before */
+    bool joined; /* its first station is also the last one of the previous run */
 } gear_spur_run;
 
 /* While a pair is in contact, at most three pairs enter and three leave; the pitch point is one

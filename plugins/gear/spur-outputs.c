@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Gives the outputs of gear/involute-spur. */
+/* Writes the outputs of gear/involute-spur. */
 #include "spur-rows.h"
 #include "spur.h"
 #include "tooth-measures.h"
@@ -49,7 +49,7 @@ static ff_status write_scalars(const spur *s, uint64_t wanted)
     return FF_OK;
 }
 
-/* Returns Rq; from Ra by sqrt(pi/2), the ratio for Gaussian heights. 0: not given. */
+/* Returns Rq, from Ra if that is given: Rq = sqrt(pi/2) Ra for Gaussian heights. 0: not given. */
 static double roughness_of(const spur *s, int gear)
 {
     if (s->roughness_ra.count > 0)
@@ -131,8 +131,8 @@ static ff_status write_pairs(const spur *s, uint64_t wanted)
     return status;
 }
 
-/* Gives the series over the stations. On the path of contact R1 + R2 is the length of the common
- * tangent of the base circles, and the roll angle of gear 1 is R1 over its base radius. */
+/* Writes the series over the stations. On the path of contact, R1 + R2 is the length of the common
+   tangent of the base circles, and the roll angle of gear 1 is R1 over its base radius. */
 static ff_status write_stations(const spur *s, uint64_t wanted)
 {
     gear_spur_run runs[GEAR_SPUR_RUNS];
@@ -191,7 +191,7 @@ static ff_status write_flanks(const spur *s, uint64_t wanted)
     return FF_OK;
 }
 
-/* Gives the flank tolerances. If no class is given, an output that needs one is refused. */
+/* Writes the flank tolerances. If no class is given, outputs that need one are refused. */
 static ff_status write_tolerances(const spur *s, uint64_t wanted)
 {
     for (uint32_t k = 0; k < 5; k++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The gear pair as the model holds it. */
+/* An instance of gear/involute-spur. */
 #ifndef GEAR_SPUR_H
 #define GEAR_SPUR_H
 
@@ -16,7 +16,7 @@ typedef struct spur {
     ff_reals bore, given_inertia, roughness_rq, roughness_ra;
     int64_t stations;
     gear_flank_spec flank_spec;
-    gear_relief back_relief; /* given for the back flanks; shape -1: as on the driving flanks */
+    gear_relief back_relief; /* relief of the back flanks; shape -1: as on the driving flanks */
     gear_spur_pair pair;
     gear_material made_of[2]; /* the named material with the values given by the user */
     double bore_radius[2], mass[2], inertia[2];
@@ -26,7 +26,7 @@ typedef struct spur {
     gear_tolerances tolerances[2];
 } spur;
 
-/* Gives the wanted outputs. */
+/* Writes the wanted outputs. */
 ff_status gear_spur_write(const spur *s, uint64_t wanted);
 
 #endif

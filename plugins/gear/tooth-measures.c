@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Spans over teeth, and measures over pins. */
+/* Tooth measures: spans over teeth, and diameters over pins. */
 #include "tooth-measures.h"
 
 #include "../numerics/involute.h"
@@ -10,7 +10,7 @@
 
 /* A tooth of gear i whose arc at the reference circle is `arc`. */
 typedef struct tooth {
-    double teeth, base, pitch; /* number, base radius, base pitch */
+    double teeth, base, pitch; /* number of teeth, base radius, base pitch */
     double half; /* half of its angle at the base circle, s/(2 r) + inv a (DIN 3960) */
 } tooth;
 
@@ -36,15 +36,15 @@ static double span_radius(const tooth *t, double span)
     return hypot(t->base, span / 2);
 }
 
-/* Returns the angle, pi/(2 z) for an odd number of teeth, by which the pins are off the diameter
- * (DIN 3960). */
+/* Returns the angle between the line through both pins and a diameter: pi/(2 z) for an odd number
+   of teeth (DIN 3960), else 0. */
 static double off_diameter(const tooth *t)
 {
     return fmod(t->teeth, 2) == 1 ? cos(M_PI / (2 * t->teeth)) : 1;
 }
 
 /* Returns the radius at which a pin with its axis at the radius `axis` touches the flanks; 0: it
- * does not. */
+   does not touch them. */
 static double pin_radius(const tooth *t, double pin, double axis)
 {
     double along = sqrt(fmax(0, (axis - t->base) * (axis + t->base))) - pin / 2;
@@ -100,7 +100,7 @@ ff_status gear_check_measure(const ff_host *host, const gear_spur_spec *g, const
                     spans ? "another number of teeth in span_teeth" : "another pin_diameter");
 }
 
-/* Returns the radius r + x m, about the middle of the flank. */
+/* Returns the radius r + x m, which is near the middle of the flank. */
 static double middle_of(const gear_spur_spec *g, const gear_spur_pair *p, int i)
 {
     return fmax(p->reference_radius[i] + ff_of_both(&g->shift, i) * g->module,
@@ -113,9 +113,9 @@ static double usual_count(const tooth *full, double middle)
     return fmax(2, round((span - 2 * full->base * full->half) / full->pitch + 1));
 }
 
-/* Returns the diameter of the pin that touches a full tooth at the angle a_v: a_K = tan a_v -
- * (s/(2 r) + inv a - pi/z) follows from D = 2 r_b (tan a_K - tan a_v) and from inv a_K. It is
- * rounded up to a quarter of a mm, or to a twentieth for small modules. */
+/* Returns the diameter of the pin that touches a full tooth at the pressure angle a_v: a_K = tan
+   a_v - (s/(2 r) + inv a - pi/z) follows from D = 2 r_b (tan a_K - tan a_v) and from inv a_K. It is
+   rounded up to a multiple of 0.25 mm, or of 0.05 mm for small modules. */
 static double usual_pin(const tooth *full, double middle, double module)
 {
     double touches = sqrt((middle - full->base) * (middle + full->base)) / full->base;

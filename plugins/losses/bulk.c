@@ -4,8 +4,9 @@
 
 #include <math.h>
 
-/* ISO/TR 15144-1 (84): 7400 (P mu_m H_v/(a b))^0.72 X_S/(1.2 X_Ca), where P mu_m H_v, kW, is the
- * loss; a and b in mm. The centre distance a follows from the base radii and the line of action. */
+/* ISO/TR 15144-1 (84): temperature rise 7400 (P mu_m H_v/(a b))^0.72 X_S/(1.2 X_Ca), with the loss
+   P mu_m H_v in kW and a, b in mm. The centre distance a follows from the base radii and the line
+   of action. */
 double losses_standard_rise(const losses_mesh *m, double loss, int32_t supply, double relief)
 {
     static const double supplied[] = {1, 1.2, 0.2};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Compares the friction of the film with formulas fitted to measured gears. */
+/* Compares the friction of the film with formulas that were fitted to measured gears. */
 #include "friction.h"
 
 #include <flankfilm/laws.h>
@@ -7,16 +7,17 @@
 #include <math.h>
 #include <stdio.h>
 
-/* The range of the measurements behind the formulas. */
+/* Range of the measurements to which the formulas were fitted. */
 static const double slowest = 2, fastest = 20;             /* pitch line, m/s */
 static const double smoothest = 0.1e-6, roughest = 0.8e-6; /* Ra, m */
 
-/* Ratio of film to formula beyond which one of them is doubtful. */
+/* Outside this range of the ratio film to formula, one of the two is doubtful. */
 static const double least_agreement = 0.67, most_agreement = 1.5;
 
 static const double high_friction = 0.12; /* above all measurements of lubricated gears */
-static const double most_friction = 0.2;  /* the lower end of dry steel */
-static const double loaded = 0.01; /* of the largest load; friction at smaller loads says nothing */
+static const double most_friction = 0.2;  /* lower end for dry steel */
+static const double loaded = 0.01;        /* of the largest load; friction at smaller loads is not
+                                             judged */
 
 double losses_friction_mean(const losses_mesh *m)
 {
@@ -36,9 +37,9 @@ double losses_friction_mean(const losses_mesh *m)
     return unit > 0 ? loss / unit : 0;
 }
 
-/* Ohlendorf 1958, for spur gears: H_v = pi (u + 1)/(z_1 u) (1 - eps + eps_1^2 + eps_2^2), with
- * half of the load on each of two pairs. eps_1 and eps_2 are the parts of the contact ratio
- * before and after the pitch point. */
+/* Ohlendorf 1958, for spur gears: H_v = pi (u + 1)/(z_1 u) (1 - eps + eps_1^2 + eps_2^2). Each of
+   two pairs in contact carries half of the load. eps_1 and eps_2 are the parts of the contact ratio
+   before and after the pitch point. */
 static double loss_factor(const losses_mesh *m, double pitch_roll)
 {
     const double ratio = m->omega[0] / m->omega[1]; /* z_2/z_1 */
@@ -57,12 +58,12 @@ static double factor_of_base(double base, bool *guessed)
     return *guessed ? 1 : factor[(int)base];
 }
 
-/* The load F_bt/b is torque over base radius and face width, N/mm; sum of speeds v_SC and radius
- * of curvature rho_C (mm) are those at the pitch point; eta is at the oil temperature, mPa s; Ra
- * is the mean of both flanks, um.
- * ISO/TR 14179-2 (Schlenk): mu = 0.048 (F_bt/b/(v_SC rho_C))^0.2 eta^-0.05 Ra^0.25 X_L
- * ISO/TR 15144-1: mu = 0.045 (F_bt/b/(v_SC rho_C))^0.2 eta^-0.05 X_R X_L, X_R = 2.2
- * (Ra/rho_C)^0.25 */
+/* Load F_bt/b: torque over base radius and face width, N/mm. Sum of speeds v_SC and radius of
+   curvature rho_C (mm): at the pitch point. eta: at the oil temperature, mPa s. Ra: mean of both
+   flanks, um.
+   ISO/TR 14179-2 (Schlenk): mu = 0.048 (F_bt/b/(v_SC rho_C))^0.2 eta^-0.05 Ra^0.25 X_L
+   ISO/TR 15144-1: mu = 0.045 (F_bt/b/(v_SC rho_C))^0.2 eta^-0.05 X_R X_L, X_R = 2.2 (Ra/rho_C)^0.25
+ */
 losses_formula losses_formula_of(const losses_mesh *m, int32_t formula, double oil_factor)
 {
     const size_t last = m->stations - 1;
@@ -92,7 +93,7 @@ losses_formula losses_formula_of(const losses_mesh *m, int32_t formula, double o
     return f;
 }
 
-/* Returns the largest coefficient among the loads that count. */
+/* Returns the largest friction coefficient under more than 1 % of the largest load. */
 static double highest_friction(const losses_mesh *m, size_t *at)
 {
     double most = 0, highest = 0;
@@ -111,11 +112,11 @@ static void report_bound(const ff_host *host, const losses_mesh *m)
     char text[200];
     size_t at = 0;
     const double highest = highest_friction(m, &at);
-    snprintf(text, sizeof text,
-             "highest friction coefficient under more than 1 %% of the largest load, at roll angle "
-             "%.3g rad; lubricated gears have less than 0.12, and above 0.2 the law of flow does "
-             "not hold",
-             m->shown[at]);
+    snprintf(
+        text, sizeof text,
+        "highest friction coefficient under more than 1 %% of the largest load, at roll angle %.3g "
+        "rad; lubricated gears have less than 0.12, and above 0.2 the rheology law does not hold",
+        m->shown[at]);
     host->quality(host->ctx, "friction_bound", highest, high_friction,
                   highest > most_friction   ? FF_BAD
                   : highest > high_friction ? FF_RANGE
@@ -126,9 +127,10 @@ static void report_bound(const ff_host *host, const losses_mesh *m)
 void losses_report_factor(const ff_host *host, const losses_mesh *m)
 {
     const bool within = m->contact_ratio >= 1 && m->contact_ratio <= 2;
-    host->quality(host->ctx, "loss_factor_range", m->contact_ratio, m->contact_ratio < 1 ? 1 : 2,
-                  within ? FF_GOOD : FF_RANGE,
-                  "contact ratio; loss_factor counts one or two pairs in mesh, 1 to 2");
+    host->quality(
+        host->ctx, "loss_factor_range", m->contact_ratio, m->contact_ratio < 1 ? 1 : 2,
+        within ? FF_GOOD : FF_RANGE,
+        "contact ratio; loss_factor holds for one or two pairs in mesh, contact ratios of 1 to 2");
 }
 
 void losses_report_friction(const ff_host *host, const losses_mesh *m, const losses_formula *f,
@@ -141,8 +143,8 @@ void losses_report_friction(const ff_host *host, const losses_mesh *m, const los
     const bool within = f->pitch_speed >= slowest && f->pitch_speed <= fastest &&
                         f->roughness >= smoothest && f->roughness <= roughest;
     snprintf(text, sizeof text,
-             "m/s at the pitch line and Ra %.3g um; the formula is fitted to losses measured at 2 "
-             "to 20 m/s with Ra 0.1 to 0.8 um%s",
+             "m/s at the pitch line, with Ra %.3g um; the formula is fitted to losses measured at "
+             "2 to 20 m/s with Ra 0.1 to 0.8 um%s",
              1e6 * f->roughness,
              f->pitch_speed < slowest
                  ? ", and at lower speeds lies above the boundary friction that was measured"
@@ -153,13 +155,13 @@ void losses_report_friction(const ff_host *host, const losses_mesh *m, const los
     const double ratio = f->film / f->coefficient;
     const bool agrees = ratio >= least_agreement && ratio <= most_agreement;
     snprintf(text, sizeof text,
-             "friction coefficient by the film over that by the formula, %.3g and %.3g%s%s",
+             "friction coefficient of the film over that of the formula, %.3g and %.3g%s%s",
              f->film, f->coefficient,
-             f->oil_is_guessed ? " for a mineral oil, since nothing tells the base" : "",
-             !within  ? "; outside the range of the formula, which judges nothing here"
+             f->oil_is_guessed ? " for a mineral oil, since the base oil is unknown" : "",
+             !within  ? "; outside the range of the formula, so that it proves nothing here"
              : agrees ? "; the formula is fitted to measured losses of gears"
-                      : "; the formula is fitted to measured losses of gears: see the laws of the "
-                        "oil at high pressure, and the roughness");
+                      : "; the formula is fitted to measured losses of gears: check the laws of "
+                        "the oil at high pressure, and the roughness");
     host->quality(host->ctx, "friction_agreement", ratio,
                   ratio < 1 ? least_agreement : most_agreement,
                   agrees || !within ? FF_GOOD : FF_RANGE, text);

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Longest engagement, in pitches, which keeps the sums over its pairs short. */
+/* Longest engagement, in pitches; a limit keeps the sums over its pairs short. */
 static const double most_pitches = 100;
 
 /* Reads a row of `count` numbers between `least` and `most`. */
@@ -64,7 +64,7 @@ static ff_status read_scalars(const ff_host *host, const ff_array *in, losses_me
     return FF_OK;
 }
 
-/* Reads a series that not every film model gives. */
+/* Reads a series that some film models do not give. */
 static ff_status read_optional(const ff_host *host, const ff_array *in, uint32_t row, size_t n,
                                const double **data)
 {
@@ -91,7 +91,7 @@ losses_engagement losses_engagement_at(const losses_mesh *m, size_t k)
                                m->loss ? m->loss + first : NULL, m->pitch};
 }
 
-/* Finds the engagements; each is of one tooth pair from SAP to tip. */
+/* Finds the engagements; each covers one tooth pair from SAP to tip. */
 static ff_status find_engagements(const ff_host *host, losses_mesh *m)
 {
     m->first = calloc(m->n + 2, sizeof *m->first);
@@ -124,8 +124,8 @@ void losses_motion_at(const losses_mesh *m, double roll, double radius[2], doubl
     }
 }
 
-/* Reads the roughness from the surface if a flank has an Rq there, otherwise from the gear. Ra
- * is Rq sqrt(2/pi), for Gaussian heights. */
+/* Reads the roughness: from the surface if it gives an Rq for a flank, otherwise from the gear. Ra
+   is Rq sqrt(2/pi), for Gaussian heights. */
 static ff_status read_roughness(const ff_host *host, const ff_array *in, losses_mesh *m)
 {
     const double *gear = NULL, *surface[2] = {NULL, NULL}, most = 1;

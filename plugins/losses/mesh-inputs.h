@@ -11,35 +11,35 @@
 
 #include <stdbool.h>
 
-/* The inputs after their checks, in SI, and series of n derived from them. */
+/* The checked inputs, in SI, and series of n values derived from them. */
 typedef struct losses_mesh {
     size_t n, stations;
     numerics_exchange
-        exchange; /* the pair whose driving flanks carry the load; everything below refers to it */
-    const double *shown; /* roll angles of gear 1 at the steps, for outputs */
+        exchange; /* the pair whose driving flanks carry the load; all data below refer to it */
+    const double *shown; /* roll angles of gear 1 at the steps, as written to outputs */
     const double *roll, *power, *traction, *friction;
     const double *part[PARTS], *engagement; /* NULL: the film does not give it */
-    size_t count, *first; /* engagements, and the step at which each begins; first[count] = n */
+    size_t count, *first; /* number of engagements, and the first step of each; first[count] = n */
     const double *station, *radius[2];
     double face_width, modulus, contact_ratio, torque, oil_temperature;
     double omega[2], pitch;
-    double roughness; /* Ra, mean of both flanks, m; 0: not known */
+    double roughness; /* Ra, mean of both flanks, m; 0: unknown */
     double viscosity,
         oil_base; /* viscosity at the oil temperature, Pa s; base as FF_BASE_...; NaN: unknown */
     bool heats;   /* the gears give their thermal data */
-    numerics_heat heat[2];       /* of the gears */
-    double *loss, *load, *flash; /* W, N/m, K */
+    numerics_heat heat[2];       /* thermal data of the gears */
+    double *loss, *load, *flash; /* at the steps, in W, N/m, K */
     double *half_width;
     size_t hottest;
 } losses_mesh;
 
-/* Reads and checks the inputs; to be closed in any case. `oil` may be NULL. */
+/* Reads and checks the inputs; the caller closes them, also after an error. `oil` may be NULL. */
 ff_status losses_read(const ff_host *host, const ff_array *in, const ff_liquid *oil,
                       losses_mesh *m);
 void losses_close(losses_mesh *m);
 
-/* Computes radii (m) and surface speeds (m/s) at a roll angle; the radii of involutes are linear
- * in it. */
+/* Computes radii (m) and surface speeds (m/s) at a roll angle; the radii of involutes are linear in
+   the roll angle. */
 void losses_motion_at(const losses_mesh *m, double roll, double radius[2], double speed[2]);
 
 /* Returns the steps of engagement k with their loss. */

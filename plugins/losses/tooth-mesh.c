@@ -11,10 +11,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double blok = 1.11;             /* factor for a Hertzian heat source, Blok 1937 */
-static const double least_peclet = 5;        /* of a fast-moving heat source, Jaeger 1942 */
-static const double most_loss = 0.1;         /* of the power; real gears lose less */
-static const double least_half_width = 1e-3; /* of the largest; a narrower contact heats nothing */
+static const double blok = 1.11;      /* factor for a Hertzian heat source, Blok 1937 */
+static const double least_peclet = 5; /* Peclet number of a fast-moving heat source, Jaeger 1942 */
+static const double most_loss = 0.1;  /* share of the power; real gears lose less */
+static const double least_half_width = 1e-3; /* relative to the largest half width; the heat of a
+                                                narrower contact is ignored */
 
 typedef struct tooth_mesh {
     const ff_host *host;
@@ -22,8 +23,8 @@ typedef struct tooth_mesh {
     double bulk_temperature;                       /* K; NaN: auto */
     double thermal_conductance;                    /* W/K; NaN: unlimited */
     double relief_factor;                          /* X_Ca */
-    double rise_factor;                            /* on the temperature rise by the standard */
-    double oil_factor;                             /* NaN: auto */
+    double rise_factor; /* factor on the temperature rise by the standard */
+    double oil_factor;  /* NaN: auto */
     int32_t bulk_rule, supply;
     int32_t formula;
     int64_t points;
@@ -31,39 +32,44 @@ typedef struct tooth_mesh {
 } tooth_mesh;
 
 static const ff_param params[] = {
-    NUMERICS_LIST_UNLESS("gear.thermal_conductivity", "thermal_conductivity", "W/(m K)", tooth_mesh,
-                         conductivity, NUMERICS_STEEL_CONDUCTIVITY, 1e-3, 1e4,
-                         "of gear 1 and gear 2, or of both, where the gears do not tell; steel 50"),
+    NUMERICS_LIST_UNLESS(
+        "gear.thermal_conductivity", "thermal_conductivity", "W/(m K)", tooth_mesh, conductivity,
+        NUMERICS_STEEL_CONDUCTIVITY, 1e-3, 1e4,
+        "of gear 1 and gear 2, or one value for both, if the gear stage gives none; steel: 50"),
     NUMERICS_LIST_UNLESS("gear.density", "density", "kg/m3", tooth_mesh, density,
                          NUMERICS_STEEL_DENSITY, 1, 1e5, "likewise; steel 7850"),
     NUMERICS_LIST_UNLESS("gear.specific_heat", "specific_heat", "J/(kg K)", tooth_mesh,
                          specific_heat, NUMERICS_STEEL_HEAT, 1, 1e5, "likewise; steel 484"),
-    FF_QUANTITY_OR("auto", "bulk_temperature", "degC", tooth_mesh, bulk_temperature, 0, "auto",
-                   NULL, -150, 1000, 0, 0,
-                   "temperature of the teeth before they meet; auto: that of the oil, which is the "
-                   "least it can be, or by thermal_conductance"),
+    FF_QUANTITY_OR(
+        "auto", "bulk_temperature", "degC", tooth_mesh, bulk_temperature, 0, "auto", NULL, -150,
+        1000, 0, 0,
+        "bulk temperature: temperature of the teeth before they meet; auto: by bulk_rule or "
+        "thermal_conductance, otherwise the oil temperature, which is its lower bound"),
     FF_QUANTITY("thermal_conductance", "W/K", tooth_mesh, thermal_conductance, FF_MIN_OPEN, NULL,
                 NULL, 0, 1e9, 0, 0,
-                "from the teeth to the oil: bulk_temperature is that of the oil and the mean loss "
-                "over this"),
+                "thermal conductance from the teeth to the oil: bulk_temperature is the oil "
+                "temperature plus the mean loss over this conductance"),
     FF_ONE_OF(LOSSES_BULK_RULES, "bulk_rule", tooth_mesh, bulk_rule, 0, NULL,
-              "of the temperature of the teeth, in place of a number: by ISO/TR 15144-1 from the "
-              "loss of this run (30 % of the rise), by thermal_conductance, or that of the oil; "
-              "without it by thermal_conductance where that is given, else that of the oil"),
+              "rule for the bulk temperature, instead of a number. standard: ISO/TR 15144-1 with "
+              "the loss of this run (accurate to 30 % of the rise); conductance: by "
+              "thermal_conductance; oil: the oil temperature. Left out: conductance if "
+              "thermal_conductance is given, otherwise oil"),
     FF_ONE_OF(LOSSES_SUPPLIES, "supply", tooth_mesh, supply, 0, "dip",
-              "how the oil comes to the teeth, for bulk_rule: standard: X_S 1, 1.2, 0.2"),
+              "oil supply to the teeth, for bulk_rule: standard; X_S is 1, 1.2 and 0.2"),
     FF_QUANTITY("relief_factor", "1", tooth_mesh, relief_factor, FF_MIN_OPEN, "1", NULL, 0, 10, 1,
-                2, "X_Ca of the tip relief, for bulk_rule: standard"),
-    FF_QUANTITY("rise_factor", "1", tooth_mesh, rise_factor, 0, "1", NULL, 0, 10, 0.5, 2,
-                "on the rise of the teeth by bulk_rule: standard: how sure it is, 1 +- 0.3"),
-    FF_ONE_OF(LOSSES_FORMULAS, "formula", tooth_mesh, formula, 0, "schlenk",
-              "of friction_coefficient_formula: ISO/TR 14179-2, or ISO/TR 15144-1"),
+                2, "tip relief factor X_Ca, for bulk_rule: standard"),
+    FF_QUANTITY(
+        "rise_factor", "1", tooth_mesh, rise_factor, 0, "1", NULL, 0, 10, 0.5, 2,
+        "factor on the temperature rise by bulk_rule: standard; its uncertainty is 1 +- 0.3"),
+    FF_ONE_OF(
+        LOSSES_FORMULAS, "formula", tooth_mesh, formula, 0, "schlenk",
+        "formula of friction_coefficient_formula: ISO/TR 14179-2 (schlenk) or ISO/TR 15144-1"),
     FF_QUANTITY_OR("auto", "lubricant_factor", "1", tooth_mesh, oil_factor, FF_MIN_OPEN, "auto",
                    NULL, 0, 10, 0.5, 1.5,
-                   "X_L of the formula; auto: by the base of the oil, 1 mineral, 0.8 PAO and "
-                   "ester, 0.7 PAG"),
+                   "oil factor X_L of the friction formula; auto: from the base oil, 1 for mineral "
+                   "oil, 0.8 for PAO and ester, 0.7 for PAG"),
     FF_COUNT("points", tooth_mesh, points, FF_TUNABLE, "200", NULL, 2, 1e6, 0, 0,
-             "equal parts of the mesh cycle in mesh_power_loss"),
+             "number of equal steps of the mesh cycle in mesh_power_loss"),
 };
 
 /* Blok 1937: 1.11 (friction power per width)/((B1 sqrt u1 + B2 sqrt u2) sqrt(2 a)), B = sqrt(k
@@ -77,8 +83,8 @@ static double flash_at(const losses_mesh *m, double power, const double speed[2]
     return blok * power / (conducted * sqrt(2 * half_width));
 }
 
-/* Returns the power per width that heats the contact itself. Rolling losses heat the oil in the
- * inlet instead. */
+/* Returns the power per width that heats the contact itself. The rolling loss heats the oil in the
+   inlet instead. */
 static double friction_power(const losses_mesh *m, size_t i)
 {
     enum { SLIDING = 0, ASPERITIES = PARTS - 1 };
@@ -94,8 +100,8 @@ static ff_status set_series(const tooth_mesh *s, losses_mesh *m)
         losses_motion_at(m, m->roll[i], radius, speed);
         double R = radius[0] * radius[1] / (radius[0] + radius[1]);
         m->loss[i] = m->power[i] * m->face_width;
-        /* in pure rolling the friction coefficient does not tell the load, but there is no heat
-         * either */
+        /* in pure rolling the load does not follow from the friction coefficient, but there is no
+           heat either */
         m->load[i] = fabs(m->friction[i]) > 0 ? m->traction[i] / m->friction[i] : 0;
         m->half_width[i] = sqrt(8 * fmax(m->load[i], 0) * R / (M_PI * m->modulus));
         widest = fmax(widest, m->half_width[i]);
@@ -125,7 +131,7 @@ static double loss_at(const losses_mesh *m, double phase, bool before)
     return sum / (double)m->count;
 }
 
-/* Returns the mean, over mesh cycle and engagements, of a quantity given at the steps. */
+/* Returns the mean over the mesh cycle and the engagements of a quantity given at the steps. */
 static double mean_of(const losses_mesh *m, const double *value)
 {
     double sum = 0;
@@ -136,8 +142,8 @@ static double mean_of(const losses_mesh *m, const double *value)
     return sum / (double)m->count;
 }
 
-/* Writes mesh_power_loss at equal steps of the mesh cycle, and twice at phases where a pair
- * leaves. The difference between its mean and the exact one is the error of the steps. */
+/* Writes mesh_power_loss at equal steps of the mesh cycle, and twice at phases where a pair leaves.
+   The difference between its mean and the exact mean is the discretisation error. */
 static ff_status write_cycle(const tooth_mesh *s, const losses_mesh *m, uint64_t wanted)
 {
     const losses_engagement e = losses_engagement_at(m, 0);
@@ -167,7 +173,8 @@ static ff_status write_cycle(const tooth_mesh *s, const losses_mesh *m, uint64_t
     double error = fabs(exact) > 0 ? fabs(mean / exact - 1) : 0;
     s->host->quality(s->host->ctx, "cycle_error", error, 0.01,
                      error <= 0.01 ? FF_GOOD : FF_DOUBTFUL,
-                     "mean of mesh_power_loss over its phases against the exact mean");
+                     "relative difference between the mean of mesh_power_loss over its phases and "
+                     "the exact mean");
     double *to = wanted & FF_BIT(OUT_PHASE) ? ff_put_series(s->host, OUT_PHASE, n) : phase;
     double *power = wanted & FF_BIT(OUT_MESH_POWER_LOSS)
                         ? ff_put_series(s->host, OUT_MESH_POWER_LOSS, n)
@@ -231,15 +238,17 @@ static void report_engagements(const tooth_mesh *s, const losses_mesh *m, const 
     char text[240];
     if (m->count < 2)
         return;
-    snprintf(text, sizeof text,
-             "standard deviation of the loss from one engagement to another, over its mean; of %zu "
-             "from %.3g to %.3g W, so that the mean of a longer motion is known to %.2g W",
-             m->count, of->least, of->most, of->deviation / sqrt((double)m->count));
+    snprintf(
+        text, sizeof text,
+        "standard deviation of the loss between engagements, relative to its mean; %zu engagements "
+        "range from %.3g to %.3g W, which gives the mean of a longer motion to within %.2g W",
+        m->count, of->least, of->most, of->deviation / sqrt((double)m->count));
     s->host->quality(s->host->ctx, "engagement_scatter",
                      fabs(of->mean) > 0 ? of->deviation / fabs(of->mean) : 0, 0, FF_GOOD, text);
 }
 
-/* Reports whether the parts of the loss add up to the total, or that the film gives no parts. */
+/* Reports whether the parts of the loss add up to the total; if the film gives no parts, reports
+   that. */
 static void report_parts(const tooth_mesh *s, const losses_mesh *m)
 {
     double off = 0, most = 0, lacking = 0;
@@ -247,8 +256,8 @@ static void report_parts(const tooth_mesh *s, const losses_mesh *m)
         lacking += !m->part[k];
     if (lacking > 0) {
         s->host->quality(s->host->ctx, "loss_parts", lacking, 0, FF_DOUBTFUL,
-                         "parts of the loss, of sliding, rolling, squeeze and asperities, that the "
-                         "film model does not give; the whole is its power_loss");
+                         "number of loss parts (sliding, rolling, squeeze, asperities) that the "
+                         "film model does not give; the total is its power_loss");
         return;
     }
     for (size_t i = 0; i < m->n; i++) {
@@ -260,12 +269,12 @@ static void report_parts(const tooth_mesh *s, const losses_mesh *m)
     }
     off = most > 0 ? off / most : 0;
     s->host->quality(s->host->ctx, "loss_parts", off, 1e-9, off <= 1e-9 ? FF_GOOD : FF_BAD,
-                     "sliding, rolling, squeeze and asperities against power_loss, over its "
-                     "maximum");
+                     "difference between the sum of the four loss parts and power_loss, relative "
+                     "to its maximum");
 }
 
-/* Reports whether engagement, friction power and heat source meet the assumptions of the
- * formulas. */
+/* Reports whether engagement, friction power and heat source satisfy the assumptions of the
+   formulas. */
 static void report(const tooth_mesh *s, const losses_mesh *m, const scatter *of, double efficiency)
 {
     const ff_host *host = s->host;
@@ -277,17 +286,18 @@ static void report(const tooth_mesh *s, const losses_mesh *m, const scatter *of,
         share = fmax(share, fabs(pitches / m->contact_ratio - 1));
     }
     host->quality(host->ctx, "engagement", share, 1e-3, share <= 1e-3 ? FF_GOOD : FF_DOUBTFUL,
-                  "departure of the steps' roll angles from the contact ratio of the gear");
+                  "difference between the roll angle covered by the steps, in pitches, and the "
+                  "contact ratio of the gear");
     for (size_t i = 0; i < m->n; i++) {
         losses_motion_at(m, m->roll[i], radius, speed);
         most = fmax(most, fabs(friction_power(m, i)));
         error = fmax(error, fabs(friction_power(m, i) - m->traction[i] * (speed[0] - speed[1])));
     }
     error = most > 0 ? error / most : 0;
-    host->quality(
-        host->ctx, "friction_power_error", error, 1e-3, error <= 1e-3 ? FF_GOOD : FF_DOUBTFUL,
-        "power of friction against traction times the sliding speed of the gear, over its "
-        "maximum");
+    host->quality(host->ctx, "friction_power_error", error, 1e-3,
+                  error <= 1e-3 ? FF_GOOD : FF_DOUBTFUL,
+                  "difference between the friction power and traction times sliding speed, "
+                  "relative to its maximum");
     losses_motion_at(m, m->roll[m->hottest], radius, speed);
     for (int g = 0; g < 2; g++)
         peclet = fmin(peclet, speed[g] * m->half_width[m->hottest] * m->heat[g].density *
@@ -295,12 +305,12 @@ static void report(const tooth_mesh *s, const losses_mesh *m, const scatter *of,
     if (m->flash[m->hottest] > 0)
         host->quality(host->ctx, "peclet", peclet, least_peclet,
                       peclet >= least_peclet ? FF_GOOD : FF_RANGE,
-                      "u a rho c/(2 k) of the slower flank where it is hottest; below 5 Blok's "
-                      "formula says too much");
+                      "Peclet number u a rho c/(2 k) of the slower flank at the hottest place; "
+                      "below 5 Blok's formula gives too high a temperature");
     if (m->torque > 0)
         host->quality(host->ctx, "loss_share", 1 - efficiency, most_loss,
                       fabs(1 - efficiency) <= most_loss ? FF_GOOD : FF_RANGE,
-                      "loss over the power that comes in");
+                      "power loss over input power");
     report_parts(s, m);
     report_engagements(s, m, of);
 }
@@ -328,7 +338,7 @@ static ff_status write_parts(const tooth_mesh *s, const losses_mesh *m, uint64_t
     return each ? FF_OK : FF_NOMEM;
 }
 
-/* Returns the temperature of the teeth before they meet, from the loss that heats them. */
+/* Returns the bulk temperature of the teeth from the loss that heats them. */
 static double bulk_of(const tooth_mesh *s, const losses_mesh *m, double loss)
 {
     if (s->bulk_temperature > 0)
@@ -339,7 +349,7 @@ static double bulk_of(const tooth_mesh *s, const losses_mesh *m, double loss)
     return m->oil_temperature + (s->thermal_conductance > 0 ? loss / s->thermal_conductance : 0);
 }
 
-/* Outputs that have no value if no power goes through the gears. */
+/* Outputs that are undefined if no power is transmitted. */
 static const uint64_t of_transmission =
     FF_BIT(OUT_EFFICIENCY) | FF_BIT(OUT_FRICTION_FORMULA) | FF_BIT(OUT_FRICTION_AGREEMENT);
 
@@ -406,8 +416,8 @@ static ff_status write_outputs(const tooth_mesh *s, const losses_mesh *m, uint64
     return status;
 }
 
-/* Reads the thermal data of the gears. Refuses gears without these data if a flank temperature
- * is wanted. */
+/* Reads the thermal data of the gears. If a flank temperature is wanted, refuses gears without
+   these data. */
 static ff_status read_heat(const tooth_mesh *s, uint64_t wanted, losses_mesh *m)
 {
     const uint64_t hot = FF_BIT(OUT_FLASH) | FF_BIT(OUT_CONTACT_TEMPERATURE) |

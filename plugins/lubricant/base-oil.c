@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-/* value + slope (T - at); NaN: no source is known. */
+/* value + slope (T - at); NaN: no source available. */
 typedef struct line {
     double value, slope, at;
 } line;
@@ -17,7 +17,7 @@ static const struct {
      * later work on gear losses quotes it. That work does not state the range of the fit. */
     double s, t;
 } bases[LUBRICANT_BASE_COUNT] = {
-    /* Thermal data follow from the density, see below. */
+    /* Thermal data follow from the density, see lubricant_base_conductivity. */
     [LUBRICANT_MINERAL] = {890, {NAN, 0, 0}, {NAN, 0, 0}, 9.904, 0.1390},
     /* PAO-B, 22 to 107 degC: R. Larsson, P. O. Larsson, E. Eriksson, M. Sjoberg, E. Hoglund 2000,
        Proc. IMechE J 214, 17-27. */
@@ -65,9 +65,9 @@ double lubricant_base_heat_capacity(int base, double density_15, double T, doubl
     return on_line((line){0.4024 * c, 0.00081 * c, 273.15}, T, slope);
 }
 
-/* Converts Gold's mean m over P = 0.2 GPa to the slope at ambient pressure by C. J. A. Roelands'
- * law, ln(eta/eta0) = L ((1 + p/p0)^z - 1), L = ln(eta0) + 9.67, p0 = 196 MPa. The exponent with
- * this mean is z = ln(1 + m P/L)/ln(1 + P/p0), and the slope is z L/p0. */
+/* Converts Gold's mean m over P = 0.2 GPa to the slope at ambient pressure by the law of C. J. A.
+   Roelands: ln(eta/eta0) = L ((1 + p/p0)^z - 1), L = ln(eta0) + 9.67, p0 = 196 MPa. The exponent
+   with this mean is z = ln(1 + m P/L)/ln(1 + P/p0), and the slope at p = 0 is z L/p0. */
 double lubricant_base_pressure_coefficient(int base, double nu, double ln_eta0, double nu_slope,
                                            double ln_eta0_slope, double *slope)
 {

@@ -12,11 +12,11 @@ typedef struct lubricant_curve {
     double *square, *cube; /* coefficients from each point to the next */
 } lubricant_curve;
 
-/* Copies n >= 1 points with increasing x. False if there is no memory. */
+/* Copies n >= 1 points with increasing x. False if memory is short. */
 bool lubricant_curve_make(lubricant_curve *c, size_t n, const double *x, const double *y);
 void lubricant_curve_free(lubricant_curve *c);
 
-/* Evaluates n points. The curve is straight beyond its ends, and constant if it has one point. */
+/* Evaluates n points. Beyond its ends the curve is linear; a curve with one point is constant. */
 void lubricant_curve_values(const lubricant_curve *c, size_t n, const double *x, double *y,
                             double *slope);
 

@@ -7,16 +7,17 @@
 
 static const ff_param params[] = {
     FF_PHRASE_LIKE(LUBRICANT_GRADE_NAMES, "grade", lubricant_oil, grade, FF_REQUIRED, NULL, NULL,
-                   "ISO 3448 grade, its viscosity at 40 degC in cSt: ISO VG 220"),
+                   "ISO 3448 viscosity grade, such as ISO VG 220; the number is the kinematic "
+                   "viscosity at 40 degC in cSt"),
     FF_ONE_OF(LUBRICANT_BASES, "base", lubricant_oil, base, 0, "mineral",
               "base oil: viscosity index (95, 150, 150, 200), density at 15 degC (890, 850, 975, "
               "1050 kg/m3), pressure coefficient and thermal data of a typical oil"),
     FF_QUANTITY("nu_100", "cSt", lubricant_oil, nu_100, 0, NULL, NULL, 0.5, 1e4, 1, 500,
-                "kinematic viscosity at 100 degC, in place of that of the base"),
+                "kinematic viscosity at 100 degC, instead of the typical one of the base oil"),
     FF_QUANTITY("density_15", "kg/m3", lubricant_oil, density_15, 0, NULL, NULL, 500, 2500, 800,
                 1164,
-                "density at 15 degC, in place of that of the base; it falls with temperature by "
-                "ASTM D1250"),
+                "density at 15 degC, instead of the typical one of the base oil; it falls with "
+                "temperature by ASTM D1250"),
     LUBRICANT_ROWS,
 };
 
@@ -35,10 +36,10 @@ static ff_status ready(void *self)
     return lubricant_oil_ready_from(oil, nu_40, nu_100);
 }
 
-FF_MODEL(lubricant_grade, lubricant_oil, .id = "lubricant/grade", .version = "1.0.0",
-         .summary = "a typical oil of an ISO viscosity grade and base, over temperature",
-         .reference = LUBRICANT_REFERENCE, .bibtex = LUBRICANT_BIBTEX,
-         .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
-         .inputs = FF_TABLE(lubricant_inputs), .outputs = FF_TABLE(lubricant_outputs),
-         .ready = ready, .evaluate = lubricant_evaluate, .service = lubricant_service,
-         .destroy = lubricant_destroy);
+FF_MODEL(
+    lubricant_grade, lubricant_oil, .id = "lubricant/grade", .version = "1.0.0",
+    .summary = "a typical oil of an ISO viscosity grade and base oil, as a function of temperature",
+    .reference = LUBRICANT_REFERENCE, .bibtex = LUBRICANT_BIBTEX, .licence = "GPL-3.0-or-later",
+    .params = FF_TABLE(params), .inputs = FF_TABLE(lubricant_inputs),
+    .outputs = FF_TABLE(lubricant_outputs), .ready = ready, .evaluate = lubricant_evaluate,
+    .service = lubricant_service, .destroy = lubricant_destroy);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The service flankfilm.liquid/1: properties of an oil over temperature. */
+/* The service flankfilm.liquid/1: properties of an oil as functions of temperature. */
 #include "liquid.h"
 
 #include "base-oil.h"
@@ -11,14 +11,14 @@
 
 enum { BLOCK = 256 };
 
-/* K; within this distance from the only temperature of its data, an oil has these data. */
+/* K; within this distance from the single temperature of its data, an oil has these data. */
 static const double SAME = 0.01;
 
-/* K before the upper end of an oil's range, and the same width beyond it, over which its slopes
- * decrease to 0. */
+/* K; the slopes of an oil decrease to 0 from BEND below the upper end of its range to BEND above
+   it. */
 static const double BEND = 50;
 
-/* A function of T: value and slope. */
+/* A function of T: returns the value, and writes the slope. */
 typedef double property(const lubricant_oil *oil, double T, double *slope);
 
 static const lubricant_curve *table_of(const lubricant_oil *oil, int32_t what)
@@ -102,7 +102,7 @@ static void kinematic(const lubricant_oil *oil, size_t n, const double *T, doubl
         slope[i] = NAN;
 }
 
-/* Multiplies n values by others; the slopes are those of logarithms. */
+/* Multiplies n values by other values; the slopes of the latter are those of their logarithms. */
 FF_SIMD
 static void take_product(size_t n, double *restrict a, const double *restrict a_slope,
                          const double *restrict b, const double *restrict b_slope,
@@ -176,8 +176,8 @@ static double pressure_coefficient(const lubricant_oil *oil, double T, double *s
     return oil->alpha_scale * alpha;
 }
 
-/* Returns the reference temperature: the one the oil runs at, or else the temperature of its
- * data nearest to 40 degC. */
+/* Returns the reference temperature: the temperature of the run; without a run, the temperature of
+   the oil's data nearest to 40 degC. */
 static double reference_temperature(const lubricant_oil *oil, double T, double *slope)
 {
     (void)T;
@@ -214,7 +214,7 @@ static double conductivity_bend(const lubricant_oil *oil, double T, double *slop
     return conductivity_number(oil, 1, slope);
 }
 
-/* Properties that are requested one by one. */
+/* Properties that are evaluated point by point. */
 static property *const properties[LUBRICANT_PROPERTIES] = {
     [FF_LIQUID_CONDUCTIVITY] = conductivity,
     [FF_LIQUID_HEAT_CAPACITY] = heat_capacity,
@@ -226,9 +226,9 @@ static property *const properties[LUBRICANT_PROPERTIES] = {
     [FF_LIQUID_CONDUCTIVITY_BEND] = conductivity_bend,
 };
 
-/* Clamps temperatures to the range of ASTM D341, with the slopes of the clamped ones. Heated
- * films reach the upper end, which is therefore approached on a parabola: the heat of
- * compression depends on the slope of the density, which must not jump. */
+/* Clamps temperatures to the range of ASTM D341, with the slopes of the clamped temperatures over
+   the given ones. Heated films reach the upper end. It is therefore approached on a parabola: the
+   heat of compression depends on the slope of the density, which must not jump. */
 FF_SIMD
 static void hold(const lubricant_oil *oil, size_t n, const double *restrict T,
                  double *restrict held, double *restrict by_T)
@@ -242,7 +242,7 @@ static void hold(const lubricant_oil *oil, size_t n, const double *restrict T,
     }
 }
 
-/* Multiplies slopes by those of the clamped temperatures; what is constant stays so. */
+/* Multiplies slopes by those of the clamped temperatures; constants stay constant. */
 FF_SIMD
 static void hold_slopes(size_t n, const double *restrict by_T, const double *restrict value,
                         double *restrict slope)
@@ -291,7 +291,8 @@ static ff_status eval(const void *self, int32_t what, size_t n, const double *T,
     return status;
 }
 
-/* Finds the temperatures between which the straight ends of the curve satisfy ASTM D341. */
+/* Finds the temperature limits up to which the linear extrapolation of the curve is in the range of
+   ASTM D341. */
 static void find_limits(lubricant_oil *oil)
 {
     const lubricant_curve *c = &oil->viscosity;
@@ -307,7 +308,7 @@ static void find_limits(lubricant_oil *oil)
     }
     oil->coldest = fmax(150, exp(c->x[0] + (most - c->y[0]) / c->slope[0]));
     oil->hottest = fmin(700, exp(c->x[last] + (least - c->y[last]) / c->slope[last]));
-    /* so that data are returned as they were given */
+    /* so that the given data are returned unchanged */
     oil->hottest = fmax(oil->hottest, oil->high + BEND);
 }
 

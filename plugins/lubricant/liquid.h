@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Shared by the models of this folder: an oil as functions of temperature, offered as
- * flankfilm.liquid/1, and its values at the temperature of the run. A model provides the
- * kinematic viscosity from its parameters. */
+   flankfilm.liquid/1, and its values at the temperature of the run. Each model computes the
+   kinematic viscosity from its own parameters. */
 #ifndef LUBRICANT_LIQUID_H
 #define LUBRICANT_LIQUID_H
 
@@ -23,45 +23,46 @@ typedef struct lubricant_oil {
     const char *grade, *file;
     ff_reals conductivity_pressure; /* c1 and c2, 1/Pa, or empty */
 
-    /* The model fills these in before lubricant_oil_ready. */
-    lubricant_curve viscosity; /* ordinate of ASTM D341 over ln T; if it has one point, the oil is
-                                  known at that temperature only */
+    /* The model fills in these members before lubricant_oil_ready. */
+    lubricant_curve viscosity; /* ordinate of ASTM D341 over ln T; one point: the oil is known at
+                                  that temperature only */
     lubricant_curve tables[4]; /* measured properties, in order from FF_LIQUID_RHO0 */
     double low, high;          /* range of the data, K */
 
     double coldest, hottest; /* range of ASTM D341, K; set by lubricant_oil_ready */
-    double viscosity_index;  /* from nu_40 and nu_100; 0 or NaN: none */
-    double alpha_scale; /* factor on the correlation for the base oil; NaN: alpha does not follow
-                           from it */
+    double viscosity_index;  /* from nu_40 and nu_100; 0 or NaN: unknown */
+    double alpha_scale;      /* factor on the correlation for the base oil; NaN: the correlation is
+                                not used */
 
-    /* Values at the temperature of the run, which films request again and again; NaN: there is
-     * no run. */
+    /* Values at the temperature of the run, stored since films request them very often; NaN: there
+       is no run. */
     double run_temperature, run_value[LUBRICANT_PROPERTIES], run_slope[LUBRICANT_PROPERTIES];
 } lubricant_oil;
 
-/* The parameters that both models have. */
+/* The parameters common to both models. */
 #define LUBRICANT_ROWS                                                                             \
     FF_QUANTITY("alpha", "1/GPa", lubricant_oil, alpha, FF_MIN_OPEN, NULL, NULL, 0, 1000, 2, 50,   \
                 "pressure coefficient dln(eta)/dp at ambient pressure and the temperature "        \
-                "alpha_at; over temperature it follows the base oil"),                             \
+                "alpha_at; it varies with temperature as for the base oil"),                       \
         FF_QUANTITY("alpha_at", "degC", lubricant_oil, alpha_at, 0, NULL, NULL, -150, 500, -60,    \
-                    250, "temperature that alpha holds at"),                                       \
+                    250, "temperature at which alpha is given"),                                   \
         FF_QUANTITY("conductivity", "W/(m K)", lubricant_oil, conductivity, FF_MIN_OPEN, NULL,     \
                     NULL, 0, 100, 0.08, 0.3,                                                       \
-                    "thermal conductivity, taken for every temperature; without it that of the "   \
+                    "thermal conductivity, used for all temperatures; left out: that of the "      \
                     "base oil"),                                                                   \
         FF_LIST("conductivity_pressure", "1/GPa", lubricant_oil, conductivity_pressure, 0, NULL,   \
                 NULL, 0, 100, 0.1, 5, 1, 2,                                                        \
                 "c1 and c2 of the conductivity under pressure, 1 + c1 p/(1 + c2 p) times that at " \
-                "ambient pressure; without it that holds at every pressure. Paraffinic oils 1.72 " \
+                "ambient pressure; left out: the conductivity does not depend on pressure. "       \
+                "Paraffinic oils: 1.72 "                                                           \
                 "and 0.54, naphthenic 1.54 and 0.33, PAO 1.40 and 0.34"),                          \
         FF_QUANTITY("heat_capacity", "J/(kg K)", lubricant_oil, heat_capacity, FF_MIN_OPEN, NULL,  \
                     NULL, 0, 1e5, 1200, 3500,                                                      \
-                    "specific heat, taken for every temperature; without it that of the base "     \
+                    "specific heat, used for all temperatures; left out: that of the base "        \
                     "oil"),                                                                        \
-        FF_QUANTITY("temperature", "degC", lubricant_oil, temperature, 0, NULL, NULL, -150, 500,   \
-                    0, 0,                                                                          \
-                    "of the oil in the inlet, where no operating stage gives oil_temperature")
+        FF_QUANTITY(                                                                               \
+            "temperature", "degC", lubricant_oil, temperature, 0, NULL, NULL, -150, 500, 0, 0,     \
+            "temperature of the oil in the inlet, if no operating stage gives oil_temperature")
 
 #define LUBRICANT_REFERENCE                                                                        \
     "ASTM D341-20 (viscosity over temperature), ASTM D1250 table 54D (density), ISO 3448 and "     \
@@ -74,8 +75,8 @@ extern const ff_port lubricant_outputs[8];
 ff_status lubricant_oil_ready(lubricant_oil *oil);
 /* Sets the viscosity by ASTM D341 from those at 40 and 100 degC, m2/s. */
 ff_status lubricant_oil_ready_from(lubricant_oil *oil, double nu_40, double nu_100);
-/* Stores all properties at the temperature of the run; the service only reads them and stays
- * pure. */
+/* Stores all properties at the temperature of the run. The service only reads them and therefore
+   stays pure. */
 void lubricant_keep_run(lubricant_oil *oil, double T);
 /* Returns the density at T, kg/m3, once density_15 or a table of the density is set. */
 double lubricant_density(const lubricant_oil *oil, double T);

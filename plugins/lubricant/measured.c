@@ -10,27 +10,28 @@
 
 static const ff_param params[] = {
     FF_QUANTITY("nu_40", "cSt", lubricant_oil, nu_40, FF_REQUIRED, NULL, "viscosity", 0.5, 1e5, 2,
-                5000, "kinematic viscosity at 40 degC, beside nu_100"),
+                5000, "kinematic viscosity at 40 degC; with nu_100"),
     FF_PATH("file", lubricant_oil, file, FF_REQUIRED, "viscosity",
             "table with the columns temperature [degC] and viscosity [mPa s] or "
-            "kinematic_viscosity [cSt], and what is measured of density [kg/m3], conductivity "
-            "[W/(m K)], heat_capacity [J/(kg K)] and alpha [1/GPa]"),
+            "kinematic_viscosity [cSt]; optional columns: density [kg/m3], conductivity [W/(m K)], "
+            "heat_capacity [J/(kg K)], alpha [1/GPa]"),
     FF_QUANTITY("eta0", "mPa s", lubricant_oil, eta0, FF_REQUIRED | FF_MIN_OPEN, NULL, "viscosity",
                 0, 1e9, 0.1, 1e5,
-                "dynamic viscosity at the temperature `at`, which alone the oil then serves"),
+                "dynamic viscosity at the temperature `at`; the oil is then known at that "
+                "temperature only"),
     FF_QUANTITY("nu_100", "cSt", lubricant_oil, nu_100, 0, NULL, NULL, 0.5, 1e4, 1, 500,
-                "kinematic viscosity at 100 degC, beside nu_40"),
+                "kinematic viscosity at 100 degC; with nu_40"),
     FF_QUANTITY("at", "degC", lubricant_oil, at, 0, NULL, NULL, -120, 400, -60, 250,
                 "temperature of eta0"),
     FF_QUANTITY("density_15", "kg/m3", lubricant_oil, density_15, 0, NULL, "density", 500, 2500,
                 800, 1164, "density at 15 degC; it falls with temperature by ASTM D1250"),
     FF_QUANTITY("density", "kg/m3", lubricant_oil, density, 0, NULL, "density", 400, 2500, 700,
-                1164, "density at the temperature `at`, beside eta0"),
+                1164, "density at the temperature `at`; with eta0"),
     FF_QUANTITY("expansion", "1/K", lubricant_oil, expansion, 0, NULL, NULL, 0, 0.01, 4e-4, 1.2e-3,
-                "constant thermal expansion, in place of ASTM D1250"),
+                "constant thermal expansion coefficient, instead of ASTM D1250"),
     FF_ONE_OF(LUBRICANT_BASES, "base", lubricant_oil, base, 0, NULL,
-              "base oil, for the pressure coefficient and the thermal data that are not measured; "
-              "without it they are not known"),
+              "base oil, which gives the pressure coefficient and the thermal data that are not "
+              "measured; left out: they are unknown"),
     LUBRICANT_ROWS,
 };
 
@@ -63,7 +64,7 @@ static const ff_param columns[] = {
      .max = 2e7},
     {.name = "density",
      .unit = "kg/m3",
-     .doc = "density; without the column density_15 is needed",
+     .doc = "density; without this column density_15 is needed",
      .type = FF_REALS,
      .min = 400,
      .max = 2500},
@@ -93,7 +94,7 @@ static ff_status density_missing(const lubricant_oil *oil, const char *why)
                     "the density of the oil is missing: give density_15%s", why);
 }
 
-/* Refuses parameters that belong to another way of giving the viscosity. */
+/* Refuses parameters that do not belong to the chosen way of giving the viscosity. */
 static ff_status check_companions(const lubricant_oil *oil)
 {
     const ff_host *host = oil->host;
@@ -153,7 +154,7 @@ static ff_status take_tables(lubricant_oil *oil, const ff_table *file)
     return FF_OK;
 }
 
-/* Turns the viscosity of each row into a point of the curve. */
+/* Converts the viscosity of each row into a point of the curve. */
 static ff_status take_viscosity(lubricant_oil *oil, const ff_table *file, double *x, double *y)
 {
     const double *const *column = file->columns;
@@ -223,7 +224,7 @@ static ff_status ready(void *self)
 }
 
 FF_MODEL(lubricant_measured, lubricant_oil, .id = "lubricant/measured", .version = "1.0.0",
-         .summary = "an oil from its data sheet or from measurements, over temperature",
+         .summary = "an oil from its data sheet or from measurements, as a function of temperature",
          .reference = LUBRICANT_REFERENCE, .bibtex = LUBRICANT_BIBTEX,
          .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
          .inputs = FF_TABLE(lubricant_inputs), .outputs = FF_TABLE(lubricant_outputs),

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The oils that this shared object exports. */
+/* Lists the oils of this shared object. */
 #include <flankfilm/author.h>
 
 extern const ff_model lubricant_grade, lubricant_measured;

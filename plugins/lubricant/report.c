@@ -17,11 +17,11 @@ const ff_port lubricant_inputs[1] = {{.name = "operating.oil_temperature",
 
 enum { OUT_OIL, OUT_TEMPERATURE, OUT_VALUES };
 
-/* Rows from OUT_VALUES on are in the order of the properties; the expansion is last. */
+/* Rows from OUT_VALUES on are in the order of the properties; the thermal expansion is last. */
 const ff_port lubricant_outputs[8] = {
     {.name = "oil",
      .unit = "",
-     .doc = "the oil over temperature",
+     .doc = "the oil as a function of temperature",
      .dims = "",
      .service = FF_LIQUID_ID},
     {.name = "temperature", .unit = "K", .doc = "of the oil in the inlet", .dims = ""},
@@ -100,10 +100,10 @@ static void judge(const lubricant_oil *oil, double T)
 {
     double beyond = fmax(0, fmax(oil->low - T, T - oil->high));
     char text[160];
-    snprintf(text, sizeof text,
-             "K beyond what the data of the oil reach, %.0f to %.0f degC; its viscosity there is "
-             "an extrapolation",
-             oil->low - ZERO, oil->high - ZERO);
+    snprintf(
+        text, sizeof text,
+        "K outside the data of the oil, %.0f to %.0f degC; its viscosity there is extrapolated",
+        oil->low - ZERO, oil->high - ZERO);
     oil->host->quality(oil->host->ctx, "extrapolation", beyond, 0, beyond > 0 ? FF_RANGE : FF_GOOD,
                        beyond > 0 ? text : NULL);
     double index = oil->viscosity_index;

@@ -8,11 +8,11 @@
 
 static const double CST = 1e-6; /* m2/s */
 
-/* Mid-points of ISO 3448 at 40 degC, and the viscosity at 100 degC that gives the viscosity
- * index of the base by ASTM D2270, all in cSt. Indices: 95 for mineral oil, 150 for PAO and
- * ester (esters: 140 to 160), 200 for PAG (an ethylene-propylene oxide copolymer has 204, 62.5
- * and 22.5 mPa s at 30, 60 and 100 degC; Stachowiak and Batchelor, Engineering Tribology, table
- * 2.3). Typical values, of no particular product. */
+/* ISO 3448 mid-points at 40 degC, and the viscosity at 100 degC that gives the viscosity index of
+   the base oil by ASTM D2270, all in cSt. The indices are typical values, not those of a particular
+   product: 95 for mineral oil, 150 for PAO and ester (esters: 140 to 160), 200 for PAG. An example
+   of a PAG, an ethylene-propylene oxide copolymer, has 204, 62.5 and 22.5 mPa s at 30, 60 and 100
+   degC (Stachowiak and Batchelor, Engineering Tribology, table 2.3). */
 static const struct {
     double nu_40, mineral, synthetic, glycol;
 } grades[] = {
@@ -99,8 +99,9 @@ double lubricant_d341_ordinate(double nu)
     return log10(log10(nu + 0.7 + exp(-1.47 - 1.84 * nu - 0.51 * nu * nu)));
 }
 
-/* ASTM D341-20, equation 3, an inverse fit good to 0.1 % below about 5 cSt, then Newton steps on
- * equation 2, so that data are returned as they were given. Above 10 cSt both agree. */
+/* ASTM D341-20, equation 3: an inverse fit, accurate to 0.1 % below about 5 cSt; above 10 cSt it
+   agrees with equation 2. Newton steps on equation 2 follow, so that given data are returned
+   unchanged. */
 FF_SIMD
 void lubricant_d341_nu(size_t n, const double *restrict y, double *restrict nu,
                        double *restrict slope)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Checks the answers of laws: FF_OK or FF_DOMAIN, and finite numbers at every finite pressure. */
+/* Checks the results of laws: the status must be FF_OK or FF_DOMAIN, and numbers must be finite for
+   every finite pressure. */
 #ifndef NUMERICS_ANSWERS_H
 #define NUMERICS_ANSWERS_H
 
@@ -10,24 +11,24 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The first wrong answer that a law gave to a stage. */
+/* The first wrong result that a law gave to a stage. */
 typedef struct numerics_answers {
-    ff_status status; /* FF_OK: none was wrong; otherwise FF_BUG, FF_NOCONV, FF_NOMEM */
-    const char *wire; /* of the law: "viscosity" */
+    ff_status status; /* FF_OK: no wrong result; otherwise FF_BUG, FF_NOCONV, FF_NOMEM */
+    const char *wire; /* wire of the law: "viscosity" */
     char text[160];
 } numerics_answers;
 
-/* A question to a law, and its answer. */
+/* The arguments of one call of a law, and its results. */
 typedef struct numerics_answer {
     const char *wire, *name; /* "viscosity", "ln_eta" */
     ff_status status;
     size_t n;
     const double *p;              /* Pa, or NULL */
-    const double *value, *slopes; /* n of each; slopes may be NULL */
+    const double *value, *slopes; /* arrays of n; slopes may be NULL */
 } numerics_answer;
 
-/* Returns the sum of n numbers, computed in several lanes at once. It is finite only if all
- * numbers are. */
+/* Returns the sum of n numbers, computed with several SIMD lanes. It is finite only if all numbers
+   are finite. */
 static inline double numerics_lane_sum(size_t n, const double *x)
 {
     enum { LANES = 8 };
@@ -43,14 +44,14 @@ static inline double numerics_lane_sum(size_t n, const double *x)
     return sum;
 }
 
-/* Whether all numbers are finite; 0 may also mean that their sum is not. */
+/* Whether all numbers are finite. 0 may also mean that only their sum overflows. */
 static inline int numerics_are_finite(size_t n, const double *x)
 {
     return isfinite(numerics_lane_sum(n, x));
 }
 
-/* Keeps what is wrong with the answer if nothing was wrong before, and returns the resulting
- * status of the law. A pressure that is not a number is not the law's fault. */
+/* Stores the fault of a result if it is the first one, and returns the status of the law. If a
+   pressure is not finite, a wrong result is not a fault of the law. */
 static inline ff_status numerics_answer_fault(numerics_answers *a, const numerics_answer *x)
 {
     size_t i = 0;
@@ -94,7 +95,8 @@ static inline ff_status numerics_answer_note(numerics_answers *a, const numerics
     return numerics_answer_fault(a, x);
 }
 
-/* Returns the status of a stage with these laws: that of the laws if one of them failed. */
+/* Returns the status of a stage that uses these laws: the status of the laws if one of them
+   failed. */
 static inline ff_status numerics_answers_end(numerics_answers *a, const ff_host *host,
                                              ff_status status)
 {

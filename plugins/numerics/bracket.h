@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * A root between two points of different sign, by false position. The Illinois variant (Dowell &
- * Jarratt 1971, A modified regula falsi method, BIT 11, 168-174) halves the value at an end that
- * stays twice, so that both ends close in on the root. For the models of every kind.
+ * Finds a root between two points with values of different sign by false position. The Illinois
+ * variant (Dowell & Jarratt 1971, A modified regula falsi method, BIT 11, 168-174) halves the value
+ * at an end that is retained twice, so that both ends converge to the root. For models of every
+ * kind.
  */
 #ifndef NUMERICS_BRACKET_H
 #define NUMERICS_BRACKET_H
@@ -21,7 +22,7 @@ static inline double numerics_bracket_secant(const numerics_bracket *b)
     return b->high - b->f_high * (b->high - b->low) / (b->f_high - b->f_low);
 }
 
-/* Moves the end whose sign is that of `value` to the point x. */
+/* Moves the end whose value has the sign of `value` to the point x. */
 static inline void numerics_bracket_narrow(numerics_bracket *b, double x, double value)
 {
     if ((value < 0) == (b->f_low < 0)) {

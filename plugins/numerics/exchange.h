@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * The pair with its gears exchanged, for the models of every kind. Where the torque is below 0 the
- * back flanks bear the load and gear 2 drives. Their contact is that of the driving flanks of the
- * pair in which gear 2 takes the place of gear 1, so that a model that knows driving flanks alone
- * reads its inputs here, and turns back what it gives by station, by roll angle or by gear.
+ * A gear pair with its gears exchanged, for models of every kind. If the torque is negative, the
+ * back flanks carry the load and gear 2 drives. Their contact equals that of driving flanks if gear
+ * 2 and gear 1 change places. A model that only supports driving flanks reads its inputs through
+ * these functions, which exchange them. They also exchange back its results by station, by roll
+ * angle or by gear.
  */
 #ifndef NUMERICS_EXCHANGE_H
 #define NUMERICS_EXCHANGE_H
@@ -15,23 +16,26 @@
 #include <string.h>
 
 typedef struct numerics_exchange {
-    const ff_array *in; /* what the model reads: its own inputs if gear 1 drives */
-    int back;           /* gear 2 drives */
+    const ff_array *in; /* inputs for the model: the original ones if gear 1 drives */
+    int back;           /* true: gear 2 drives */
     double ratio;       /* z_1/z_2 */
-    double top;         /* roll angle of gear 2 = ratio (top - roll angle of gear 1), rad */
-    double sap;         /* roll angle of gear 2 to which whole mesh cycles lead back, rad */
+    double top;         /* roll_sap of the exchanged pair, rad: roll angle of gear 2 at the first
+                           whole number of mesh cycles after SAP of gear 1 that is not before the
+                           end of the path */
+    double sap;         /* roll angle of gear 2 from which roll angles differ by whole mesh
+                           cycles at conversion, rad */
     ff_array *arrays;
     double *room;
 } numerics_exchange;
 
-/* Returns the name without that of the stage. */
+/* Returns the name of an input without that of its wire. */
 static inline const char *numerics_exchange_item(const ff_port *port)
 {
     const char *dot = strchr(port->name, '.');
     return dot ? dot + 1 : port->name;
 }
 
-/* Returns the wired input of that name, or NULL. */
+/* Returns the wired input with that name, or NULL. */
 static inline const ff_array *numerics_exchange_find(const ff_port *ports, size_t count,
                                                      const ff_array *in, const char *name)
 {
@@ -41,7 +45,7 @@ static inline const ff_array *numerics_exchange_find(const ff_port *ports, size_
     return NULL;
 }
 
-/* Returns 1 if the driving flanks bear the load, -1 if the back flanks do, 0 without a load. */
+/* Returns 1 if the driving flanks carry the load, -1 if the back flanks do, 0 without load. */
 static inline int numerics_flank(const ff_port *ports, size_t count, const ff_array *in)
 {
     const ff_array *load = numerics_exchange_find(ports, count, in, "operating.line_force");
@@ -69,7 +73,7 @@ static inline void numerics_reverse(double *x, size_t n, size_t width)
         }
 }
 
-/* True if this is the last of the dimensions, also as that of another wire ("gear.station"). */
+/* Whether this is the last of the dimensions, also as that of another wire ("gear.station"). */
 static inline int numerics_exchange_ends(const char *dims, const char *last)
 {
     const size_t n = strlen(dims), m = strlen(last);
@@ -77,9 +81,9 @@ static inline int numerics_exchange_ends(const char *dims, const char *last)
            (n == m || dims[n - m - 1] == ' ' || dims[n - m - 1] == '.');
 }
 
-/* Finds where the path of contact and its whole mesh cycles end on gear 2. The radii of
- * curvature give the roll angles of gear 2; without radii only differences of the roll angle can
- * be used. */
+/* Finds the roll angles of gear 2 at the end of the path of contact and of its whole mesh cycles.
+   They follow from the radii of curvature; without radii only differences of the roll angle can be
+   used. */
 static inline void numerics_exchange_measure(const ff_port *ports, size_t count, const ff_array *in,
                                              numerics_exchange *x)
 {
@@ -150,9 +154,9 @@ static inline void numerics_exchange_array(const numerics_exchange *x, const ff_
             numerics_reverse(to + row * last, last, 1);
 }
 
-/* Returns the row with the same quantity of the other gear, or of the gear's other flank; `i`
- * itself if there is none. What a stiffness says of the back flanks is of those that do not bear,
- * whichever gear drives. */
+/* Returns the index of the row with the same quantity for the other gear, or for the other flank of
+   the gear; `i` itself if there is none. The back flanks of a stiffness are always the unloaded
+   flanks, whichever gear drives. */
 static inline size_t numerics_exchange_partner(const ff_port *ports, size_t count, size_t i)
 {
     const char *name = ports[i].name, *item = numerics_exchange_item(&ports[i]);
@@ -169,7 +173,8 @@ static inline size_t numerics_exchange_partner(const ff_port *ports, size_t coun
     return i;
 }
 
-/* Sets x->in from the inputs of a model; FF_NOMEM. To be closed in any case. */
+/* Sets x->in from the inputs of a model; may return FF_NOMEM. The caller closes x, also after an
+   error. */
 static inline ff_status numerics_exchange_open(const ff_port *ports, size_t count,
                                                const ff_array *in, numerics_exchange *x)
 {
@@ -206,8 +211,8 @@ static inline ff_status numerics_exchange_open(const ff_port *ports, size_t coun
     return FF_OK;
 }
 
-/* Refuses negative tooth forces: they come from a source that takes a negative line force for
- * one of driving flanks. `row` is that of the tooth forces. */
+/* Refuses negative tooth forces: their source has treated a negative line force as one on driving
+   flanks. `row` is that of the tooth forces. */
 static inline ff_status numerics_exchange_check(const ff_host *host, const ff_port *ports,
                                                 const numerics_exchange *x, size_t row)
 {
@@ -216,9 +221,9 @@ static inline ff_status numerics_exchange_check(const ff_host *host, const ff_po
         sum += x->in[row].data[i];
     return sum >= 0 ? FF_OK
                     : ff_failf(host, FF_UNSUPPORTED, ports[row].name,
-                               "the torque is below 0, and the tooth forces of this source are, "
-                               "too: it knows the driving flanks alone; write gear 2 of the file "
-                               "as gear 1, with a torque above 0");
+                               "the torque is negative, and so are the tooth forces of this "
+                               "source, which supports driving flanks only: write gear 2 of the "
+                               "file as gear 1, with a positive torque");
 }
 
 static inline void numerics_exchange_close(numerics_exchange *x)

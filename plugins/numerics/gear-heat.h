@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How the flanks of a gear pair conduct heat, as the gears state or, without gears, as
- * parameters do. */
+/* Thermal data of a gear pair: given by the gear stage or, without a gear, by parameters. */
 #ifndef NUMERICS_GEAR_HEAT_H
 #define NUMERICS_GEAR_HEAT_H
 
@@ -8,16 +7,17 @@
 
 #include <math.h>
 
-/* Steel, for presets, as users write it. */
+/* Steel, for presets, in the user's notation. */
 #define NUMERICS_STEEL_CONDUCTIVITY "50 W/(m K)"
 #define NUMERICS_STEEL_DENSITY      "7850 kg/m3"
 #define NUMERICS_STEEL_HEAT         "484 J/(kg K)"
 
-/* For rows of tooth temperatures, in K: their formulas are good to 30 % of some 30 K. */
+/* For rows of bulk temperatures, in K: the formulas are accurate to 30 % of a rise of about 30
+   K. */
 #define NUMERICS_BULK_QUANTITY                                                                     \
     .shown = "degC", .quantity = "bulk temperature of the teeth", .apart = 10
 
-/* A list for both gears, replaced by an input if a gear offers it. */
+/* A list for both gears that an input of a gear stage replaces if it is offered. */
 #define NUMERICS_LIST_UNLESS(wire, name, unit, type, member, preset, min, max, doc)                \
     FF_ROW_UNLESS(wire, name, unit, doc, FF_REALS, 0, preset, NULL, NULL, min, max, 0, 0, 1, 2,    \
                   FF_PLACE(type, member, ff_reals))
@@ -26,7 +26,7 @@
 #define NUMERICS_HEAT_ROWS(kind)                                                                   \
     {.name = "gear.thermal_conductivity",                                                          \
      .unit = "W/(m K)",                                                                            \
-     .doc = "thermal conductivities of the gears, 0: not known",                                   \
+     .doc = "thermal conductivities of the gears; 0: unknown",                                     \
      .dims = "gear",                                                                               \
      .flags = FF_OPTIONAL,                                                                         \
      .from = kind},                                                                                \
@@ -38,17 +38,17 @@
          .from = kind},                                                                            \
     {                                                                                              \
         .name = "gear.specific_heat", .unit = "J/(kg K)",                                          \
-        .doc = "specific heats of the gears, 0: not known", .dims = "gear", .flags = FF_OPTIONAL,  \
+        .doc = "specific heats of the gears; 0: unknown", .dims = "gear", .flags = FF_OPTIONAL,    \
         .from = kind                                                                               \
     }
 enum { NUMERICS_HEAT_INPUTS = 3 };
 
 /* Parameters of both flanks for pipelines without a gear; the model has the members
- * flank_conductivity, flank_density and flank_heat_capacity. */
+   flank_conductivity, flank_density and flank_heat_capacity. */
 #define NUMERICS_HEAT_PARAMS(when, type)                                                           \
     FF_QUANTITY_UNLESS("gear.thermal_conductivity", "flank_conductivity", "W/(m K)", type,         \
                        flank_conductivity, 0, NUMERICS_STEEL_CONDUCTIVITY, NULL, 1e-3, 1e4, 0, 0,  \
-                       when ": of both flanks, where no gear tells; steel 50"),                    \
+                       when ": of both flanks, if no gear gives it; steel: 50"),                   \
         FF_QUANTITY_UNLESS("gear.density", "flank_density", "kg/m3", type, flank_density, 0,       \
                            NUMERICS_STEEL_DENSITY, NULL, 1, 1e5, 0, 0, "likewise; steel 7850"),    \
         FF_QUANTITY_UNLESS("gear.specific_heat", "flank_heat_capacity", "J/(kg K)", type,          \
@@ -71,7 +71,7 @@ static inline double numerics_heat_diffusivity(const numerics_heat *h)
     return h->conductivity / (h->density * h->specific_heat);
 }
 
-/* Returns the number of gear g in row k; NaN if the row is too short. */
+/* Returns the value of gear g in row k; NaN if the row is too short. */
 static inline double numerics_heat_value(const ff_array *in,
                                          const double said[NUMERICS_HEAT_INPUTS], int k, int g)
 {
@@ -81,8 +81,8 @@ static inline double numerics_heat_value(const ff_array *in,
     return row->rank == 1 && row->shape[0] > (size_t)g ? row->data[g] : NAN;
 }
 
-/* Finds the thermal data of gear `g`, 0 or 1. `in` has the three rows, `said` the parameters in
- * their place. A gear without data is refused. */
+/* Finds the thermal data of gear `g`, 0 or 1. `in` has the three input rows, `said` the parameters
+   used without them. A gear without data is refused. */
 static inline ff_status numerics_heat_of(const ff_host *host, const ff_array *in,
                                          const double said[NUMERICS_HEAT_INPUTS], int g,
                                          numerics_heat *h)

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* GSL's explicit Runge-Kutta integrator of order 8, for the models of the motion. */
+/* GSL's explicit Runge-Kutta integrator of order 8, for dynamics models. */
 #ifndef NUMERICS_INTEGRATOR_H
 #define NUMERICS_INTEGRATOR_H
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 
-/* GSL has this symbol in its library but declares it in no header. */
+/* GSL exports this symbol but declares it in no header. */
 extern const gsl_odeiv2_control_type *gsl_odeiv2_control_standard;
 
 typedef struct numerics_integrator {
@@ -23,9 +23,9 @@ static inline void numerics_integrator_free(numerics_integrator *i)
     *i = (numerics_integrator){0};
 }
 
-/* Makes an integrator for that many components, with errors in a step held to relative +
- * absolute. 0 if memory is short: GSL's own handler would end the process then, and
- * gsl_odeiv2_control_standard_new would read through NULL. */
+/* Creates an integrator for this many components; the error of a step is limited to relative +
+   absolute. Returns 0 if memory is short. Memory is checked first, since GSL's default handler
+   would end the process, and gsl_odeiv2_control_standard_new would dereference NULL. */
 static inline int numerics_integrator_make(numerics_integrator *i, size_t components,
                                            double absolute, double relative)
 {

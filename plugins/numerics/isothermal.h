@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Laws at the temperature of a wired oil, for stages with a single temperature. */
+/* Evaluates laws at the temperature of a wired oil, for stages with a single temperature. */
 #ifndef NUMERICS_ISOTHERMAL_H
 #define NUMERICS_ISOTHERMAL_H
 
@@ -8,32 +8,33 @@
 
 #include <flankfilm/author.h>
 
-/* The input rows oil.temperature, oil.eta0 and oil.rho0, in this order, for a stage that calls
- * laws and compares them with the oil. A stage that calls no density law omits the last. */
+/* The input rows oil.temperature, oil.eta0 and oil.rho0, in this order, for a stage that calls laws
+   and compares them with the oil. A stage that calls no density law omits the last row. */
 #define NUMERICS_OIL_ROWS                                                                          \
     {.name = "oil.temperature",                                                                    \
      .unit = "K",                                                                                  \
-     .doc = "temperature of the oil, which the laws are called with",                              \
+     .doc = "temperature of the oil, at which the laws are evaluated",                             \
      .dims = "",                                                                                   \
      .flags = FF_OPTIONAL,                                                                         \
      .from = "lubricant"},                                                                         \
     {                                                                                              \
         .name = "oil.eta0", .unit = "Pa s",                                                        \
-        .doc = "viscosity of the oil, which that of the law is held against", .dims = "",          \
+        .doc = "viscosity of the oil, with which the viscosity law is compared", .dims = "",       \
         .flags = FF_OPTIONAL, .from = "lubricant"                                                  \
     }
 #define NUMERICS_OIL_DENSITY_ROW                                                                   \
     {                                                                                              \
         .name = "oil.rho0", .unit = "kg/m3",                                                       \
-        .doc = "density of the oil, which that of the law is held against", .dims = "",            \
+        .doc = "density of the oil, with which the density law is compared", .dims = "",           \
         .flags = FF_OPTIONAL, .from = "lubricant"                                                  \
     }
 
-/* Offers `law` at T to callers that pass no temperature, and keeps its wrong answers. */
+/* A viscosity law evaluated at T, for callers that pass no temperature. Stores its wrong
+   results. */
 typedef struct numerics_viscosity_at {
     ff_viscosity service;
     const ff_viscosity *law;
-    double T[NUMERICS_POINTS]; /* all the same; NaN: the law's own temperature */
+    double T[NUMERICS_POINTS]; /* all equal; NaN: the reference temperature of the law */
     numerics_answers *answers;
 } numerics_viscosity_at;
 
@@ -44,7 +45,7 @@ typedef struct numerics_density_at {
     numerics_answers *answers;
 } numerics_density_at;
 
-/* Calls eval in parts, with one temperature for all points. */
+/* Calls eval in blocks, with one temperature for all points. */
 static inline ff_status
 numerics_eval_at(ff_status (*eval)(const void *, size_t, const double *, const double *, double *,
                                    double *, double *),
@@ -89,7 +90,7 @@ static inline ff_status numerics_density_eval_at(const void *self, size_t n, con
                                 &(numerics_answer){"density", "rho", status, n, p, rho, drho_dp});
 }
 
-/* Returns the law at T, which lives as long as *at; NaN: at its own temperature. */
+/* Returns the law at T, which is valid as long as *at; T NaN: at its reference temperature. */
 static inline const ff_viscosity *numerics_viscosity_make(numerics_viscosity_at *at,
                                                           const ff_viscosity *law, double T,
                                                           numerics_answers *answers)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A liquid over temperature, for laws and for their callers. */
+/* Evaluates a liquid as a function of temperature, for laws and their callers. */
 #ifndef NUMERICS_LIQUID_H
 #define NUMERICS_LIQUID_H
 
@@ -8,9 +8,9 @@
 #include <math.h>
 #include <string.h>
 
-enum { NUMERICS_POINTS = 1024 }; /* most points of one call below */
+enum { NUMERICS_POINTS = 1024 }; /* largest number of points in one call below */
 
-/* Returns the temperature at which a law answers if it is called without one. */
+/* Returns the temperature at which a law is evaluated if its caller gives none. */
 static inline double numerics_reference_temperature(const ff_liquid *liquid)
 {
     double any = 0, T = NAN;
@@ -20,29 +20,29 @@ static inline double numerics_reference_temperature(const ff_liquid *liquid)
     return T;
 }
 
-/* Whether the liquid knows the property at its reference temperature. */
+/* Whether the liquid has the property at its reference temperature. */
 static inline int numerics_is_known(const ff_liquid *liquid, int32_t property)
 {
     double T = numerics_reference_temperature(liquid), value = NAN;
     return liquid->eval(liquid->self, property, 1, &T, &value, NULL) >= 0 && isfinite(value);
 }
 
-/* Whether all points have one temperature, so that the liquid is evaluated once. */
+/* Whether all points have the same temperature, so that one evaluation of the liquid suffices. */
 static inline int numerics_is_uniform(size_t n, const double *T)
 {
     return !T || n < 2 || !memcmp(T, T + 1, (n - 1) * sizeof *T);
 }
 
-/* Returns FF_DOMAIN rather than FF_OK; of two other statuses the first. */
+/* Returns the worse of two statuses: FF_DOMAIN is worse than FF_OK; of two errors, the first. */
 static inline ff_status numerics_worse(ff_status a, ff_status b)
 {
     return a == FF_OK || (a == FF_DOMAIN && b != FF_OK) ? b : a;
 }
 
-/* Property and slope at n <= NUMERICS_POINTS temperatures; equal ones are evaluated once.
- * Without T: at the reference temperature, with FF_DOMAIN. A value or a slope that is not known
- * is 0, with FF_DOMAIN, since a law must give finite numbers. If a liquid fails or gives
- * infinite numbers, its status or FF_BUG is returned, and all numbers are 0. */
+/* Evaluates a property and its slope at n <= NUMERICS_POINTS temperatures; equal ones are evaluated
+   once. Without T: at the reference temperature, with FF_DOMAIN. An unknown value or slope is
+   replaced by 0, with FF_DOMAIN, since a law must give finite numbers. If a liquid fails or gives
+   infinite numbers, returns its status or FF_BUG, and all numbers are 0. */
 static inline ff_status numerics_liquid_values(const ff_liquid *liquid, int32_t property, size_t n,
                                                const double *T, double *value, double *slope)
 {

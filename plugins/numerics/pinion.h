@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Finds the gear to which a standard gives index 1: the pinion, whichever gear drives. */
+/* Finds the pinion, to which a standard gives index 1, whichever gear drives. */
 #ifndef NUMERICS_PINION_H
 #define NUMERICS_PINION_H
 
@@ -7,18 +7,19 @@
 
 #include <math.h>
 
-/* The input row gear.pinion of a stage that follows a standard; `kind` as in its other gear
- * rows. */
+/* The input row gear.pinion of a stage that follows a standard; `kind` as in the other gear rows of
+   the stage. */
 #define NUMERICS_PINION_ROW(kind)                                                                  \
     {                                                                                              \
         .name = "gear.pinion", .unit = "1",                                                        \
-        .doc = "gear, 1 or 2, that has index 1 in the standard; left out: the gear with fewer "    \
+        .doc = "number of the gear, 1 or 2, that has index 1 in the standard; left out: the gear " \
+               "with fewer "                                                                       \
                "teeth, "                                                                           \
-               "of equal ones gear 1",                                                             \
+               "gear 1 if both are equal",                                                         \
         .dims = "", .flags = FF_OPTIONAL, .from = kind                                             \
     }
 
-/* Index of the pinion, 0 or 1. */
+/* Returns FF_OK and the index of the pinion, 0 or 1. */
 static inline ff_status numerics_pinion(const ff_host *host, const ff_array *in,
                                         const double teeth[2], int *pinion)
 {

@@ -1,35 +1,37 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Checks for memory before calling libraries that end the process without it. */
+/* Checks that memory is available before calling libraries that end the process without it. */
 #ifndef NUMERICS_ROOM_H
 #define NUMERICS_ROOM_H
 
 #include <stdlib.h>
 
-/* Whether that much memory is available: allocates and frees it, so that the library finds it
- * unless another thread takes it in between. */
+/* Whether that much memory is available: allocates and frees it. The library then gets it, unless
+   another thread takes it in between. */
 static inline int numerics_has_room(size_t bytes)
 {
-    void *volatile probe = malloc(bytes); /* volatile, since the compiler would remove both calls */
+    void *volatile probe = malloc(bytes); /* volatile, since the compiler would otherwise remove
+                                             both calls */
     free(probe);
     return probe != NULL;
 }
 
-/* Bytes, with a margin, that FFTW's planner and two plans of a real transform of that many
- * points take: measured for 48 to 262142 points, 77 to 107 bytes each if their number has large
- * factors. */
+/* Memory in bytes, with a margin, that FFTW's planner needs for two plans of a real transform with
+   this many points. Measured for 48 to 262142 points: 77 to 107 bytes per point if their number has
+   large factors. */
 static inline size_t numerics_fftw_room(size_t points)
 {
     return 256 * 1024 + 128 * points;
 }
 
-/* Bytes, with a margin, that libgomp takes for a team of CHOLMOD's threads, without their
- * stacks. */
+/* Memory in bytes, with a margin, that libgomp needs for a team of CHOLMOD's threads, without their
+   stacks. */
 static inline size_t numerics_openmp_room(void)
 {
     return 64 * 1024;
 }
 
-/* An array of `count` elements that FFTW's vector instructions can work on; free() takes it. */
+/* Allocates an array of `count` elements with the alignment of FFTW's vector instructions; free it
+   with free(). */
 static inline void *numerics_fftw_array(size_t count, size_t element)
 {
     enum { LINE = 64 };

@@ -16,7 +16,7 @@ static inline double numerics_steffen_inner(double h0, double s0, double h1, dou
 }
 
 /* Eqs (24) to (27): slope at the end of the last interval, h0 and s0, whose neighbour has h1 and
- * s1. */
+   s1. */
 static inline double numerics_steffen_end(double h0, double s0, double h1, double s1)
 {
     double p = s0 + (s0 - s1) * h0 / (h0 + h1);

@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* The sum of amplitude cos(order phi + phase) over the angle phi of gear 1. */
+/* The sum of amplitude cos(order phi + phase) over the terms; phi is the angle of gear 1. */
 typedef struct fluctuation {
     ff_reals amplitude, order, phase;
 } fluctuation;
@@ -17,7 +17,7 @@ typedef struct fluctuation {
 typedef struct steady {
     const ff_host *host;
     double torque, reference_torque, oil_temperature;
-    double speed, mesh_frequency; /* rad/s, Hz; one of both is given */
+    double speed, mesh_frequency; /* rad/s, Hz; exactly one is given */
     fluctuation of_torque, of_speed;
 } steady;
 
@@ -25,32 +25,32 @@ typedef struct steady {
     FF_LIST(name ".amplitude", unit, steady, member.amplitude, FF_MIN_OPEN, NULL, NULL, 0, most,   \
             0, 0, 0, 32, doc),                                                                     \
         FF_LIST(name ".order", "1", steady, member.order, FF_WHOLE, NULL, NULL, 1, 1000, 0, 0, 0,  \
-                0, "how often in a turn of gear 1, a whole number for each amplitude"),            \
+                0, "order: periods per turn of gear 1, a whole number for each amplitude"),        \
         FF_LIST(name ".phase", "deg", steady, member.phase, 0, NULL, NULL, -360, 360, 0, 0, 0, 0,  \
-                "of amplitude cos(order angle + phase), the angle from where a pair is at the "    \
-                "start of the profile of gear 1; default: 0")
+                "phase in amplitude cos(order angle + phase); angle of gear 1, 0 when a pair is "  \
+                "at SAP; default: 0")
 
 static const ff_param params[] = {
+    FF_QUANTITY("torque", "N m", steady, torque, FF_REQUIRED, NULL, NULL, -1e12, 1e12, -1e7, 1e7,
+                "constant torque on gear 1: power over angular speed; negative: gear 2 drives and "
+                "the back flanks carry the load; 0: the gears float within the backlash"),
     FF_QUANTITY(
-        "torque", "N m", steady, torque, FF_REQUIRED, NULL, NULL, -1e12, 1e12, -1e7, 1e7,
-        "torque on gear 1, constant; of a power: that over the speed; below 0: gear 2 drives "
-        "and the back flanks bear; 0: the gears float between their flanks"),
-    FF_QUANTITY("reference_torque", "N m", steady, reference_torque, FF_MIN_OPEN, NULL, NULL, 0,
-                1e12, 0, 0,
-                "torque at which stiffness, sharing of the load and damping are taken; default: "
-                "the torque without its sign, or the largest that it swings by if that is larger"),
+        "reference_torque", "N m", steady, reference_torque, FF_MIN_OPEN, NULL, NULL, 0, 1e12, 0, 0,
+        "torque for which stiffness, load sharing and damping are evaluated; default: the "
+        "absolute value of the torque, or the largest value of its fluctuation if that is larger"),
     FF_QUANTITY("speed", "rpm", steady, speed, FF_REQUIRED, NULL, "speed", 1e-3, 1e7, 0, 0,
                 "speed of gear 1"),
     FF_QUANTITY("mesh_frequency", "Hz", steady, mesh_frequency, FF_REQUIRED, NULL, "speed", 1e-4,
-                1e9, 0, 0, "tooth meshes per second, in place of the speed; needs a gear"),
+                1e9, 0, 0,
+                "mesh frequency: tooth engagements per second, instead of speed; needs a gear"),
     FLUCTUATION_ROWS("torque_fluctuation", "N m", of_torque, 1e12,
-                     "what the torque on gear 1 swings by, of each order"),
+                     "amplitudes of the torque fluctuation on gear 1, one per order"),
     FLUCTUATION_ROWS(
         "speed_fluctuation", "rpm", of_speed, 1e7,
-        "what the speed of gear 1 swings by, of each order, whatever the teeth do; the "
-        "torque is then the drag of gear 2, as gear 1 feels it"),
+        "amplitudes of the prescribed speed fluctuation of gear 1, one per order, independent of "
+        "the tooth forces; the torque is then the load of gear 2, referred to gear 1"),
     FF_QUANTITY("oil_temperature", "degC", steady, oil_temperature, 0, NULL, NULL, -150, 500, 0, 0,
-                "temperature of the oil that enters the mesh; a stage that reads it asks for it"),
+                "temperature of the oil that enters the mesh; required if a stage uses it"),
 };
 
 enum { IN_TEETH, IN_BASE_RADIUS, IN_INERTIA };
@@ -72,7 +72,7 @@ static const ff_port inputs[] = {
      .from = "gear"},
     {.name = "gear.inertia",
      .unit = "kg m2",
-     .doc = "moments of inertia, for a speed that fluctuates",
+     .doc = "moments of inertia, for a speed fluctuation",
      .dims = "gear",
      .flags = FF_OPTIONAL,
      .from = "gear"},
@@ -97,42 +97,45 @@ enum {
 static const ff_port outputs[] = {
     {.name = "torque", .unit = "N m", .doc = "torque on gear 1", .dims = ""},
     {.name = "speed", .unit = "rad/s", .doc = "speed of gear 1", .dims = ""},
-    {.name = "mesh_frequency", .unit = "Hz", .doc = "tooth meshes per second", .dims = ""},
+    {.name = "mesh_frequency",
+     .unit = "Hz",
+     .doc = "mesh frequency: tooth engagements per second",
+     .dims = ""},
     {.name = "line_force",
      .unit = "N",
-     .doc = "force along the line of action, torque over base radius, below 0 on the back flanks; "
+     .doc = "force along the line of action: torque over base radius, negative on the back flanks; "
             "needs a gear",
      .dims = ""},
     {.name = "oil_temperature", .unit = "K", .doc = "temperature of the oil", .dims = ""},
     {.name = "reference_force",
      .unit = "N",
-     .doc = "force along the line of action at which stiffness, sharing and damping are taken, 0: "
-            "the line force; needs a gear",
+     .doc = "force along the line of action for which stiffness, load sharing and damping are "
+            "evaluated; 0: the line force; needs a gear",
      .dims = ""},
     {.name = "fluctuation_order",
      .unit = "1",
-     .doc = "orders of what the line force swings by, per turn of gear 1",
+     .doc = "orders of the line force fluctuation: periods per turn of gear 1",
      .dims = "fluctuation"},
     {.name = "fluctuation_cosine",
      .unit = "N",
-     .doc = "of each the force in phase with its order times the angle of gear 1",
+     .doc = "for each order: cosine amplitude of the line force over order times angle of gear 1",
      .dims = "fluctuation"},
     {.name = "fluctuation_sine",
      .unit = "N",
-     .doc = "of each the force a quarter of its period later",
+     .doc = "for each order: sine amplitude of the line force, a quarter of a period later",
      .dims = "fluctuation"},
     {.name = "fluctuation_period",
      .unit = "1",
-     .doc = "mesh cycles after which force and mesh repeat themselves together",
+     .doc = "number of mesh cycles after which force and mesh repeat together",
      .dims = ""},
     {.name = "driven_mass",
      .unit = "kg",
-     .doc = "mass that the mesh spring sees where gear 1 turns as it is told, that of gear 2, "
-            "I2/rb2^2; 0: both gears are free",
+     .doc = "equivalent mass if the speed of gear 1 is prescribed: that of gear 2, I2/rb2^2; 0: "
+            "both gears are free",
      .dims = ""},
     {.name = "largest_force",
      .unit = "N",
-     .doc = "largest line force, without its sign, that the torque swings to; 0: it does not swing",
+     .doc = "largest absolute line force during the torque fluctuation; 0: no fluctuation",
      .dims = ""},
 };
 
@@ -196,8 +199,8 @@ static ff_status ready(void *self)
     return FF_OK;
 }
 
-/* Reads a value of gear 1, which must be positive; without a gear, the output that needs it is
- * refused. */
+/* Reads a value of gear 1, which must be positive. Without a gear, the output that needs the value
+   is refused. */
 static ff_status from_gear(const steady *s, const ff_array *in, const char *input,
                            const char *output, double *value)
 {
@@ -212,14 +215,15 @@ static ff_status from_gear(const steady *s, const ff_array *in, const char *inpu
     return FF_OK;
 }
 
-/* What the line force swings by: F cos(order phi) and F sin(order phi) of each. */
+/* The fluctuation of the line force: the amplitudes F cos(order phi) and F sin(order phi) of each
+   term. */
 typedef struct swings {
     size_t count;
     double order[MOST_SWINGS], cosine[MOST_SWINGS], sine[MOST_SWINGS];
     double period; /* mesh cycles */
 } swings;
 
-/* `quarter`: by how much the force is ahead of the fluctuation, rad. */
+/* Adds terms. `quarter`: phase lead of the force over the fluctuation, rad. */
 static void add_swings(const fluctuation *f, double newton, double quarter, swings *to)
 {
     for (size_t i = 0; i < f->amplitude.count; i++, to->count++) {
@@ -230,8 +234,8 @@ static void add_swings(const fluctuation *f, double newton, double quarter, swin
     }
 }
 
-/* Mesh cycles after which order and teeth meet again: those of all orders divide the teeth, so that
-   their least common multiple does, too. */
+/* Mesh cycles after which the fluctuation and the teeth repeat together. For each order this number
+   divides the number of teeth, so their least common multiple does, too. */
 static double period_of(const swings *w, double teeth)
 {
     uint64_t common = (uint64_t)teeth;
@@ -243,8 +247,8 @@ static double period_of(const swings *w, double teeth)
     return w->count ? teeth / (double)common : 1;
 }
 
-/* The largest line force without its sign, on steps that an order passes in an eighth of a
-   radian. */
+/* Returns the largest absolute line force, sampled with steps of an eighth of a radian of the
+   highest order. */
 static double largest_force(const swings *w, double mean)
 {
     double most = fabs(mean), highest = 0;
@@ -261,9 +265,9 @@ static double largest_force(const swings *w, double mean)
     return most;
 }
 
-/* A torque on gear 1 acts over its base radius. A speed that gear 1 is told swings gear 2:
-   m_2 s'' + c (s' - e') + G = F + m_2 r_b1 theta_1'', m_2 = I_2/r_b2^2, with
-   theta_1'' = - sum of A n w sin(n w t + phase). */
+/* A torque on gear 1 acts at its base radius. A prescribed speed of gear 1 accelerates gear 2: m_2
+   s'' + c (s' - e') + G = F + m_2 r_b1 theta_1'', m_2 = I_2/r_b2^2, with theta_1'' = - sum of A n w
+   sin(n w t + phase). */
 static ff_status find_swings(const steady *s, const ff_array *in, swings *w, double *mass)
 {
     double base = 1, teeth = 1;

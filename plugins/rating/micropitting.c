@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* rating/micropitting, a draft: the specific film thickness lambda_GF by the closed formulas of
- * ISO/TR 15144-1, method B, as other sources quote them, and by the film of this program (method
- * A). */
+/* rating/micropitting, a draft. It computes the specific film thickness lambda_GF by the formulas
+   of ISO/TR 15144-1, method B, as other sources quote them, and from the film of this program
+   (method A). */
 #include "pair.h"
 #include "references.h"
 
@@ -13,7 +13,7 @@
 
 static const double celsius = 273.15;
 static const double highest_ratio =
-    2; /* contact ratio at and above which method B does not hold, clause 8.2 */
+    2; /* method B does not hold from this contact ratio on, clause 8.2 */
 
 typedef struct micropitting {
     const ff_host *host;
@@ -27,9 +27,9 @@ typedef struct micropitting {
 
 static const ff_param params[] = {
     FF_ONE_OF("mineral|PAO|PAG", "base", micropitting, base, 0, "mineral",
-              "kind of the base oil, whose pressure coefficient formulas 9 to 11 give"),
+              "base oil, which determines the pressure coefficient (formulas 9 to 11)"),
     FF_ONE_OF("dip|spray|submerged", "supply", micropitting, supply, 0, "dip",
-              "how the oil gets to the mesh: factor X_S"),
+              "oil supply to the mesh: factor X_S"),
     FF_QUANTITY("application_factor", "1", micropitting, load.application, 0, "1", NULL, 0.1, 10, 1,
                 2.5, "K_A"),
     FF_QUANTITY("face_load_factor", "1", micropitting, load.face, 0, "1", NULL, 1, 10, 1, 2,
@@ -37,29 +37,28 @@ static const ff_param params[] = {
     FF_QUANTITY("transverse_load_factor", "1", micropitting, load.transverse, 0, "1", NULL, 1, 10,
                 1, 2, "K_Halpha"),
     FF_COUNT_OR("auto", "quality_grade", micropitting, load.grade, 0, "auto", NULL, 1, 12, 0, 0,
-                "flank tolerance class of ISO 1328-1, which shares the load; auto: the coarser of "
-                "both gears, or 6 where they have no `quality`"),
-    FF_SWITCH("adequate_tip_relief", micropitting, relieved, "false",
-              "whether the tips are relieved as the load asks for: cooler teeth"),
+                "flank tolerance class of ISO 1328-1, which affects the load sharing; auto: the "
+                "coarser class of both gears, or 6 if they have no `quality`"),
+    FF_SWITCH(
+        "adequate_tip_relief", micropitting, relieved, "false",
+        "whether the tip relief is adequate for the load, which lowers the tooth temperature"),
     RATING_HEAT_ROWS(micropitting),
     FF_QUANTITY("test_lambda", "1", micropitting, test_lambda, 0, NULL, NULL, 1e-4, 100, 0, 0,
-                "lambda_GFT: lambda_gf_min of the test gear FZG C-GF/8.3/90 at the stage at which "
-                "the oil fails, by the same formulas "
-                "(configs/fzg-cgf-micropitting.yaml)"),
+                "lambda_GFT: lambda_gf_min of the test gear FZG C-GF/8.3/90 at the failure load "
+                "stage of the oil, by the same formulas (configs/fzg-cgf-micropitting.yaml)"),
     FF_QUANTITY("test_own_lambda", "1", micropitting, test_own_lambda, 0, NULL, NULL, 1e-4, 100, 0,
-                0, "own_lambda_gf_min of the same run, by the film of this program"),
+                0, "own_lambda_gf_min of the same test gear run, from the film of this program"),
     FF_QUANTITY("material_factor", "1", micropitting, material_factor, 0, "1", NULL, 0.1, 3, 0.5,
                 1.5,
-                "W_W: 1 of case-hardened steel, of two steels the mean of theirs; a printed report "
-                "has 0.75 of case-hardened on through-hardened"),
-    FF_QUANTITY_UNLESS("gear.yield_strength", "yield_strength", "MPa", micropitting, yield, 0, NULL,
-                       NULL, 1, 1e4, 0, 0,
-                       "of the flanks' steel in tension, where the gears do not tell; with it "
-                       "the largest shear of the contact, 0.300 "
-                       "p_H, is held against the yield "
-                       "in shear, half of it"),
+                "material factor W_W: 1 for case-hardened steel, the mean for two different "
+                "steels; a published report has 0.75 for case-hardened on through-hardened"),
+    FF_QUANTITY_UNLESS(
+        "gear.yield_strength", "yield_strength", "MPa", micropitting, yield, 0, NULL, NULL, 1, 1e4,
+        0, 0,
+        "tensile yield strength of the flanks, if the gear stage gives none; the largest shear "
+        "stress of the contact, 0.300 p_H, is compared with half of it, the yield stress in shear"),
     FF_COUNT("points", micropitting, points, FF_TUNABLE, "200", NULL, 4, 100000, 0, 0,
-             "equal parts of the path of contact"),
+             "number of equal steps along the path of contact"),
 };
 
 enum {
@@ -86,32 +85,34 @@ static const ff_port outputs[OUTPUTS] = {
                         .unit = "rad",
                         .doc = "roll angle of gear 1",
                         .dims = "station"},
-    [OUT_LAMBDA] = {.name = "lambda_gf",
-                    .unit = "1",
-                    .doc = "draft: film over mean roughness Ra (15144-1, formula 2)",
-                    .dims = "station",
-                    .max = INFINITY},
+    [OUT_LAMBDA] =
+        {.name = "lambda_gf",
+         .unit = "1",
+         .doc = "draft: specific film thickness: film over mean roughness Ra (15144-1, formula 2)",
+         .dims = "station",
+         .max = INFINITY},
     [OUT_FILM] = {.name = "film_thickness",
                   .unit = "m",
-                  .doc = "draft: film by the closed formula (15144-1, formula 4)",
+                  .doc = "draft: film thickness by the closed formula (15144-1, formula 4)",
                   .dims = "station"},
-    [OUT_CONTACT] = {.name = "contact_temperature",
-                     .unit = "K",
-                     .doc = "draft: bulk and flash temperature (15144-1, formula 79)",
-                     .dims = "station",
-                     .origin = "operating.oil_temperature"},
+    [OUT_CONTACT] =
+        {.name = "contact_temperature",
+         .unit = "K",
+         .doc = "draft: contact temperature: bulk plus flash temperature (15144-1, formula 79)",
+         .dims = "station",
+         .origin = "operating.oil_temperature"},
     [OUT_LAMBDA_MIN] = {.name = "lambda_gf_min",
                         .unit = "1",
-                        .doc = "draft: least of lambda_gf",
+                        .doc = "draft: minimum of lambda_gf",
                         .dims = "",
                         .max = INFINITY},
     [OUT_LAMBDA_MIN_AT] = {.name = "lambda_gf_min_at",
                            .unit = "rad",
-                           .doc = "roll angle of it",
+                           .doc = "roll angle of lambda_gf_min",
                            .dims = ""},
     [OUT_BULK] = {.name = "bulk_temperature",
                   .unit = "K",
-                  .doc = "draft: temperature of the teeth (15144-1, formula 84)",
+                  .doc = "draft: bulk temperature of the teeth (15144-1, formula 84)",
                   .dims = "",
                   .origin = "operating.oil_temperature",
                   NUMERICS_BULK_QUANTITY},
@@ -122,12 +123,12 @@ static const ff_port outputs[OUTPUTS] = {
     [OUT_LAMBDA_GFT] = {.name = "lambda_gft",
                         .unit = "1",
                         .doc =
-                            "draft: limiting film over roughness of the test, which is test_lambda",
+                            "draft: limiting specific film thickness of the test gear: test_lambda",
                         .dims = "",
                         .max = INFINITY},
     [OUT_LAMBDA_GFP] = {.name = "lambda_gfp",
                         .unit = "1",
-                        .doc = "draft: permissible film over roughness, 1.4 W_W lambda_gft",
+                        .doc = "draft: permissible specific film thickness, 1.4 W_W lambda_gft",
                         .dims = "",
                         .max = INFINITY},
     [OUT_PERMISSIBLE] = {.name = "permissible_lambda",
@@ -143,14 +144,14 @@ static const ff_port outputs[OUTPUTS] = {
                     .max = INFINITY},
     [OUT_OWN_LAMBDA_MIN] = {.name = "own_lambda_gf_min",
                             .unit = "1",
-                            .doc = "least film of this program over mean roughness Ra",
+                            .doc = "minimum film thickness of this program over mean roughness Ra",
                             .dims = "",
                             .max = INFINITY},
     [OUT_OWN_SAFETY] =
         {.name = "own_safety",
          .unit = "1",
-         .doc = "own_lambda_gf_min over 1.4 W_W times that of the test gear, both by the film of "
-                "this program",
+         .doc =
+             "own_lambda_gf_min over 1.4 W_W test_own_lambda, both from the film of this program",
          .dims = "",
          .max = INFINITY},
     [OUT_SHEAR_MAX] =
@@ -190,7 +191,8 @@ static double lubricant_factor(const micropitting *s)
     return factor[s->base];
 }
 
-/* Returns the share of the power lost at a friction coefficient of 1, H_v (formulas 91 and 92). */
+/* Returns the loss factor H_v: the share of the power that is lost at a friction coefficient of 1
+   (formulas 91 and 92). */
 static double loss_factor(const rating_pair *p)
 {
     const double e1 = rating_addendum_ratio(p, 0), e2 = rating_addendum_ratio(p, 1), all = e1 + e2;
@@ -198,8 +200,8 @@ static double loss_factor(const rating_pair *p)
     return turns * (all < 2 ? e1 * e1 + e2 * e2 + 1 - all : all / 2);
 }
 
-/* Sets friction and bulk temperature, from the oil at its own temperature (formulas 84 to 87 and
- * 100). */
+/* Sets friction coefficient and bulk temperature, from the oil at the oil temperature (formulas 84
+   to 87 and 100). */
 static ff_status set_bulk(const micropitting *s, const rating_pair *p, rating *r)
 {
     static const double supply[] = {1.0, 1.2, 0.2};
@@ -323,8 +325,7 @@ static ff_status ready(void *self)
     return FF_OK;
 }
 
-/* Writes a ratio. Its permissible value is given only for the method by which that value was
- * calibrated. */
+/* Writes a ratio. It is only given together with the permissible value of the same method. */
 static ff_status write_ratio(const micropitting *s, uint64_t wanted, uint32_t row, double lambda,
                              double of_test, const char *text)
 {
@@ -384,20 +385,20 @@ static void report(const micropitting *s, const rating_pair *p, const rating *r)
 {
     const ff_host *host = s->host;
     const double ratio = (p->end - p->sap) / p->base_pitch;
-    rating_report_draft(host, "ISO/TR 15144-1", "three printed reports were held against them");
+    rating_report_draft(host, "ISO/TR 15144-1", "they agree with three published reports");
     host->quality(host->ctx, "contact_ratio", ratio, highest_ratio,
                   ratio <= highest_ratio ? FF_GOOD : FF_RANGE,
-                  "from 2 on the closed formulas do not hold (clause 8.2)");
+                  "the closed formulas hold below 2 only (clause 8.2)");
     host->quality(host->ctx, "pitch_speed", p->pitch_speed, 2,
                   p->pitch_speed >= 2 && p->pitch_speed <= 60 ? FF_GOOD : FF_RANGE,
-                  "m/s at the pitch circle; the method was developed for 8 to 60 and agrees with "
-                  "others above 2");
+                  "m/s at the pitch circle; the method was developed for 8 to 60 m/s and agrees "
+                  "with others above 2 m/s");
     const double yield = isnan(s->yield) ? p->yield : s->yield;
     if (!isnan(yield))
         host->quality(host->ctx, "shear_over_yield", 2 * r->shear / yield, 1,
                       2 * r->shear <= yield ? FF_GOOD : FF_RANGE,
-                      "largest shear stress of the contact over the yield in shear; above 1 the "
-                      "steel yields");
+                      "largest shear stress of the contact over the yield stress in shear; above 1 "
+                      "the steel yields");
 }
 
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
@@ -431,10 +432,10 @@ static ff_status wire(void *self, uint32_t input, const void *service)
 }
 
 FF_MODEL(rating_micropitting, micropitting, .id = "rating/micropitting", .version = "0.1.0",
-         .summary = "draft: film over roughness along the path by closed formulas, beside the film "
-                    "of this program",
+         .summary = "draft: specific film thickness along the path of contact, by closed formulas "
+                    "and from the film of this program",
          .reference = "ISO/TR 15144-1:2014, method B, as quoted by a public implementation; the "
-                      "text was not read",
+                      "text of the standard was not available",
          .bibtex = BIB_iso15144, .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
          .inputs = rating_inputs, .input_count = RATING_INPUTS + 1,
          .input_stride = sizeof rating_inputs[0], .outputs = FF_TABLE(outputs), .wire = wire,

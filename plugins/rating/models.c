@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The ratings that this shared object exports. */
+/* Lists the ratings of this shared object. */
 #include <flankfilm/author.h>
 
 extern const ff_model rating_scuffing, rating_micropitting;

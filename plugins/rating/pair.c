@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reads what ratings need of gears, oil and motion. */
+/* Reads the inputs that ratings need from gears, oil and motion. */
 #include "pair.h"
 
 #include "../numerics/exchange.h"
@@ -13,7 +13,7 @@
 const ff_port rating_inputs[1 + RATING_INPUTS + 1] = {
     {.name = "ehl.h_min",
      .unit = "m",
-     .doc = "least film of the tooth pair",
+     .doc = "minimum film thickness of the tooth pair",
      .dims = "t",
      .flags = FF_OPTIONAL,
      .from = "ehl"},
@@ -62,31 +62,31 @@ const ff_port rating_inputs[1 + RATING_INPUTS + 1] = {
      .from = "gear"},
     {.name = "gear.profile_deviation",
      .unit = "m",
-     .doc = "deviation of the flanks, whose last points are the tip relief",
+     .doc = "deviations of the flanks; their last points give the tip relief",
      .dims = "gear profile",
      .flags = FF_OPTIONAL,
      .from = "gear"},
     {.name = "gear.back_profile_deviation",
      .unit = "m",
-     .doc = "likewise of the back flanks, which bear where the torque is below 0",
+     .doc = "deviations of the back flanks, which carry the load if the torque is negative",
      .dims = "gear profile",
      .flags = FF_OPTIONAL,
      .from = "gear"},
     {.name = "gear.yield_strength",
      .unit = "Pa",
-     .doc = "yield strengths of the flanks, 0: not known",
+     .doc = "yield strengths of the flanks; 0: unknown",
      .dims = "gear",
      .flags = FF_OPTIONAL,
      .from = "gear"},
     {.name = "gear.flank_class",
      .unit = "1",
-     .doc = "tolerance classes of ISO 1328-1 of the flanks, 0: not known",
+     .doc = "tolerance classes of ISO 1328-1 of the flanks; 0: unknown",
      .dims = "gear",
      .flags = FF_OPTIONAL,
      .from = "gear"},
     {.name = "gear.elastic_modulus",
      .unit = "Pa",
-     .doc = "Young's moduli, by which a steel is known",
+     .doc = "Young's moduli, which show whether the gears are of steel",
      .dims = "gear",
      .flags = FF_OPTIONAL,
      .from = "gear"},
@@ -108,19 +108,19 @@ const ff_port rating_inputs[1 + RATING_INPUTS + 1] = {
      .from = "operating"},
     {.name = "dynamics.dynamic_factor_tooth",
      .unit = "1",
-     .doc = "dynamic factor K_V; 1 without a motion",
+     .doc = "dynamic factor K_V; 1 if no motion is wired",
      .dims = "",
      .flags = FF_OPTIONAL,
      .from = "dynamics"},
     {.name = "oil",
      .unit = "",
-     .doc = "the oil over temperature",
+     .doc = "the oil as a function of temperature",
      .dims = "",
      .service = FF_LIQUID_ID,
      .from = "lubricant"},
     {.name = "losses.contact_temperature_max",
      .unit = "K",
-     .doc = "highest temperature of the flanks, of the film's own friction",
+     .doc = "highest contact temperature, computed from the friction of the film",
      .dims = "",
      .flags = FF_OPTIONAL,
      .from = "losses"},
@@ -145,7 +145,7 @@ static ff_status read_one(const ff_host *host, const ff_array *in, const char *n
     return FF_OK;
 }
 
-/* Reads the tip reliefs: the metal missing at the last points of the profiles. */
+/* Reads the tip reliefs: the missing metal at the last points of the profiles. */
 static void read_relief(const ff_array *in, double relief[2])
 {
     if (!in->data || in->rank != 2 || in->shape[0] < 2 || in->shape[1] < 1)
@@ -178,7 +178,7 @@ static ff_status read_materials(const ff_host *host, const char *standard, const
     return status;
 }
 
-/* Reads the pair so that gear 1 drives. */
+/* Reads the pair, with gear indices exchanged if necessary so that gear 1 drives. */
 static ff_status read_pair(const ff_host *host, const char *standard, const ff_array *in,
                            const rating_heat *heat, const ff_liquid *oil, rating_pair *p)
 {
@@ -313,10 +313,9 @@ ff_status rating_oil_at(const ff_host *host, const rating_pair *p, double T, dou
     const ff_status a = p->oil->eval(p->oil->self, FF_LIQUID_LN_ETA0, 1, &T, &ln_eta, NULL);
     const ff_status b = p->oil->eval(p->oil->self, FF_LIQUID_RHO0, 1, &T, &rho, NULL);
     if (a < 0 || b < 0 || !isfinite(ln_eta) || !isfinite(rho))
-        return ff_failf(
-            host, FF_INVALID, "oil",
-            "the oil does not tell its viscosity and density at %.4g degC, which the rating needs",
-            T - 273.15);
+        return ff_failf(host, FF_INVALID, "oil",
+                        "the oil has no viscosity and density at %.4g degC, which the rating needs",
+                        T - 273.15);
     *viscosity = exp(ln_eta);
     *density = rho;
     return FF_OK;
@@ -326,8 +325,8 @@ void rating_report_draft(const ff_host *host, const char *standard, const char *
 {
     char text[240];
     snprintf(text, sizeof text,
-             "draft: formulas of %s as a public implementation quotes them; the standard was not "
-             "read, and %s",
+             "draft: formulas of %s as a public implementation quotes them; the standard itself "
+             "was not available; %s",
              standard, held);
     host->quality(host->ctx, "draft", 1, 0, FF_RANGE, text);
 }

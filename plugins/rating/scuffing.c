@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* rating/scuffing, a draft: scuffing by flash temperature and by integral temperature, as other
- * sources quote ISO/TR 13989-1 and -2, and the contact temperature from the film's own friction.
- * Lengths are in mm and loads in N/mm in the formulas that are written so in the standard. */
+/* rating/scuffing, a draft. It computes the scuffing safety by flash temperature and by integral
+   temperature, as other sources quote ISO/TR 13989-1 and -2, and the contact temperature from the
+   friction of the film. Where the standard uses mm and N/mm, the formulas here do, too. */
 #include "pair.h"
 #include "references.h"
 
@@ -16,7 +16,7 @@ static const double lowest_load = 150;  /* N/mm, for the friction of the integra
 static const double highest_speed = 50; /* m/s, for the friction of both methods */
 static const double highest_ratio =
     2.5;                           /* contact ratio for which the standard states its equations */
-static const double demanded = 50; /* K, the margin of clause 10.5 */
+static const double demanded = 50; /* K, the margin named in clause 10.5 */
 
 typedef struct scuffing {
     const ff_host *host;
@@ -31,16 +31,15 @@ typedef struct scuffing {
 
 static const ff_param params[] = {
     FF_COUNT("load_stage", scuffing, stage, FF_REQUIRED, NULL, NULL, 1, 14, 4, 14,
-             "load stage of the FZG test A/8.3/90 (ISO 14635-1) at which the oil fails, from its "
-             "data sheet; stages of other "
-             "variants of the test mean something else"),
+             "failure load stage of the oil in the FZG test A/8.3/90 (ISO 14635-1), from its data "
+             "sheet; load stages of other test variants differ"),
     FF_ONE_OF("mineral|water-soluble-polyglycol|polyglycol|PAO|phosphate-ester|traction-fluid",
-              "lubricant", scuffing, lubricant, 0, "mineral",
-              "kind of the base oil: lubricant factor X_L"),
+              "lubricant", scuffing, lubricant, 0, "mineral", "base oil: lubricant factor X_L"),
     FF_ONE_OF("dip|spray|submerged", "supply", scuffing, supply, 0, "dip",
-              "how the oil gets to the mesh: factor X_S"),
+              "oil supply to the mesh: factor X_S"),
     FF_QUANTITY("structural_factor", "1", scuffing, structural, 0, "1", NULL, 0.1, 5, 0.45, 1.5,
-                "X_W: 1 case-hardened with 10 to 20 % austenite, 1.5 nitrided"),
+                "structural factor X_W: 1 for case-hardened steel with 10 to 20 % austenite, 1.5 "
+                "for nitrided steel"),
     FF_QUANTITY("application_factor", "1", scuffing, load.application, 0, "1", NULL, 0.1, 10, 1,
                 2.5, "K_A"),
     FF_QUANTITY("face_load_factor", "1", scuffing, load.face, 0, "1", NULL, 1, 10, 1, 2,
@@ -48,21 +47,22 @@ static const ff_param params[] = {
     FF_QUANTITY("transverse_load_factor", "1", scuffing, load.transverse, 0, "1", NULL, 1, 10, 1, 2,
                 "K_Halpha = K_Balpha"),
     FF_COUNT_OR("auto", "quality_grade", scuffing, load.grade, 0, "auto", NULL, 1, 12, 0, 0,
-                "flank tolerance class of ISO 1328-1, which shares the load; auto: the coarser of "
-                "both gears, or 6 where they have no `quality`"),
+                "flank tolerance class of ISO 1328-1, which affects the load sharing; auto: the "
+                "coarser class of both gears, or 6 if they have no `quality`"),
     RATING_HEAT_ROWS(scuffing),
     FF_QUANTITY("mesh_stiffness", "N/(mm um)", scuffing, mesh_stiffness, 0, "20 N/(mm um)", NULL,
                 0.1, 1000, 5, 40,
-                "c_gamma per face width: with the load it gives the best tip relief C_eff"),
+                "mesh stiffness c_gamma per face width; load over stiffness gives the optimal tip "
+                "relief C_eff"),
     FF_QUANTITY("tooth_stiffness", "N/(mm um)", scuffing, tooth_stiffness, 0, "14 N/(mm um)", NULL,
-                0.1, 1000, 5, 40, "c' of a single pair, likewise for the integral method"),
+                0.1, 1000, 5, 40,
+                "stiffness c' of a single pair per face width; gives C_eff of the integral method"),
     FF_QUANTITY("test_contact_temperature", "degC", scuffing, test_temperature, 0, NULL, NULL, -50,
                 2000, 0, 0,
-                "contact_temperature_max of this program's own chain for the FZG A pair at the "
-                "stage at which the oil "
-                "fails (configs/fzg-a-scuffing.yaml): what own_safety is held against"),
+                "reference of own_safety: contact_temperature_max computed by this program for the "
+                "FZG A gears at the failure load stage of the oil (configs/fzg-a-scuffing.yaml)"),
     FF_COUNT("points", scuffing, points, FF_TUNABLE, "200", NULL, 4, 100000, 0, 0,
-             "equal parts of the path of contact"),
+             "number of equal steps along the path of contact"),
 };
 
 enum { FLASH_METHOD, INTEGRAL_METHOD, METHODS };
@@ -90,18 +90,19 @@ static const ff_port outputs[OUTPUTS] = {
                         .unit = "rad",
                         .doc = "roll angle of gear 1",
                         .dims = "station"},
-    [OUT_FLASH] =
-        {.name = "flash_temperature",
+    [OUT_FLASH] = {.name = "flash_temperature",
+                   .unit = "K",
+                   .doc = "draft: flash temperature: rise of the flanks above their bulk "
+                          "temperature (13989-1, formula 5)",
+                   .dims = "station",
+                   .flags = FF_DIFFERENCE,
+                   .max = INFINITY},
+    [OUT_CONTACT] =
+        {.name = "contact_temperature",
          .unit = "K",
-         .doc = "draft: rise of the flanks above their bulk temperature (13989-1, formula 5)",
+         .doc = "draft: contact temperature: bulk plus flash temperature (13989-1, formula 1)",
          .dims = "station",
-         .flags = FF_DIFFERENCE,
-         .max = INFINITY},
-    [OUT_CONTACT] = {.name = "contact_temperature",
-                     .unit = "K",
-                     .doc = "draft: bulk and flash temperature (13989-1, formula 1)",
-                     .dims = "station",
-                     .origin = "operating.oil_temperature"},
+         .origin = "operating.oil_temperature"},
     [OUT_FRICTION] = {.name = "friction_coefficient",
                       .unit = "1",
                       .doc = "draft: mean coefficient of friction (13989-1, formula 25)",
@@ -114,11 +115,11 @@ static const ff_port outputs[OUTPUTS] = {
                        .max = INFINITY},
     [OUT_FLASH_MAX_AT] = {.name = "flash_temperature_max_at",
                           .unit = "rad",
-                          .doc = "roll angle of it",
+                          .doc = "roll angle of flash_temperature_max",
                           .dims = ""},
     [OUT_BULK] = {.name = "bulk_temperature",
                   .unit = "K",
-                  .doc = "draft: temperature of the teeth (13989-1, formula 22)",
+                  .doc = "draft: bulk temperature of the teeth (13989-1, formula 22)",
                   .dims = "",
                   .origin = "operating.oil_temperature",
                   NUMERICS_BULK_QUANTITY},
@@ -132,35 +133,36 @@ static const ff_port outputs[OUTPUTS] = {
                       .doc = "draft: integral temperature (13989-2, formula 17)",
                       .dims = "",
                       .origin = "operating.oil_temperature"},
-    [OUT_PERMISSIBLE] = {.name = "permissible_temperature",
-                         .unit = "K",
-                         .doc = "draft: scuffing temperature of the oil's load stage, by flash "
-                                "temperature (13989-1, formula 99) and "
-                                "by integral temperature (13989-2, formula 94)",
-                         .dims = "method",
-                         .origin = "operating.oil_temperature"},
-    [OUT_SAFETY] =
-        {.name = "safety",
-         .unit = "1",
-         .doc = "draft: by flash temperature, permissible over highest contact temperature, "
-                "both above the oil's (13989-1, "
-                "formula 100), and by integral temperature, in degC (13989-2, formula 14)",
-         .dims = "method"},
-    [OUT_MARGIN] = {.name = "margin",
-                    .unit = "K",
-                    .doc =
-                        "draft: permissible less highest contact temperature, by flash temperature",
-                    .dims = "",
-                    .flags = FF_DIFFERENCE},
-    [OUT_OWN_CONTACT_MAX] = {.name = "own_contact_temperature_max",
-                             .unit = "K",
-                             .doc = "highest contact temperature of the film's own friction",
-                             .dims = "",
-                             .origin = "operating.oil_temperature"},
+    [OUT_PERMISSIBLE] =
+        {.name = "permissible_temperature",
+         .unit = "K",
+         .doc =
+             "draft: scuffing temperature for the failure load stage of the oil, by flash "
+             "temperature (13989-1, formula 99) and by integral temperature (13989-2, formula 94)",
+         .dims = "method",
+         .origin = "operating.oil_temperature"},
+    [OUT_SAFETY] = {.name = "safety",
+                    .unit = "1",
+                    .doc = "draft: safety by flash temperature: permissible over highest contact "
+                           "temperature, both above the oil temperature (13989-1, formula 100); "
+                           "safety by integral temperature: ratio in degC (13989-2, formula 14)",
+                    .dims = "method"},
+    [OUT_MARGIN] =
+        {.name = "margin",
+         .unit = "K",
+         .doc = "draft: permissible minus highest contact temperature, by flash temperature",
+         .dims = "",
+         .flags = FF_DIFFERENCE},
+    [OUT_OWN_CONTACT_MAX] =
+        {.name = "own_contact_temperature_max",
+         .unit = "K",
+         .doc = "highest contact temperature, computed from the friction of the film",
+         .dims = "",
+         .origin = "operating.oil_temperature"},
     [OUT_OWN_SAFETY] = {.name = "own_safety",
                         .unit = "1",
                         .doc = "draft: test_contact_temperature over own_contact_temperature_max, "
-                               "both above the oil's",
+                               "both above the oil temperature",
                         .dims = ""},
 };
 
@@ -171,7 +173,7 @@ typedef struct rating {
     double safety[METHODS];
 } rating;
 
-/* Returns X_L of both parts, which is 1 for mineral oils. */
+/* Returns X_L for both parts of the standard; it is 1 for mineral oils. */
 static double lubricant_factor(const scuffing *s)
 {
     static const double factor[] = {1.0, 0.6, 0.7, 0.8, 1.3, 1.5};
@@ -184,8 +186,8 @@ static double supply_factor(const scuffing *s)
     return factor[s->supply];
 }
 
-/* Returns the approach factor X_J, formulas 45 and 46: a driven tip with too little relief
- * strikes before the pitch point. */
+/* Returns the approach factor X_J, formulas 45 and 46: a driven tip with too little relief strikes
+   its mate before the pitch point. */
 static double approach_factor(const rating_pair *p, double place, double best_relief)
 {
     double before = (p->pitch_point - place) / (p->end - p->sap);
@@ -223,10 +225,10 @@ static double place_of(const scuffing *s, const rating_pair *p, size_t i)
     return p->sap + (p->end - p->sap) * (double)i / (double)s->points;
 }
 
-/* Part 1: flash temperature over the path. mu = 0.060 (w/(v rho))^0.2 X_L X_R (formula 25), X_L
- * = c eta^-0.05, X_R = Ra^0.25. The source contradicts itself: Ra^0.25 in its code, Ra^0.5 in
- * its notes. With Ra^0.25, which DIN 3990-4 also has, the test gears at the stage of failure
- * come as close to 1 as with the integral method. */
+/* Part 1: flash temperature along the path. mu = 0.060 (w/(v rho))^0.2 X_L X_R (formula 25), X_L =
+   c eta^-0.05, X_R = Ra^0.25. The source contradicts itself: it has Ra^0.25 in its code and Ra^0.5
+   in its notes. Ra^0.25 is also in DIN 3990-4. With it, the safety of the test gears at their
+   failure stage is as close to 1 as with the integral method. */
 static ff_status rate_by_flash(const scuffing *s, const rating_pair *p, double *flash, rating *r)
 {
     double viscosity, density;
@@ -275,8 +277,8 @@ static double contact_ratio_factor(double e1, double e2)
     return k * (0.70 * (e1 * e1 + e2 * e2) - 0.22 * all + 0.52 - 0.60 * e1 * e2);
 }
 
-/* Approach factor X_Q: the driven gear enters with its addendum, the driving gear leaves with
- * its own. */
+/* Approach factor X_Q: the driven gear enters contact with its addendum, the driving gear leaves
+   contact with its addendum. */
 static double ingoing_factor(double driving, double driven)
 {
     const double ratio = driven / driving;
@@ -345,11 +347,12 @@ static void report(const scuffing *s, const rating_pair *p, const rating *r)
 {
     const ff_host *host = s->host;
     const double ratio = (p->end - p->sap) / p->base_pitch;
-    rating_report_draft(host, "ISO/TR 13989-1 and -2", "no printed example was held against them");
+    rating_report_draft(host, "ISO/TR 13989-1 and -2",
+                        "they were not compared with a published example");
     host->quality(host->ctx, "margin", r->margin, demanded,
                   r->margin >= demanded ? FF_GOOD : FF_RANGE,
-                  "K from the highest contact temperature to the scuffing temperature; 50 is what "
-                  "13989-1 names");
+                  "K between the highest contact temperature and the scuffing temperature; 13989-1 "
+                  "demands 50 K");
     host->quality(host->ctx, "contact_ratio", ratio, highest_ratio,
                   ratio <= highest_ratio ? FF_GOOD : FF_RANGE,
                   "the equations are for contact ratios up to 2.5");
@@ -405,8 +408,8 @@ static ff_status ready(void *self)
     return FF_OK;
 }
 
-/* Writes the contact temperature from the film's own friction, compared with the test gear by
- * the same formulas. */
+/* Writes the contact temperature from the friction of the film, and compares it with the test gear
+   computed in the same way. */
 static ff_status write_own(const scuffing *s, const rating_pair *p, const ff_array *in,
                            uint64_t wanted)
 {
@@ -488,10 +491,10 @@ static ff_status wire(void *self, uint32_t input, const void *service)
 }
 
 FF_MODEL(rating_scuffing, scuffing, .id = "rating/scuffing", .version = "0.1.0",
-         .summary = "draft: scuffing by flash and integral temperature, beside the film's own "
-                    "contact temperature",
+         .summary = "draft: scuffing by flash and integral temperature, and the contact "
+                    "temperature from the friction of the film",
          .reference = "ISO/TR 13989-1:2000 and -2:2000 as quoted by a public implementation; the "
-                      "texts were not read",
+                      "texts of the standard were not available",
          .bibtex = BIB_iso13989, .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
          .inputs = &rating_inputs[1], .input_count = RATING_INPUTS + 1,
          .input_stride = sizeof rating_inputs[0], .outputs = FF_TABLE(outputs), .wire = wire,

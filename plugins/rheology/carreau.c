@@ -74,7 +74,7 @@ static int fluidity(const carreau *c, double ln_eta, double ln_S, double *psi, d
     return held;
 }
 
-/* Evaluates one block. On entry by_p is the slope of G, on return that of psi. */
+/* Evaluates one block. On entry by_p is the slope of G over p, on return that of psi. */
 static int64_t flow_some(const void *law, double u_s, size_t count, const double *G,
                          const double *ln_eta, const double *h, double *psi, double *by_p,
                          double *dpsi_dln_eta, double *dpsi_dh)
@@ -155,8 +155,8 @@ static stress stress_at(double n, double y)
                     .bend = 2 * (n - 1) * share * (1 - share)};
 }
 
-/* Returns ln S for the stress ln_T. The curve rises, is concave and lies below both asymptotes,
- * so Newton's steps from the larger asymptote never overshoot. */
+/* Returns ln S for the stress ln_T. The curve rises, is concave and lies below both asymptotes.
+   Newton steps that start from the larger asymptote therefore never overshoot. */
 static double find_ln_strain(double n, double ln_T)
 {
     double y = fmax(ln_T, ln_T / n), step = 1;
@@ -168,8 +168,8 @@ static double find_ln_strain(double n, double ln_T)
     return y;
 }
 
-/* The rate for a stress and its derivatives. At RHEOLOGY_RATE_MAX, where ln S = most, which
- * depends on ln(eta), the rate continues as its tangent. */
+/* The rate for a stress, and its derivatives. Above RHEOLOGY_RATE_MAX the rate continues along its
+   tangent. This limit is at ln S = most, which depends on ln(eta). */
 typedef struct sheared {
     double rate, by_tau, by_ln_eta;
     int held;
@@ -230,10 +230,12 @@ static ff_status rate(const void *self, size_t n, const double *p, const double 
 static const ff_param params[] = {
     FF_QUANTITY_OR("auto", "G", "MPa", carreau, G, FF_REQUIRED | FF_MIN_OPEN, NULL, NULL, 0, 1e30,
                    0.01, 50,
-                   "stress where shear thinning sets in; auto: 1.86 times the Eyring stress 2 "
-                   "Lambda/alpha(p, T) of ree-eyring, which n = 0.27 follows within 5 %"),
-    FF_QUANTITY("n", "1", carreau, n, FF_REQUIRED, NULL, NULL, 0.01, 1, 0.2, 1,
-                "exponent of the thinned stress, tau ~ rate^n; 1: Newtonian"),
+                   "stress at which shear thinning begins; auto: 1.86 times the Eyring stress 2 "
+                   "Lambda/alpha(p, T) of ree-eyring; with n = 0.27 the law then follows "
+                   "Ree-Eyring within 5 %"),
+    FF_QUANTITY(
+        "n", "1", carreau, n, FF_REQUIRED, NULL, NULL, 0.01, 1, 0.2, 1,
+        "shear-thinning exponent n: tau is proportional to rate^n at high rates; 1: Newtonian"),
     RHEOLOGY_LIMITING_STRESS_ROW(carreau),
 };
 

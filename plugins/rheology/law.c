@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What rheology laws share: limiting stress, stress of shear thinning, and services. */
+/* Functions shared by the rheology laws: limiting stress, stress of shear thinning, and
+   services. */
 #include "law.h"
 
 #include "../numerics/liquid.h"
@@ -7,13 +8,14 @@
 const ff_port rheology_inputs[RHEOLOGY_INPUTS] = {
     [RHEOLOGY_IN_VISCOSITY] = {.name = "viscosity",
                                .unit = "",
-                               .doc = "viscosity of the oil, for a stress that is auto",
+                               .doc = "viscosity of the oil; needed for a stress that is auto",
                                .dims = "",
                                .service = FF_VISCOSITY_ID,
                                .flags = FF_OPTIONAL},
     [RHEOLOGY_IN_OIL] = {.name = "oil",
                          .unit = "",
-                         .doc = "the oil, whose base tells the limiting stress",
+                         .doc =
+                             "the oil, whose base oil determines the limiting stress coefficient",
                          .dims = "",
                          .service = FF_LIQUID_ID,
                          .flags = FF_OPTIONAL,
@@ -29,7 +31,7 @@ const ff_port rheology_outputs[RHEOLOGY_OUTPUTS] = {
      .service = FF_RHEOLOGY_2_ID},
     {.name = "at_pressure",
      .unit = "",
-     .doc = "the law, with stresses that follow pressure and temperature",
+     .doc = "the law, with stresses that depend on pressure and temperature",
      .dims = "",
      .service = FF_RHEOLOGY_3_ID},
 };
@@ -55,8 +57,8 @@ ff_status rheology_eyring_ready(const ff_host *host, rheology_eyring *e, const c
     e->coefficient = given;
     if (!e->viscosity)
         return ff_failf(host, FF_INVALID, name,
-                        "%s: auto follows the viscosity over pressure: wire a stage of the kind "
-                        "viscosity, or give a stress",
+                        "%s: auto needs the viscosity as a function of pressure: wire a stage of "
+                        "the kind viscosity, or give a stress",
                         name);
     if (e->oil && e->oil->eval(e->oil->self, FF_LIQUID_BASE, 1, &T, &base, NULL) < 0)
         base = NAN;
@@ -65,8 +67,8 @@ ff_status rheology_eyring_ready(const ff_host *host, rheology_eyring *e, const c
     if (e->coefficient > 0)
         return FF_OK;
     return ff_failf(host, FF_INVALID, name,
-                    "%s: auto needs limiting_stress_coefficient, which is known by the base of "
-                    "mineral oils, PAO and PAG alone; give it, or a stress",
+                    "%s: auto needs limiting_stress_coefficient, which is known for mineral oils, "
+                    "PAO and PAG only; give it, or a stress",
                     name);
 }
 
@@ -106,7 +108,7 @@ ff_status rheology_eyring_stress(const rheology_eyring *e, size_t n, const doubl
         first[i] = first[0];
     }
     fill_stress(2 * e->coefficient, n, p, ln_eta, slope, ambient, first, stress, by_p);
-    /* an extrapolated viscosity is reported to the law's own caller */
+    /* an extrapolated viscosity is reported to the caller of the viscosity law */
     return status == FF_DOMAIN ? FF_OK : status;
 }
 

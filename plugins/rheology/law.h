@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Shared by the rheology laws: the limiting shear stress, and bounds, far outside anything
- * physical, that keep the laws finite. */
+/* Shared by the rheology laws: the limiting shear stress; and bounds that keep the laws finite, far
+   outside anything physical. */
 #ifndef RHEOLOGY_LAW_H
 #define RHEOLOGY_LAW_H
 
@@ -14,7 +14,7 @@
 #define RHEOLOGY_LIMITING_STRESS_ROW(type)                                                         \
     FF_QUANTITY("limiting_stress_coefficient", "1", type, limiting_stress_coefficient,             \
                 FF_MIN_OPEN, NULL, NULL, 0, 10, 0.01, 0.15,                                        \
-                "the shear stress stays below this times the pressure; not given: no limit")
+                "limiting shear stress over pressure; left out: no limit")
 
 /* Literature of the limiting shear stress. */
 #define RHEOLOGY_LIMITING_STRESS_REFERENCE                                                         \
@@ -36,12 +36,12 @@ FF_SIMD_INLINE double rheology_film(double h)
     return h > RHEOLOGY_FILM_MIN ? h : RHEOLOGY_FILM_MIN;
 }
 
-/* The least limiting stress if the oil gives none, Pa: that of a PAO at ambient pressure. A
- * limit that vanished with p would cut off the Newtonian stress of the inlet. */
+/* Pa, the minimum of the limiting stress if the oil gives none: that of a PAO at ambient pressure.
+   A limit proportional to p alone would cut off the Newtonian stress in the inlet. */
 static const double RHEOLOGY_LIMIT_LEAST = 4e6;
 
-/* Limiting shear stress of Bair & Winer 1979: cuts the stress off at tau_L = coefficient p, but
- * not below `least`. */
+/* Limiting shear stress of Bair & Winer 1979: clips the stress at tau_L = coefficient p, but not
+   below `least`. */
 FF_SIMD_INLINE double rheology_limited(double tau, double p, double coefficient, double least)
 {
     double limit = coefficient * p, most = limit > least ? limit : least;
@@ -49,9 +49,8 @@ FF_SIMD_INLINE double rheology_limited(double tau, double p, double coefficient,
     return coefficient > 0 ? cut : tau;
 }
 
-/* Bounds of flankfilm.rheology/2. Stresses and viscosities within these bounds follow the law,
- * up to the rate RHEOLOGY_RATE_MAX; beyond it the rate continues as its tangent, which stays
- * finite. */
+/* Bounds of flankfilm.rheology/2. Inside them stresses and viscosities follow the law, up to the
+   rate RHEOLOGY_RATE_MAX; above it the rate continues along its tangent, which stays finite. */
 static const double RHEOLOGY_TAU_MAX = 1e100;      /* Pa */
 static const double RHEOLOGY_LN_ETA_MIN = -200;    /* of eta in Pa s */
 static const double RHEOLOGY_RATE_MAX = 1e30;      /* 1/s */
@@ -67,8 +66,8 @@ static inline rheology_limit rheology_limit_of(double coefficient)
     return coefficient > 0 ? (rheology_limit){1, coefficient} : (rheology_limit){0, 1};
 }
 
-/* The rate that the limiting stress adds: a slip of 1e7 1/s, typical of films, at 1 % above
- * tau_L, growing with the square of the excess. */
+/* The rate that the limiting stress adds: a slip rate of 1e7 1/s, typical of films, at 1 % above
+   tau_L; it grows with the square of the excess. */
 FF_SIMD_INLINE double rheology_slip(double size, double p, rheology_limit limiting, double *slope)
 {
     const double least = RHEOLOGY_LIMIT_LEAST, steep = 1e7 / (0.01 * 0.01), far = 1e9;
@@ -85,14 +84,14 @@ FF_SIMD_INLINE double rheology_slip(double size, double p, rheology_limit limiti
  * clamped. */
 typedef int64_t rheology_rate(const void *law, size_t n, const double *p, const double *ln_eta,
                               const double *tau, double *rate, double *by_tau, double *by_ln_eta);
-/* The same, but derivatives may be NULL; FF_DOMAIN if any rate was clamped. */
+/* Evaluates rates; derivatives may be NULL. FF_DOMAIN if any rate was clamped. */
 ff_status rheology_rates(rheology_rate *curve, const void *law, size_t n, const double *p,
                          const double *ln_eta, const double *tau, double *rate, double *by_tau,
                          double *by_ln_eta);
 
-/* The stress at which shear thinning begins, if a law has it `auto`. It follows pressure and
- * temperature: tau_E = 2 Lambda/alpha, where alpha = ln(eta/eta0)/p is the secant of the wired
- * viscosity law. */
+/* The stress at which shear thinning begins, if it is `auto`. It depends on pressure and
+   temperature: tau_E = 2 Lambda/alpha, where alpha = ln(eta/eta0)/p is the secant of the wired
+   viscosity law. */
 typedef struct rheology_eyring {
     const ff_viscosity *viscosity; /* NULL: not wired */
     const ff_liquid *oil;          /* NULL: not wired */
@@ -109,14 +108,14 @@ ff_status rheology_eyring_wire(rheology_eyring *e, uint32_t input, const void *s
 ff_status rheology_eyring_ready(const ff_host *host, rheology_eyring *e, const char *name,
                                 double given);
 
-/* tau_E at n <= RHEOLOGY_BLOCK points and its slope over p. */
+/* Evaluates tau_E at n <= RHEOLOGY_BLOCK points, and its slope over p. */
 enum { RHEOLOGY_BLOCK = 256 };
 ff_status rheology_eyring_stress(const rheology_eyring *e, size_t n, const double *p,
                                  const double *T, double *stress, double *by_p);
 
-/* `flow` of rheology/3, block by block. `stresses` gives the stress of a law at each point and
- * its slope over p; `some` turns that slope into the slope of psi, and returns whether any point
- * was clamped. Its by_ln_eta and by_h are never NULL. */
+/* `flow` of rheology/3, in blocks. `stresses` gives the stress of the law at each point and its
+   slope over p. `some` replaces that slope by the slope of psi, and returns whether any point was
+   clamped; its by_ln_eta and by_h are never NULL. */
 typedef ff_status rheology_stresses(const void *law, size_t n, const double *p, const double *T,
                                     double *stress, double *by_p);
 typedef int64_t rheology_some(const void *law, double u_s, size_t n, const double *stress,
@@ -127,8 +126,9 @@ ff_status rheology_flow_at(rheology_stresses *stresses, rheology_some *some, con
                            const double *h, double u_s, double *psi, double *dpsi_dp,
                            double *dpsi_dln_eta, double *dpsi_dh);
 
-/* `flow` of rheology/1 for a law that has the one of rheology/3. Its caller gives no pressure,
- * so the stress at ambient pressure is used, with FF_DOMAIN if the stress `moves` with pressure. */
+/* `flow` of rheology/1, by means of the `flow` of rheology/3. The caller gives no pressure, so
+   the stress at ambient pressure is used; the result is FF_DOMAIN if the stress `moves` with
+   pressure. */
 typedef ff_status rheology_flow_3(const void *self, size_t n, const double *p, const double *T,
                                   const double *ln_eta, const double *h, double u_s, double *psi,
                                   double *by_p, double *by_ln_eta, double *by_h);
@@ -137,7 +137,7 @@ ff_status rheology_ambient_flow(const void *self, rheology_flow_3 *flow, int mov
                                 double *by_ln_eta, double *by_h);
 
 /* Outputs and functions of laws that offer all three services. The instance has the members
- * `service`, `service_2` and `service_3` beside `host`. */
+   `service`, `service_2`, `service_3` and `host`. */
 enum { RHEOLOGY_OUTPUTS = 3 };
 extern const ff_port rheology_outputs[RHEOLOGY_OUTPUTS];
 #define RHEOLOGY_3_LAW(law, type, flow, shear, rate, flow_3, shear_3, ...)                         \
@@ -176,7 +176,7 @@ extern const ff_port rheology_outputs[RHEOLOGY_OUTPUTS];
  * clamped. */
 typedef int64_t rheology_curve(const void *law, size_t n, const double *ln_eta, const double *h,
                                double slip, double *psi, double *by_ln_eta, double *by_h);
-/* The same, but derivatives may be NULL. */
+/* Evaluates a curve; derivatives may be NULL. */
 int64_t rheology_points(rheology_curve *curve, const void *law, size_t n, const double *ln_eta,
                         const double *h, double slip, double *psi, double *by_ln_eta, double *by_h);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The rheology laws that this shared object exports. */
+/* Lists the rheology laws of this shared object. */
 #include <flankfilm/author.h>
 
 extern const ff_model rheology_newtonian, rheology_ree_eyring, rheology_carreau;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Ree-Eyring: the mean shear stress is tau_m = tau0 asinh(S), S = eta u_s/(tau0 h), and the
- * pressure flow is eased by cosh(tau_m/tau0) (Li & Kahraman 2011, eq. 8a), so that psi =
- * cosh(asinh S)/eta = sqrt(1/eta^2 + (u_s/(tau0 h))^2). At a point, the rate is (tau0/eta)
- * sinh(tau/tau0); its slope at tau_m is psi. */
+/* Ree-Eyring: the mean shear stress is tau_m = tau0 asinh(S), S = eta u_s/(tau0 h). The fluidity
+   for the pressure flow is increased by cosh(tau_m/tau0) (Li & Kahraman 2011, eq. 8a), so psi =
+   cosh(asinh S)/eta = sqrt(1/eta^2 + (u_s/(tau0 h))^2). At a point, the rate is (tau0/eta)
+   sinh(tau/tau0); its slope at tau_m is psi. */
 #include "law.h"
 #include "references.h"
 
@@ -54,8 +54,8 @@ static void logs_of(const ree_eyring *r, size_t n, const double *tau0, double *l
         ln[i] = same;
 }
 
-/* psi for tau0, and its slopes. The slope over p acts through tau0 and replaces the slope of
- * tau0 in the array. */
+/* psi for tau0, and its slopes. On entry the array for the slope over p has the slope of tau0; on
+   return that of psi. */
 FF_SIMD
 static int64_t curve(const void *law, double u_s, size_t n, const double *restrict tau0,
                      const double *restrict ln_eta, const double *restrict h, double *restrict psi,
@@ -97,8 +97,8 @@ static ff_status flow(const void *self, size_t n, const double *ln_eta, const do
                                  dpsi_dln_eta, dpsi_dh);
 }
 
-/* asinh S = ln(1 + u), u = S + S^2/(1 + sqrt(1 + S^2)). Computed as u ln(v)/(v - 1), where v is
- * 1 + u as rounded, ln(1 + u) loses no digits. */
+/* asinh S = ln(1 + u), u = S + S^2/(1 + sqrt(1 + S^2)). ln(1 + u) is computed as u ln(v)/(v - 1),
+   where v is 1 + u after rounding; this loses no digits. */
 FF_SIMD_INLINE double arsinh(double S)
 {
     double square = S * S, u = S + square / (1 + sqrt(1 + square)), v = 1 + u;
@@ -154,7 +154,7 @@ static ff_status shear(const void *self, size_t n, const double *p, const double
     return shear_at(self, n, p, NULL, ln_eta, h, u_s, tau);
 }
 
-/* Below this x = |tau|/tau0, both hyperbolic functions follow from the series of sinh. */
+/* Below this x = |tau|/tau0, sinh and cosh are computed from the series of sinh. */
 static const double FLAT = 0.5;
 
 /* sinh(x)/x for x < FLAT, to rounding. */
@@ -170,9 +170,9 @@ FF_SIMD_INLINE double flat_sinh(double x)
 }
 
 /* The rate is tau0 sinh(x)/eta, x = |tau|/tau0, up to x = y, where it reaches RHEOLOGY_RATE_MAX;
- * beyond, it continues as its tangent. y >= 1 depends on ln(eta), since tau0 e^y/eta is
- * constant, and the derivative over ln(eta) contains that. `flat` and `steep` tell whether such
- * points occur. */
+   above, it continues along its tangent. y >= 1 depends on ln(eta), since tau0 e^y/eta is constant;
+   the derivative over ln(eta) includes this. `flat` and `steep` tell whether points below FLAT and
+   above it occur. */
 FF_SIMD_INLINE int64_t rates_of(rheology_limit limit, size_t n, const double *restrict tau_0,
                                 const double *restrict ln_tau0, const double *restrict p,
                                 const double *restrict ln_eta, const double *restrict tau,
@@ -213,7 +213,7 @@ FF_SIMD_INLINE int64_t rates_of(rheology_limit limit, size_t n, const double *re
     return held;
 }
 
-/* Evaluates n <= RUN points, which are often all of one kind. */
+/* Evaluates n <= RUN points, which are often all on the same side of FLAT. */
 enum { RUN = 64 };
 FF_SIMD
 static int64_t rates_of_some(rheology_limit limit, size_t n, const double *restrict tau0,
@@ -261,11 +261,12 @@ static ff_status rate(const void *self, size_t n, const double *p, const double 
 }
 
 static const ff_param params[] = {
-    FF_QUANTITY_OR("auto", "tau0", "MPa", ree_eyring, tau0, FF_REQUIRED | FF_MIN_OPEN, NULL, NULL,
-                   0, 1e30, 0.5, 50,
-                   "Eyring stress, where shear thinning sets in; auto: 2 Lambda/alpha(p, T), with "
-                   "the secant alpha of the viscosity law and Lambda, limiting_stress_coefficient "
-                   "or by the base of the oil (mineral 0.047, PAO 0.035, PAG 0.044)"),
+    FF_QUANTITY_OR(
+        "auto", "tau0", "MPa", ree_eyring, tau0, FF_REQUIRED | FF_MIN_OPEN, NULL, NULL, 0, 1e30,
+        0.5, 50,
+        "Eyring stress, at which shear thinning begins; auto: 2 Lambda/alpha(p, T), with the "
+        "secant alpha of the viscosity law; Lambda is limiting_stress_coefficient or follows from "
+        "the base oil (mineral 0.047, PAO 0.035, PAG 0.044)"),
     RHEOLOGY_LIMITING_STRESS_ROW(ree_eyring),
 };
 

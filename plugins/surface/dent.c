@@ -9,7 +9,7 @@
 #include <stdlib.h>
 
 enum { COSINE, GAUSSIAN };
-enum { PER_WIDTH = 256 }; /* points of the record over the dent's width */
+enum { PER_WIDTH = 256 }; /* points of the record across the width of the dent */
 
 typedef struct dent {
     const ff_host *host;
@@ -20,20 +20,21 @@ typedef struct dent {
 
 static const ff_param params[] = {
     FF_QUANTITY("depth", "um", dent, depth, FF_REQUIRED, NULL, NULL, -1e4, 1e4, 0, 0,
-                "depth of the middle below the flank; below 0: a bump"),
+                "depth of the middle below the flank; negative: a bump"),
     FF_QUANTITY("width", "um", dent, width, FF_REQUIRED, NULL, NULL, 1e-3, 1e7, 0, 0,
-                "w of the shape: its wavelength (cosine) or its width at half depth (gaussian)"),
+                "width w in the shape formula: the wavelength (cosine) or the width at half depth "
+                "(gaussian)"),
     FF_QUANTITY("start", "um", dent, start, 0, "-1000 um", NULL, -1e9, 1e9, 0, 0,
                 "x of its middle at the first time; the flank carries it towards larger x, so that "
-                "a dent below 0 comes from the inlet"),
-    FF_ROW("flank", "", "flank that has it: of the driving (1) or driven gear (2)", FF_INT, 0, "1",
-           "both", NULL, 1, 2, 0, 0, 0, 0, FF_PLACE(dent, flank, int64_t)),
+                "a dent with negative x comes from the inlet"),
+    FF_ROW("flank", "", "flank with the dent: of the driving gear (1) or the driven gear (2)",
+           FF_INT, 0, "1", "both", NULL, 1, 2, 0, 0, 0, 0, FF_PLACE(dent, flank, int64_t)),
     FF_ONE_OF("cosine|gaussian", "shape", dent, shape, 0, "cosine",
               "cosine: -depth 10^(-10 (d/w)^2) cos(2 pi d/w), with shoulders (Venner, Lubrecht and "
               "ten Napel 1991); gaussian: -depth 2^(-(2 d/w)^2); d from its middle"),
 };
 
-/* Returns the height of a dent of depth 1 at the distance d, in widths, from its middle. */
+/* Returns the height of a dent of depth 1; d is the distance from its middle, in widths. */
 static double shape_at(int shape, double d)
 {
     if (shape == GAUSSIAN)
@@ -46,8 +47,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     const dent *s = self;
     const double width = s->width;
     const int shape = s->shape;
-    const int reach =
-        shape == GAUSSIAN ? 3 : 1; /* in widths; beyond it, less than 1e-10 of the depth remains */
+    const int reach = shape == GAUSSIAN ? 3 : 1; /* in widths; farther out, less than 1e-10 of the
+                                                    depth remains */
     const int half = reach * PER_WIDTH;
     surface_record record;
     (void)in;
@@ -63,11 +64,11 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     return status;
 }
 
-FF_MODEL(
-    surface_dent, dent, .id = "surface/dent", .version = "1.0.0",
-    .summary =
-        "one dent or bump in smooth flanks; rq_1 and rq_2 are 0, since a dent is not roughness",
-    .reference = "Venner, Lubrecht and ten Napel 1991, Numerical simulation of the overrolling of "
-                 "a surface feature in an EHL line contact, J. Tribol. 113, 777 (cosine)",
-    .bibtex = BIB_venner1991, .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
-    .outputs = FF_TABLE(surface_outputs), .evaluate = evaluate, .destroy = free);
+FF_MODEL(surface_dent, dent, .id = "surface/dent", .version = "1.0.0",
+         .summary = "one dent or bump in otherwise smooth flanks; rq_1 and rq_2 are 0, since a "
+                    "dent is no roughness",
+         .reference =
+             "Venner, Lubrecht and ten Napel 1991, Numerical simulation of the overrolling of "
+             "a surface feature in an EHL line contact, J. Tribol. 113, 777 (cosine)",
+         .bibtex = BIB_venner1991, .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
+         .outputs = FF_TABLE(surface_outputs), .evaluate = evaluate, .destroy = free);

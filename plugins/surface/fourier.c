@@ -14,7 +14,7 @@ size_t surface_power_of_two(double least)
     return n;
 }
 
-/* Permutes x by reversing the bits of its index. */
+/* Permutes x by reversing the bits of the index. */
 static void reverse_bits(size_t n, double complex *x)
 {
     for (size_t i = 1, j = 0; i < n; i++) {

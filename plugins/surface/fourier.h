@@ -11,7 +11,7 @@
  */
 ff_status surface_fourier(size_t n, double complex *x, double sign);
 
-/* Returns the least power of 2 that is not below `least`, which is at most 2^52. */
+/* Returns the smallest power of 2 >= `least`, which must be at most 2^52. */
 size_t surface_power_of_two(double least);
 
 #endif

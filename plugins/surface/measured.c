@@ -14,8 +14,8 @@
 enum { NO_DETREND = -1, MEAN = 0, LINEAR = 1 };
 enum { PERIODIC, MIRROR, FLAT };
 
-/* In spacings. From this cut-off on, the filter passes half of a wave as long as the cut-off to
- * 1e-4. */
+/* In spacings. For larger cut-offs, the filter passes half of a wave as long as the cut-off, to
+   within 1e-4. */
 static const double least_cutoff = 5;
 
 typedef struct measured {
@@ -23,7 +23,7 @@ typedef struct measured {
     const char *path[2];
     int detrend; /* order of the polynomial, or NO_DETREND */
     double cutoff_long, cutoff_short, spacing,
-        origin;                             /* NaN: none for the cut-offs, auto for the others */
+        origin; /* NaN: `none` for the cut-offs, `auto` for the others */
     int32_t direction, direction_2, extend; /* direction_2 < 0: the same as `direction` */
     surface_trace trace[2];                 /* n = 0: a smooth flank */
 } measured;
@@ -35,9 +35,8 @@ static const ff_param params[] = {
     FF_PATH("file_2", measured, path[1], 0, NULL, "trace of flank 2, as file_1"),
     {.name = "detrend",
      .unit = "1",
-     .doc =
-         "taken off first: nothing, the mean, the line that fits best, or the polynomial of this "
-         "order (the profile of an involute flank)",
+     .doc = "removed first: nothing, the mean, the best-fit line, or the best-fit polynomial of "
+            "this order (for the profile of an involute flank)",
      .type = FF_INT,
      .preset = "linear",
      .choices = "none|mean|linear",
@@ -45,36 +44,37 @@ static const ff_param params[] = {
      .max = 20},
     FF_QUANTITY_OR("none", "cutoff_long", "um", measured, cutoff_long, 0, "none", NULL, 1e-3, 1e6,
                    0, 0,
-                   "cut-off of the Gaussian filter (ISO 16610-21) that takes off longer waves; 800 "
+                   "cut-off of the Gaussian filter (ISO 16610-21) that removes longer waves; 800 "
                    "um is usual for Ra from 0.1 to 2 um (ISO 4288)"),
     FF_QUANTITY_OR("none", "cutoff_short", "um", measured, cutoff_short, 0, "none", NULL, 1e-3, 1e6,
                    0, 0,
-                   "cut-off of the Gaussian filter that takes off shorter waves; 2.5 um goes with "
-                   "800 um (ISO 3274)"),
-    FF_ONE_OF("forward|reversed", "direction", measured, direction, 0, "forward",
-              "forward: positions rise along x, towards the outlet; reversed: against it. From "
-              "root to tip the driving flank is reversed, the driven one forward"),
+                   "cut-off of the Gaussian filter that removes shorter waves; 2.5 um is usual "
+                   "with a long cut-off of 800 um (ISO 3274)"),
+    FF_ONE_OF(
+        "forward|reversed", "direction", measured, direction, 0, "forward",
+        "forward: positions increase along x, towards the outlet; reversed: they decrease. For a "
+        "trace from root to tip, the driving flank is reversed and the driven flank forward"),
     FF_ONE_OF("forward|reversed", "direction_2", measured, direction_2, 0, NULL,
-              "direction of flank 2 where it is not that of flank 1"),
+              "direction of flank 2, if it differs from that of flank 1"),
     FF_ONE_OF("periodic|mirror|flat", "extend", measured, extend, 0, "mirror",
-              "beyond the record: it repeats, it repeats after its mirror image (no step at the "
-              "seam), or the flanks are flat"),
+              "continuation beyond the record. periodic: the record repeats; mirror: record and "
+              "mirror image repeat (no step at the seam); flat: the flanks are flat"),
     FF_QUANTITY_OR("auto", "spacing", "um", measured, spacing, FF_TUNABLE, "auto", NULL, 1e-4, 1e6,
                    0, 0,
-                   "distance of the points of the record; each is the mean of the trace around it; "
-                   "auto: that of the file (of the finer one)"),
+                   "point spacing of the record; each point is the mean of the trace around it; "
+                   "auto: the spacing of the file, or of the finer file"),
     FF_QUANTITY("origin", "um", measured, origin, 0, "0 um", NULL, -1e9, 1e9, 0, 0,
-                "arc coordinate of both flanks, from the start of their records, at x = 0 at the "
-                "first time"),
+                "arc coordinate of both flanks, counted from the start of their records, that lies "
+                "at x = 0 at the first time"),
 };
 
-/* The heights of a flank before they are put into the record. */
+/* The heights of a flank before they are joined into the record. */
 typedef struct flank {
     size_t n;
     double *height;
 } flank;
 
-/* Sets `detrend`, the only parameter with words of its own. */
+/* Sets `detrend`, which `place` cannot represent, since its words have different meanings. */
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
     measured *s = self;
@@ -182,13 +182,13 @@ static ff_status make_flank(const measured *s, size_t g, double spacing, flank *
     double rq = surface_rms(f->n, f->height), share = rq > 0 ? distance / rq : 0;
     s->host->quality(s->host->ctx, g ? "resampling_2" : "resampling_1", share, 0.05,
                      share <= 0.05 ? FF_GOOD : FF_DOUBTFUL,
-                     "root mean square distance of the record from the points of the file, over "
-                     "Rq: what a coarser spacing takes off");
+                     "root mean square distance between the record and the points of the file, "
+                     "relative to Rq: the loss due to a coarser spacing");
     return FF_OK;
 }
 
-/* Returns the step between the end of the record and what follows it, over the largest step
- * within it. */
+/* Returns the step between the end of the record and its continuation, relative to the largest step
+   within it. */
 static double seam_of(int extend, size_t n, const double *height)
 {
     double most = 0;
@@ -202,8 +202,9 @@ static double seam_of(int extend, size_t n, const double *height)
 
 static void report(const measured *s, double length, double seam)
 {
-    s->host->quality(s->host->ctx, "seam", seam, 2, seam <= 2 ? FF_GOOD : FF_DOUBTFUL,
-                     "step where the record ends, over the greatest step between its points");
+    s->host->quality(
+        s->host->ctx, "seam", seam, 2, seam <= 2 ? FF_GOOD : FF_DOUBTFUL,
+        "step at the end of the record relative to the largest step between its points");
     if (!(s->cutoff_long > 0))
         return;
     double lengths = length / s->cutoff_long;
@@ -212,8 +213,8 @@ static void report(const measured *s, double length, double seam)
                      "length of the record over cutoff_long; ISO 4288 wants 5");
 }
 
-/* Joins both flanks over their common length, about their means, and with the mirror image if
- * the record is extended in that way. */
+/* Joins both flanks over their common length, with zero mean. Appends the mirror image if the
+   record is extended in that way. */
 static ff_status join(const measured *s, const flank f[2], double spacing, surface_record *record)
 {
     size_t n = f[0].height ? f[0].n : f[1].n;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The surfaces that this shared object exports. */
+/* Lists the surface models of this shared object. */
 #include <flankfilm/author.h>
 
 extern const ff_model surface_dent, surface_measured, surface_sinusoidal, surface_statistical,

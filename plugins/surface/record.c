@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Gives the heights of both flanks and their roughness. */
+/* Writes the heights of both flanks and their roughness. */
 #include "record.h"
 
 #include <flankfilm/author.h>
@@ -11,10 +11,16 @@
 const ff_port surface_outputs[SURFACE_OUTPUTS] = {
     {.name = "position",
      .unit = "m",
-     .doc = "arc coordinate along x, in equal steps from 0",
+     .doc = "arc coordinate of the points along x, in equal steps from 0",
      .dims = "arc"},
-    {.name = "height_1", .unit = "m", .doc = "flank 1, positive out of the metal", .dims = "arc"},
-    {.name = "height_2", .unit = "m", .doc = "flank 2, positive out of the metal", .dims = "arc"},
+    {.name = "height_1",
+     .unit = "m",
+     .doc = "heights of flank 1, positive out of the metal",
+     .dims = "arc"},
+    {.name = "height_2",
+     .unit = "m",
+     .doc = "heights of flank 2, positive out of the metal",
+     .dims = "arc"},
     {.name = "rq_1",
      .unit = "m",
      .doc = "root mean square roughness of flank 1",
@@ -90,18 +96,18 @@ static ff_status write_positions(const ff_host *host, const surface_record *reco
     return position ? FF_OK : FF_NOMEM;
 }
 
-/* Gives the roughness of both flanks even if nobody requests it, so that its bounds are checked
- * for every record. */
+/* Writes the roughness of both flanks even if it is not requested, so that its bounds are checked
+   for every record. */
 static ff_status give_roughness(const ff_host *host, const surface_record *record)
 {
-    static const double finished = 10e-6; /* of the roughest flank that is cut or ground */
+    static const double finished = 10e-6; /* roughest flank that is milled or ground */
     ff_status status = FF_OK;
     for (uint32_t g = 0; g < 2 && status == FF_OK; g++) {
         const double rq = record->rq[g];
         host->quality(host->ctx, g ? "roughness_2" : "roughness_1", rq, finished,
                       rq <= finished ? FF_GOOD : FF_RANGE,
-                      "m, root mean square: flanks of gears are smoother; look at the unit of the "
-                      "heights and at marks for missing points");
+                      "m, root mean square roughness; gear flanks are smoother: check the unit of "
+                      "the heights, and the marks for missing points");
         status = ff_put_scalar(host, SURFACE_RQ_1 + g, rq);
     }
     return status;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Outputs of every surface model: the heights of both flanks over one arc coordinate s along x.
- * At time t, the point s of flank i is at x = s - origin + the integral of its speed u_i from
- * the first time to t. */
+/* Outputs of every surface model: the heights of both flanks over one arc coordinate s along x. At
+   time t, point s of flank i is at x = s - origin + the integral of its speed u_i from the first
+   time to t. */
 #ifndef SURFACE_RECORD_H
 #define SURFACE_RECORD_H
 
@@ -20,7 +20,7 @@ enum {
     SURFACE_OUTPUTS
 };
 
-enum { SURFACE_POINTS = 1 << 18 }; /* the longest record */
+enum { SURFACE_POINTS = 1 << 18 }; /* largest number of points of a record */
 
 extern const ff_port surface_outputs[SURFACE_OUTPUTS];
 
@@ -33,12 +33,13 @@ typedef struct surface_record {
     double rq[2];
 } surface_record;
 
-/* Makes n points with height 0; too many give FF_INVALID with `item`. To be freed in any case. */
+/* Creates a record of n points with height 0. Too many points give FF_INVALID with `item`. The
+   caller frees the record, also after an error. */
 ff_status surface_record_make(const ff_host *host, const char *item, double n, double spacing,
                               surface_record *record);
 void surface_record_free(surface_record *record);
 
-/* Whether the parameter `flank` (1, 2, or -1 for `both`) includes flank g, 0 or 1. */
+/* Whether the parameter `flank` (1, 2, or -1 for `both`) includes flank g, which is 0 or 1. */
 static inline bool surface_has_flank(int64_t flank, int g)
 {
     return flank < 0 || flank == g + 1;
@@ -47,7 +48,7 @@ static inline bool surface_has_flank(int64_t flank, int g)
 /* Root mean square about the mean. */
 double surface_rms(size_t n, const double *height);
 
-/* Sets the wanted outputs. */
+/* Writes the wanted outputs. */
 ff_status surface_record_publish(const ff_host *host, uint64_t wanted,
                                  const surface_record *record);
 

@@ -40,15 +40,15 @@ ff_status surface_detrend(size_t n, int order, double *height)
     return FF_OK;
 }
 
-/* Returns the share of a wave of `length` that the Gaussian filter passes, exp(-pi (alpha
- * cutoff/length)^2), alpha = sqrt(ln 2/pi) (ISO 16610-21). It is one half for a wave as long as
- * the cut-off. */
+/* Returns the share of a wave of `length` that the Gaussian filter passes: exp(-pi (alpha
+   cutoff/length)^2), alpha = sqrt(ln 2/pi) (ISO 16610-21). It is one half for a wave as long as the
+   cut-off. */
 static double passed(double cutoff, double length)
 {
     return exp2(-cutoff * cutoff / (length * length));
 }
 
-/* Returns the index within a record of n points for one beyond its ends. */
+/* Returns the index inside a record of n points that corresponds to one beyond its ends. */
 static size_t within(double place, size_t n, surface_end end)
 {
     double turn = floor(place / (double)n);

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Points of a wave; straight lines between them are off by 1e-4 of the amplitude. */
+/* Points per wave; linear interpolation between them has an error of 1e-4 of the amplitude. */
 enum { POINTS = 256 };
 
 typedef struct sinusoidal {
@@ -19,14 +19,15 @@ typedef struct sinusoidal {
 
 static const ff_param params[] = {
     FF_QUANTITY("amplitude", "um", sinusoidal, amplitude, FF_REQUIRED, NULL, NULL, 0, 1e4, 0, 0,
-                "A of A cos(2 pi s/wavelength): half the height from valley to crest"),
+                "amplitude A in A cos(2 pi s/wavelength): half the height from valley to crest"),
     FF_QUANTITY("wavelength", "um", sinusoidal, wavelength, FF_REQUIRED, NULL, NULL, 1e-3, 1e7, 0,
                 0, "length of a wave"),
     FF_ROW("flank", "",
-           "flank that is wavy: of the driving (1) or driven gear (2); the other is smooth", FF_INT,
-           0, "1", "both", NULL, 1, 2, 0, 0, 0, 0, FF_PLACE(sinusoidal, flank, int64_t)),
+           "flank with the waviness: of the driving gear (1) or the driven gear (2); the other is "
+           "smooth",
+           FF_INT, 0, "1", "both", NULL, 1, 2, 0, 0, 0, 0, FF_PLACE(sinusoidal, flank, int64_t)),
     FF_QUANTITY("origin", "um", sinusoidal, origin, 0, "0 um", NULL, -1e9, 1e9, 0, 0,
-                "arc coordinate at x = 0 at the first time; 0: a crest"),
+                "arc coordinate that lies at x = 0 at the first time; 0: a crest"),
 };
 
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)

@@ -1,10 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* surface/statistical: flanks whose asperities are known by statistics alone. By Greenwood &
- * Tripp 1970-71, for Gaussian heights of the summits, both flanks together carry the pressure
- *   p_a = K E'/2 F_5/2(h/sigma),   K = (16 sqrt 2/15) pi (eta beta sigma)^2 sqrt(sigma/beta)
- * with the distance h between mean planes, sigma = hypot(Rq1, Rq2), and eta summits of radius
- * beta per area. F_5/2(H) is the integral, or its fit 4.4086e-5 (4 - H)^6.804 for H < 4 and 0
- * above (Hu et al. 1994); or p_a over h/sigma comes from a table. */
+/*
+ * surface/statistical: rough flanks described by statistics of their asperities. By Greenwood &
+ * Tripp 1970-71, for a Gaussian distribution of the summit heights, the asperities of both flanks
+ * carry the pressure
+ *
+ *  p_a = K E'/2 F_5/2(h/sigma),   K = (16 sqrt 2/15) pi (eta beta sigma)^2 sqrt(sigma/beta)
+ *
+ * with the distance h of the mean planes, sigma = hypot(Rq1, Rq2), and eta summits of radius beta
+ * per area. F_5/2(H) is the integral, or its fit 4.4086e-5 (4 - H)^6.804 for H < 4 and 0 above (Hu
+ * et al. 1994). Alternatively, p_a over h/sigma comes from a table.
+ */
 #include "../lubricant/curve.h"
 #include "references.h"
 
@@ -16,7 +21,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const double modulus = 230e9; /* E' of steel on steel, for which p_a is given */
+static const double modulus = 230e9; /* E' of steel on steel, to which p_a refers */
 
 typedef struct statistical {
     const ff_host *host;
@@ -27,8 +32,8 @@ typedef struct statistical {
     double radius;  /* beta, m; NaN: from summit_slope */
     double product, slope;
     double stiffness;      /* K modulus/2, Pa */
-    int32_t closure;       /* rank of the word */
-    const char *path;      /* of the table; NULL: there is none */
+    int32_t closure;       /* 1: integral */
+    const char *path;      /* path of the table; NULL: there is none */
     lubricant_curve curve; /* ln(p_a / 1 Pa) over h/sigma, from the integral or the table */
 } statistical;
 
@@ -39,9 +44,9 @@ enum { DISTANCE, PRESSURE };
 
 static const ff_param columns[] = {
     FF_COLUMN("distance", "1", FF_REQUIRED | FF_INCREASING, NULL, -10, 20,
-              "of the mean planes, h/sigma"),
+              "distance of the mean planes, h/sigma"),
     FF_COLUMN("pressure", "MPa", FF_REQUIRED, NULL, 1e-12, 1e6,
-              "that asperities of steel on steel carry"),
+              "asperity pressure of steel on steel"),
 };
 
 enum { OUT_RQ_1, OUT_RQ_2, OUT_CUTOFF, OUT_DENSITY, OUT_RADIUS, OUT_ASPERITIES, OUTPUTS };
@@ -59,7 +64,7 @@ static const ff_port outputs[OUTPUTS] = {
                   .max = 100e-6},
     [OUT_CUTOFF] = {.name = "cutoff",
                     .unit = "m",
-                    .doc = "longest waves that the roughness holds; 0: those of the contact",
+                    .doc = "longest waves included in the roughness; 0: as long as the contact",
                     .dims = ""},
     [OUT_DENSITY] = {.name = "summit_density",
                      .unit = "1/m2",
@@ -73,34 +78,35 @@ static const ff_port outputs[OUTPUTS] = {
                     .max = INFINITY},
     [OUT_ASPERITIES] = {.name = "asperities",
                         .unit = "",
-                        .doc = "pressure of the asperities over the distance of the flanks",
+                        .doc = "asperity pressure as a function of the distance of the flanks",
                         .dims = "",
                         .service = FF_ASPERITY_ID},
 };
 
 static const ff_param params[] = {
     FF_LIST("rq", "um", statistical, rq, FF_REQUIRED, NULL, NULL, 1e-4, 100, 0.02, 2, 1, 2,
-            "root mean square roughness of flank 1 and of flank 2, of waves shorter than cutoff; "
-            "one number: of both"),
-    FF_QUANTITY_OR("auto", "cutoff", "um", statistical, cutoff, FF_MIN_OPEN, "auto", NULL, 0, 1e4,
-                   20, 800,
-                   "longest waves that rq holds; auto: as long as the contact, whose flanks ride "
-                   "over longer ones. The film says where the cut-off is longer than that"),
+            "root mean square roughness of flank 1 and flank 2, for waves shorter than cutoff; one "
+            "number: both"),
+    FF_QUANTITY_OR(
+        "auto", "cutoff", "um", statistical, cutoff, FF_MIN_OPEN, "auto", NULL, 0, 1e4, 20, 800,
+        "longest waves included in rq; auto: as long as the contact, since the contact follows "
+        "longer waves. The film warns if the cut-off is longer than the contact"),
     FF_QUANTITY("summit_density", "1/mm^2", statistical, density, 0, NULL, NULL, 0, 1e12, 0, 0,
-                "summits per area; with summit_radius, in place of the next two"),
+                "summits per area; with summit_radius, instead of summit_product and summit_slope"),
     FF_QUANTITY("summit_radius", "um", statistical, radius, FF_MIN_OPEN, NULL, NULL, 0, 1e9, 0, 0,
                 "radius of the summits"),
     FF_QUANTITY("summit_product", "1", statistical, product, 0, "0.05", NULL, 0, 1, 0.03, 0.05,
-                "density times radius of the summits times sigma (Greenwood & Tripp 1970-71)"),
-    FF_QUANTITY("summit_slope", "1", statistical, slope, FF_MIN_OPEN, "0.01", NULL, 0, 10, 1e-4,
-                0.1, "sigma over the radius of the summits; K goes with its root"),
+                "summit density times summit radius times sigma (Greenwood & Tripp 1970-71)"),
+    FF_QUANTITY(
+        "summit_slope", "1", statistical, slope, FF_MIN_OPEN, "0.01", NULL, 0, 10, 1e-4, 0.1,
+        "sigma over the summit radius; the asperity pressure is proportional to its square root"),
     FF_ONE_OF("fit|integral", "closure", statistical, closure, 0, "fit",
-              "F_5/2 by the fit of Hu et al., which is 0 beyond 4 sigma, or the integral over "
-              "Gaussian summits itself"),
+              "F_5/2: the fit of Hu et al., which is 0 beyond 4 sigma, or the exact integral for "
+              "Gaussian summits"),
     FF_PATH("table", statistical, path, 0, NULL,
-            "p_a in place of Greenwood & Tripp's: a table with the columns distance [1] (h/sigma) "
-            "and pressure [MPa] of steel on steel, E' 230 GPa; ln p_a goes straight on beyond its "
-            "rows"),
+            "table that replaces the pressure of Greenwood & Tripp, with the columns distance [1] "
+            "(h/sigma) and pressure [MPa] for steel on steel, E' = 230 GPa; ln p_a is extrapolated "
+            "linearly beyond its rows"),
 };
 
 FF_SIMD
@@ -121,7 +127,7 @@ static int64_t carry(double stiffness, double sigma, size_t n, const double *res
     return extrapolated;
 }
 
-/* Evaluates p_a and its slope by the curve. */
+/* Evaluates p_a and its slope from the curve. */
 FF_SIMD
 static void carry_on(double sigma, size_t n, double *restrict p_a, double *restrict slope)
 {
@@ -171,7 +177,7 @@ static double summits(double H)
 
 static ff_status make_integral(statistical *s)
 {
-    enum { POINTS = 401 }; /* of H, from -2 to 6 */
+    enum { POINTS = 401 }; /* points of H, from -2 to 6 */
     double H[POINTS], ln[POINTS];
     for (int i = 0; i < POINTS; i++) {
         H[i] = -2 + 0.02 * i;
@@ -303,7 +309,7 @@ const ff_model surface_statistical = {
     FF_HEAD(statistical, create),
     .id = "surface/statistical",
     .version = "1.0.0",
-    .summary = "asperities by their statistics, which carry a share of the load of a mixed film",
+    .summary = "statistical asperities, which carry a share of the load of a mixed film",
     .reference = "Greenwood & Tripp 1970-71, Proc. IMechE 185, 625-633; Hu et al. 1994, J. Tribol. "
                  "116, 470-478 (the fit of F_5/2)",
     .bibtex = BIB_greenwood1970 "\n" BIB_hu1994,

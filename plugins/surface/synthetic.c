@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* surface/synthetic: rough flanks with a given spectrum, equal on every machine. */
+/* surface/synthetic: rough flanks with a given spectrum, bitwise equal on every machine. */
 #include "fourier.h"
 #include "record.h"
 #include "references.h"
@@ -12,8 +12,9 @@
 enum { FIXED, GAUSSIAN };
 
 static const double longest_per_length =
-    10; /* if the length is auto, this many longest waves fit on the record */
-static const double points_per_shortest = 32; /* straight lines between them are off by 0.5 % */
+    10; /* number of longest waves in the record if the length is auto */
+static const double points_per_shortest = 32; /* linear interpolation between them has an error
+                                                 of 0.5 % */
 static const double least_per_shortest = 4;   /* fewer points cannot represent the shortest wave */
 static const double slack = 1e-9;             /* rounding of a length, relative */
 
@@ -26,34 +27,33 @@ typedef struct synthetic {
 } synthetic;
 
 static const ff_param params[] = {
-    FF_LIST(
-        "rq", "um", synthetic, rq, FF_REQUIRED, NULL, NULL, 0, 100, 0, 10, 1, 2,
-        "root mean square roughness of flank 1 and of flank 2, met exactly; one number: of both"),
+    FF_LIST("rq", "um", synthetic, rq, FF_REQUIRED, NULL, NULL, 0, 100, 0, 10, 1, 2,
+            "root mean square roughness of flank 1 and flank 2, met exactly; one number: both"),
     FF_LIST("seed", "1", synthetic, seed, FF_WHOLE, "1", NULL, 0, 9007199254740992, 0, 0, 1, 2,
-            "number that the phases of flank 1 and of flank 2 are drawn from; the flanks differ "
-            "with one number too, and the second number leaves flank 1 as it is"),
+            "random seeds of the phases of flank 1 and flank 2; with one seed the flanks still "
+            "differ, and the second seed does not affect flank 1"),
     FF_QUANTITY("shortest", "um", synthetic, shortest, 0, "20 um", NULL, 1e-3, 1e6, 0, 0,
                 "shortest wavelength"),
     FF_QUANTITY("longest", "um", synthetic, longest, 0, "800 um", NULL, 1e-3, 1e6, 0, 0,
                 "longest wavelength"),
     FF_QUANTITY("spectrum_slope", "1", synthetic, spectrum_slope, 0, "2", NULL, -10, 10, 0, 4,
-                "the power spectral density falls with this power of the wavenumber; 2: amplitudes "
-                "in proportion to the wavelength (Sayles and Thomas 1978)"),
+                "exponent by which the power spectral density falls with the wavenumber; 2: "
+                "amplitudes proportional to the wavelength (Sayles and Thomas 1978)"),
     FF_ONE_OF("fixed|gaussian", "amplitudes", synthetic, amplitudes, 0, "fixed",
               "fixed: each wave has the amplitude of the spectrum and a random phase; gaussian: "
-              "sine and cosine have Gaussian amplitudes, so that the spectrum holds on average"),
+              "sine and cosine have Gaussian amplitudes, which match the spectrum on average"),
     FF_QUANTITY_OR(
         "auto", "length", "um", synthetic, length, 0, "auto", NULL, 1e-3, 1e7, 0, 0,
         "length of the record, after which it repeats; auto: 10 times the longest wavelength"),
     FF_QUANTITY_OR("auto", "spacing", "um", synthetic, spacing, FF_TUNABLE, "auto", NULL, 1e-4, 1e6,
                    0, 0,
-                   "greatest distance of the points, whose number is a power of 2; auto: a 32nd of "
+                   "largest point spacing; the number of points is a power of 2; auto: a 32nd of "
                    "the shortest wavelength"),
     FF_QUANTITY("origin", "um", synthetic, origin, 0, "0 um", NULL, -1e9, 1e9, 0, 0,
-                "arc coordinate of both flanks at x = 0 at the first time"),
+                "arc coordinate of both flanks that lies at x = 0 at the first time"),
 };
 
-/* The waves: harmonics `first` to `last` of the record's length, sampled at n points. */
+/* The waves: harmonics `first` to `last` of the record length, sampled at n points. */
 typedef struct band {
     size_t n, first, last;
     double length;
@@ -105,7 +105,7 @@ static uint64_t mix(uint64_t z)
     return z ^ (z >> 31);
 }
 
-/* Draws a number evenly from [0, 1) that depends only on the arguments. */
+/* Draws a uniform number from [0, 1) that depends only on the arguments. */
 static double draw(double seed, size_t flank, size_t harmonic, size_t which)
 {
     const uint64_t golden = UINT64_C(0x9e3779b97f4a7c15);
@@ -155,7 +155,7 @@ static void report(const synthetic *s, const band *b, const surface_record *reco
             worst =
                 fmax(worst, fabs(surface_rms(record->n, record->height[g]) / record->rq[g] - 1));
     s->host->quality(s->host->ctx, "rq_error", worst, 1e-12, worst <= 1e-12 ? FF_GOOD : FF_BAD,
-                     "departure of the Rq of the record from the one asked for");
+                     "relative difference between the Rq of the record and the given rq");
     double points = shortest / record->spacing;
     s->host->quality(s->host->ctx, "points_per_shortest_wave", points, 16,
                      points >= 16 ? FF_GOOD : FF_DOUBTFUL,

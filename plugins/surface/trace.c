@@ -24,7 +24,7 @@ const ff_param surface_trace_columns[SURFACE_TRACE_COLUMNS] = {
      .max_count = SURFACE_POINTS},
     {.name = "height",
      .unit = "um",
-     .doc = "of the profile, positive out of the metal",
+     .doc = "height of the profile, positive out of the metal",
      .type = FF_REALS,
      .flags = FF_REQUIRED,
      .min = -1e6,
@@ -54,7 +54,7 @@ size_t surface_trace_cells(const surface_trace *t, double spacing)
     return cells <= SURFACE_POINTS ? (size_t)cells : SURFACE_POINTS + 1;
 }
 
-/* Whether the points of the file are already at the requested places. */
+/* Whether the points of the file already lie at the required positions. */
 static bool stands_at(const surface_trace *t, double spacing, size_t n)
 {
     bool stands = t->n == n;
@@ -63,8 +63,8 @@ static bool stands_at(const surface_trace *t, double spacing, size_t n)
     return stands;
 }
 
-/* Returns the integral of the trace from its first point to x. For calls with rising x, *k is
- * the interval that contains x, and *before the integral up to its start. */
+/* Returns the integral of the trace from its first point to x. Repeated calls must have increasing
+   x: *k is the interval that contains x, *before the integral up to its start. */
 static double integral_to(const surface_trace *t, double x, size_t *k, double *before)
 {
     const double *p = t->position, *z = t->height;

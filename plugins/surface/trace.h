@@ -14,13 +14,13 @@ typedef struct surface_trace {
 enum { SURFACE_TRACE_POSITION, SURFACE_TRACE_HEIGHT, SURFACE_TRACE_COLUMNS };
 extern const ff_param surface_trace_columns[SURFACE_TRACE_COLUMNS];
 
-/* Reads and checks the file; the trace lives as long as the instance. */
+/* Reads and checks the file; the trace is valid as long as the instance. */
 ff_status surface_trace_read(const ff_host *host, const char *item, const char *path,
                              surface_trace *trace);
 
-/* Heights at position[0] + i * spacing. Each is the mean, over the cell around it, of the
- * straight lines between the points of the file, so that resampling keeps the integral; points
- * that are already there are kept. `height` has room for surface_trace_cells() numbers. */
+/* Heights at position[0] + i * spacing. Each is the mean of the piecewise linear trace over the
+   cell around it, so that resampling preserves the integral. Points that already have this spacing
+   are copied. `height` must have room for surface_trace_cells() numbers. */
 size_t surface_trace_cells(const surface_trace *trace, double spacing);
 void surface_trace_resample(const surface_trace *trace, double spacing, size_t n, double *height);
 

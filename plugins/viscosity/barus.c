@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Barus: eta = eta0 exp(alpha p), with alpha of the law or, at each temperature, of the oil. */
+/* Barus: eta = eta0 exp(alpha p). alpha is a parameter or, at each temperature, that of the oil. */
 #include "law.h"
 #include "references.h"
 
@@ -15,7 +15,7 @@ typedef struct barus {
     viscosity_alpha own; /* alpha NaN: that of the oil is used */
 } barus;
 
-/* Adds the rise if alpha changes with temperature. */
+/* Adds the rise of the viscosity if alpha varies with temperature. */
 static ff_status add_rise(const barus *b, size_t n, const double *p, const double *T,
                           double *ln_eta, double *dln_dp, double *dln_dT)
 {
@@ -62,7 +62,7 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
 static const ff_param params[] = {
     VISCOSITY_OIL_ROWS(barus),
     FF_QUANTITY("alpha", "1/GPa", barus, own.alpha, 0, NULL, NULL, 0, 1000, 2, 50,
-                "pressure-viscosity coefficient; without it that of the oil at its temperature"),
+                "pressure-viscosity coefficient; left out: that of the oil at its temperature"),
     VISCOSITY_ALPHA_SLOPE_ROW(barus, own.slope),
     VISCOSITY_AT_ROW(barus, own.at),
 };
@@ -78,7 +78,7 @@ static ff_status ready(void *self)
 
 FF_VISCOSITY_LAW(
     viscosity_barus, barus, eval, .id = "viscosity/barus", .version = "1.0.0",
-    .summary = "exponential rise of viscosity with pressure; too steep above some 0.5 GPa",
+    .summary = "exponential rise of viscosity with pressure; too steep above about 0.5 GPa",
     .reference = "Barus 1893, American Journal of Science 45, 87-96", .bibtex = BIB_Barus1893,
     .licence = "GPL-3.0-or-later", .params = FF_TABLE(params), .inputs = FF_TABLE(viscosity_inputs),
     .wire = viscosity_wire, .ready = ready, .cost = 7e-4);

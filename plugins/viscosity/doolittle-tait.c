@@ -21,10 +21,10 @@ typedef struct doolittle_tait {
     double B, V_occ, K0, K0_prime;
     double K0_decay, V_occ_slope, at; /* 1/K, 1/K, K */
     bool thermal;                     /* one of the slopes is not 0 */
-    double most, share; /* cap of p/K0: `most`, or `share` of the pole if that is less */
+    double most, share; /* cap of p/K0: `most`, or `share` of the pole if that is smaller */
 } doolittle_tait;
 
-/* Upper bound of V_occ, relative to the whole volume. */
+/* Upper bound of V_occ, relative to the total volume. */
 static const double MOST_OCCUPIED = 0.98;
 
 FF_SIMD
@@ -45,13 +45,12 @@ static void curve(const void *self, double ln_eta0, size_t n, const double *rest
     }
 }
 
-/* With x = p/K0(T), R = V_occ(T), w = 1 - V, f = V - R, w' = dw/dx = 1/(1 + k x), the rise and
- * its slopes are
- *   r = B R w/[f (1 - R)],   r_x = B R w'/f^2,
- *   r_xx = B R w' [2 w'/f - k w']/f^2,
- *   r_R = B w [1 + R/f + R/(1 - R)]/[f (1 - R)],   r_xR = B w' [1 + 2 R/f]/f^2.
- * Above the cap c, r continues as its tangent in x. If c is a share of the pole, it moves with
- * R. */
+/* With x = p/K0(T), R = V_occ(T), w = 1 - V, f = V - R, w' = dw/dx = 1/(1 + k x), the rise and its
+   slopes are
+     r = B R w/[f (1 - R)],   r_x = B R w'/f^2,   r_xx = B R w' [2 w'/f - k w']/f^2,
+     r_R = B w [1 + R/f + R/(1 - R)]/[f (1 - R)],   r_xR = B w' [1 + 2 R/f]/f^2.
+   Above the cap c, r continues along its tangent in x. If c is a share of the pole, it depends on
+   R. */
 FF_SIMD
 static int64_t rise(const void *self, size_t n, const double *restrict p, const double *restrict T,
                     double *restrict rise, double *restrict by_p, double *restrict by_T)
@@ -116,11 +115,11 @@ static const ff_param params[] = {
     FF_QUANTITY("K0", "GPa", doolittle_tait, K0, FF_REQUIRED, NULL, NULL, 0.01, 1000, 0.5, 3,
                 "bulk modulus at ambient pressure"),
     FF_QUANTITY("K0_prime", "1", doolittle_tait, K0_prime, FF_REQUIRED, NULL, NULL, 0, 100, 8, 13,
-                "rise of the bulk modulus with pressure"),
+                "derivative of the bulk modulus over pressure"),
     FF_QUANTITY("K0_decay", "1/K", doolittle_tait, K0_decay, 0, "0 1/K", NULL, -0.02, 0.05, 0,
-                0.009, "fall of ln(K0) with temperature, from that at `at`"),
+                0.009, "decrease of ln(K0) per kelvin above the temperature `at`"),
     FF_QUANTITY("V_occ_slope", "1/K", doolittle_tait, V_occ_slope, 0, "0 1/K", NULL, -0.02, 0.02,
-                -0.004, 0, "change of ln(V_occ) with temperature, from that at `at`"),
+                -0.004, 0, "change of ln(V_occ) per kelvin above the temperature `at`"),
     VISCOSITY_AT_ROW(doolittle_tait, at),
 };
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What viscosity laws share: the oil, the cap, and the slope over temperature. */
+/* Functions shared by the viscosity laws: the oil, the pressure cap, and the slope over
+   temperature. */
 #include "law.h"
 
 #include "../numerics/liquid.h"
@@ -9,13 +10,14 @@
 
 enum { BLOCK = 256 };
 
-const ff_port viscosity_inputs[1] = {{.name = "oil",
-                                      .unit = "",
-                                      .doc = "the oil over temperature, in place of eta0",
-                                      .dims = "",
-                                      .service = FF_LIQUID_ID,
-                                      .flags = FF_OPTIONAL,
-                                      .from = "lubricant"}};
+const ff_port viscosity_inputs[1] = {
+    {.name = "oil",
+     .unit = "",
+     .doc = "the oil as a function of temperature, instead of eta0",
+     .dims = "",
+     .service = FF_LIQUID_ID,
+     .flags = FF_OPTIONAL,
+     .from = "lubricant"}};
 
 ff_status viscosity_wire(void *self, uint32_t input, const void *service)
 {
@@ -35,12 +37,12 @@ ff_status viscosity_alpha_ready(const ff_host *host, const viscosity_oil *oil, c
 {
     if (!oil->liquid)
         return ff_failf(host, FF_INVALID, "alpha",
-                        "alpha%s is missing, and there is no oil that tells it", other);
+                        "alpha%s is missing, and no oil is wired that gives it", other);
     if (numerics_is_known(oil->liquid, FF_LIQUID_PRESSURE_COEFFICIENT))
         return FF_OK;
     return ff_failf(host, FF_INVALID, "alpha",
-                    "alpha%s is missing, and the oil does not tell its pressure coefficient; give "
-                    "it here, or alpha and alpha_at, or a base oil, to the oil",
+                    "alpha%s is missing, and the oil has no pressure coefficient; give it here, or "
+                    "give alpha and alpha_at, or a base oil, to the oil",
                     other);
 }
 
@@ -119,12 +121,11 @@ ff_status viscosity_at_ready(const ff_host *host, double *at, double slope, cons
     bool given = !isnan(*at), flat = slope <= 0 && slope >= 0;
     if (!given)
         *at = 313.15; /* unused, since the slope is 0 */
-    return given || flat
-               ? FF_OK
-               : ff_failf(
-                     host, FF_INVALID, "at",
-                     "%s needs the temperature that the other constants of the law hold at: at",
-                     name);
+    return given || flat ? FF_OK
+                         : ff_failf(host, FF_INVALID, "at",
+                                    "%s needs the temperature for which the other constants of the "
+                                    "law are given: at",
+                                    name);
 }
 
 double viscosity_one_temperature(const viscosity_law *law, double at, const double *T)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The viscosity laws that this shared object exports. */
+/* Lists the viscosity laws of this shared object. */
 #include <flankfilm/author.h>
 
 extern const ff_model viscosity_isoviscous, viscosity_barus, viscosity_roelands,

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Bode's law: ln(eta/eta0) = p/(A + B p), A = a1 + a2 T, B = b1 + b2 T (T in K), as Gold et al.
- * 2001 fit it to gear oils. A base oil has the A and B of its ISO VG 100 oil. For another oil of
- * the base, A is multiplied by the pressure coefficient of the VG 100 oil over its own, so that
- * the slope at ambient pressure is right. */
+/* Bode's law: ln(eta/eta0) = p/(A + B p), A = a1 + a2 T, B = b1 + b2 T (T in K), fitted to gear
+   oils by Gold et al. 2001. For a base oil, A and B are those of its ISO VG 100 oil. For another
+   oil of the same base, A is multiplied by the ratio of the pressure coefficients, VG 100 oil over
+   this oil, so that the slope at ambient pressure is right. */
 #include "law.h"
 #include "references.h"
 
@@ -32,10 +32,10 @@ typedef struct modulus {
     ff_viscosity service;
     viscosity_oil oil;
     double a1, a2, b1, b2; /* SI; a1 NaN: by the base oil */
-    double factor;         /* on ln(eta/eta0) */
-    int32_t base;          /* -1: the base of the wired oil */
+    double factor;         /* factor on ln(eta/eta0) */
+    int32_t base;          /* -1: that of the wired oil */
     double least, most;    /* K, the range of the law */
-    bool measured;         /* the constants are measured ones of the base */
+    bool measured;         /* true: the constants are measured ones of a base oil */
     bool scaled;
     double scale[NODES], slope[NODES]; /* 1, 1/K */
 } modulus;
@@ -73,7 +73,7 @@ static moduli moduli_at(const modulus *m, double T)
     return (moduli){over * A * scale, over * B, over * (m->a2 * scale + A * slope), over * m->b2};
 }
 
-/* The law at one temperature. */
+/* The law at a single temperature. */
 typedef struct isotherm {
     double A, B, cap;
 } isotherm;
@@ -91,7 +91,7 @@ static void curve(const void *law, double ln_eta0, size_t n, const double *restr
     }
 }
 
-/* Returns 1 if a law with measured constants is extrapolated beyond the measurements. */
+/* Returns 1 if measured constants are extrapolated beyond the measurements. */
 static int extrapolates(const modulus *m, double p, double T)
 {
     const double rounding = 1e-9;
@@ -143,23 +143,23 @@ static const ff_param params[] = {
     VISCOSITY_OIL_ROWS(modulus),
     FF_ONE_OF(
         "paraffinic|naphthenic|PAO", "base", modulus, base, 0, NULL,
-        "measured ISO VG 100 oil, whose A and B hold as they are; without it that of the "
-        "oil's base (of mineral ones the paraffinic one), brought to the pressure coefficient "
-        "of the oil"),
-    FF_QUANTITY("a1", "Pa", modulus, a1, 0, NULL, NULL, -1e12, 1e12, -2e8, 2e8,
-                "A at 0 K, in place of that of the base; with a2 = 0 the A of any temperature"),
+        "measured ISO VG 100 oil, whose A and B are used unchanged; left out: that of the oil's "
+        "base (mineral: the paraffinic one), with A scaled to the pressure coefficient of the oil"),
+    FF_QUANTITY(
+        "a1", "Pa", modulus, a1, 0, NULL, NULL, -1e12, 1e12, -2e8, 2e8,
+        "A at 0 K, instead of that of the base oil; with a2 = 0 it is A at every temperature"),
     FF_QUANTITY("a2", "Pa/K", modulus, a2, 0, "0 Pa/K", NULL, -1e10, 1e10, 0, 1e6,
                 "slope of A over temperature"),
     FF_QUANTITY("b1", "1", modulus, b1, 0, NULL, NULL, -100, 100, -0.2, 0.2,
-                "B at 0 K; 0 where a1 is given alone: Barus"),
+                "B at 0 K; 0 if only a1 is given: Barus"),
     FF_QUANTITY("b2", "1/K", modulus, b2, 0, "0 1/K", NULL, -1, 1, -1e-3, 1e-3,
                 "slope of B over temperature"),
     FF_QUANTITY("pressure_factor", "1", modulus, factor, FF_MIN_OPEN, "1", NULL, 0, 10, 0.8, 1.25,
-                "on ln(eta/eta0), and so on the pressure coefficient: how sure the rise with "
-                "pressure is, 1 +- 0.1"),
+                "factor on ln(eta/eta0), and thus on the pressure coefficient; its uncertainty is "
+                "1 +- 0.1"),
 };
 
-/* Takes the constants of the base oil that the law or the oil names. */
+/* Takes the constants of the base oil given in the law or in the wired oil. */
 static ff_status take_base(modulus *m)
 {
     static const int of_oil[] = {[FF_BASE_MINERAL] = PARAFFINIC, [FF_BASE_PAO] = PAO};
@@ -170,9 +170,9 @@ static ff_status take_base(modulus *m)
     bool known = base >= 0 && base <= FF_BASE_PAO, typed = m->base >= 0;
     if (m->base < 0 && !known)
         return ff_failf(m->host, FF_INVALID, "base",
-                        "A and B are known of mineral oils and PAO alone, and %s: give a1, a2, b1 "
-                        "and b2, or base, or take another law",
-                        isnan(base) ? "the oil does not tell its base" : "this oil is another");
+                        "A and B are known for mineral oils and PAO only, and %s: give a1, a2, b1 "
+                        "and b2, or base, or use another law",
+                        isnan(base) ? "the base of the oil is unknown" : "this oil is another");
     if (m->base < 0)
         m->base = of_oil[(int)base];
     else if (known && (m->base == PAO) != (of_oil[(int)base] == PAO))
@@ -189,8 +189,8 @@ static ff_status take_base(modulus *m)
     return FF_OK;
 }
 
-/* Returns the pressure coefficient of the VG 100 oil over that of the oil, and its slope. An oil
- * without a coefficient counts as VG 100. */
+/* Returns the pressure coefficient of the VG 100 oil over that of the oil, and its slope over T. An
+   oil without a coefficient counts as VG 100. */
 static double ratio_at(const ff_liquid *liquid, double T, double *slope)
 {
     double own = NAN, by_own = NAN, base = NAN, by_base = NAN;
@@ -229,7 +229,8 @@ static bool holds_at(const modulus *m, double T, double least)
     return at.A >= least && at.A + at.B * m->oil.pressure_cap >= least;
 }
 
-/* Returns how far from T, where the law holds, towards `last` it continues to hold. */
+/* Searches from T, where the law holds, towards `last`. Returns the temperature up to which it
+   holds. */
 static double end_of_range(const modulus *m, double T, double last, double least)
 {
     enum { STEPS = 500, HALVINGS = 40 };
@@ -258,7 +259,7 @@ static ff_status ready(void *self)
     m->scaled = m->measured = false;
     if (!isnan(m->a1) && m->base >= 0)
         return ff_failf(m->host, FF_INVALID, "base",
-                        "a1 is given, and base tells another one: leave one of them out");
+                        "a1 and base both determine A: leave one of them out");
     if (isnan(m->a1) && alone)
         return ff_failf(m->host, FF_INVALID, "a1",
                         "a2, b1 and b2 need a1, the A that they go with");
@@ -284,12 +285,12 @@ static ff_status ready(void *self)
     return FF_OK;
 }
 
-FF_VISCOSITY_LAW(viscosity_modulus, modulus, eval, .id = "viscosity/modulus", .version = "1.0.0",
-                 .summary = "measured rise of gear oils up to 1 GPa, by the base of the oil",
-                 .reference =
-                     "Gold, Schmidt, Dicke, Loos & Assmann 2001, J. Synth. Lubr. 18, "
-                     "51-79; Arana, Larranaga & Ulacia 2019, tables 2 and 3, after Mann 1995 "
-                     "and Hoglund 1999",
-                 .bibtex = BIB_Gold2001 "\n" BIB_Arana2019, .licence = "GPL-3.0-or-later",
-                 .params = FF_TABLE(params), .inputs = FF_TABLE(viscosity_inputs),
-                 .wire = viscosity_wire, .ready = ready, .cost = 1e-3);
+FF_VISCOSITY_LAW(
+    viscosity_modulus, modulus, eval, .id = "viscosity/modulus", .version = "1.0.0",
+    .summary = "measured viscosity rise of gear oils up to 1 GPa, depending on the base oil",
+    .reference = "Gold, Schmidt, Dicke, Loos & Assmann 2001, J. Synth. Lubr. 18, "
+                 "51-79; Arana, Larranaga & Ulacia 2019, tables 2 and 3, after Mann 1995 "
+                 "and Hoglund 1999",
+    .bibtex = BIB_Gold2001 "\n" BIB_Arana2019, .licence = "GPL-3.0-or-later",
+    .params = FF_TABLE(params), .inputs = FF_TABLE(viscosity_inputs), .wire = viscosity_wire,
+    .ready = ready, .cost = 1e-3);

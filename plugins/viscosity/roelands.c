@@ -22,8 +22,8 @@ typedef struct roelands {
     bool thermal;          /* the law depends on temperature */
 } roelands;
 
-/* The values for a point with a liquid, with slopes over T: L = ln eta0 + 9.67, and z, which is
- * alpha p0/L if it is not given. */
+/* The values at one point with a liquid, with slopes over T: L = ln eta0 + 9.67, and z; z is alpha
+   p0/L unless it is given. */
 typedef struct isotherm {
     double rise, rise_T, z, z_T;
 } isotherm;
@@ -97,7 +97,7 @@ static ff_status eval_thermal(const roelands *r, size_t n, const double *p, cons
     return worst;
 }
 
-/* Sets rise and exponent for the one temperature of all points. */
+/* Sets rise and exponent for the common temperature of all points. */
 static ff_status take_isotherm(const roelands *r, const double *T, double *rise, double *z)
 {
     double ln, alpha = NAN, slope;
@@ -111,7 +111,7 @@ static ff_status take_isotherm(const roelands *r, const double *T, double *rise,
     return status;
 }
 
-/* The law at one temperature. */
+/* The law at a single temperature. */
 typedef struct isothermal {
     double rise, z, p0, cap;
 } isothermal;
@@ -151,13 +151,13 @@ static const ff_param params[] = {
     VISCOSITY_OIL_ROWS(roelands),
     FF_QUANTITY("z", "1", roelands, z, 0, NULL, "slope", 0, 2, 0.2, 1.2, "pressure exponent"),
     FF_QUANTITY("alpha", "1/GPa", roelands, own.alpha, 0, NULL, "slope", 0, 1000, 2, 50,
-                "slope of ln(eta) at ambient pressure; gives z = alpha p0/(ln eta0 + 9.67); "
-                "without both that of the oil"),
+                "slope of ln(eta) at ambient pressure; gives z = alpha p0/(ln eta0 + 9.67); if "
+                "neither alpha nor z is given, that of the oil"),
     FF_QUANTITY("p0", "MPa", roelands, p0, 0, "196 MPa", NULL, 10, 1e4, 190, 200,
                 "pressure constant of the law"),
     FF_QUANTITY_UNLESS("oil", "s0", "1", roelands, s0, 0, "0", NULL, 0, 10, 0, 2,
-                       "fall of ln(eta0) + 9.67 with temperature by [(T - 138)/(at - 138)]^-s0, T "
-                       "in K, of a contact without an oil; 0: none"),
+                       "temperature exponent for a contact without an oil: ln(eta0) + 9.67 "
+                       "decreases as [(T - 138)/(at - 138)]^-s0, T in K; 0: no decrease"),
     VISCOSITY_ALPHA_SLOPE_ROW(roelands, own.slope),
     VISCOSITY_AT_ROW(roelands, own.at),
 };

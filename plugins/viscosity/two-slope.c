@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Two slopes: ln(eta/eta0) rises by alpha_1 up to the transition and by alpha_2 above it (Allen,
- * Townsend & Zaretsky 1970). Over `transition_width` the slope changes linearly from one to the
- * other, which is the cubic of Goglia, Cusano & Conry 1984. */
+/* Two slopes: ln(eta/eta0) has the slope alpha_1 below the transition and alpha_2 above it (Allen,
+   Townsend & Zaretsky 1970). Over `transition_width` the slope changes linearly from one to the
+   other, which is the cubic of Goglia, Cusano & Conry 1984. */
 #include "law.h"
 #include "references.h"
 
@@ -77,8 +77,9 @@ static const ff_param params[] = {
                 "pressure-viscosity coefficient above the transition"),
     FF_QUANTITY("p_transition", "GPa", two_slope, middle, FF_REQUIRED | FF_MIN_OPEN, NULL, NULL, 0,
                 100, 0.05, 1, "pressure at which the two lines of ln(eta) meet"),
-    FF_QUANTITY("transition_width", "GPa", two_slope, width, 0, "0 GPa", NULL, 0, 100, 0, 0,
-                "range of pressure around p_transition over which the slope changes; 0: it jumps"),
+    FF_QUANTITY(
+        "transition_width", "GPa", two_slope, width, 0, "0 GPa", NULL, 0, 100, 0, 0,
+        "pressure range around p_transition over which the slope changes; 0: the slope jumps"),
     VISCOSITY_ALPHA_SLOPE_ROW(two_slope, alpha_slope),
     VISCOSITY_AT_ROW(two_slope, at),
 };

@@ -71,21 +71,21 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
 static const ff_param params[] = {
     VISCOSITY_OIL_ROWS(yasutomi),
     FF_QUANTITY("Tg0", "degC", yasutomi, Tg0, FF_REQUIRED, NULL, NULL, -200, 100, -120, 0,
-                "temperature of the glass at ambient pressure"),
+                "glass transition temperature Tg0 at ambient pressure"),
     FF_QUANTITY("A1", "K", yasutomi, A1, FF_REQUIRED, NULL, NULL, 1, 5000, 20, 500,
                 "Tg = Tg0 + A1 ln(1 + A2 p)"),
     FF_QUANTITY("A2", "1/GPa", yasutomi, A2, FF_REQUIRED, NULL, NULL, 0.01, 100, 0.2, 5,
                 "Tg = Tg0 + A1 ln(1 + A2 p)"),
     FF_QUANTITY("B1", "1", yasutomi, B1, FF_REQUIRED, NULL, NULL, 0, 100, 0.1, 10,
-                "F = 1 - B1 ln(1 + B2 p), relative expansivity of the free volume"),
+                "relative expansivity of the free volume F = 1 - B1 ln(1 + B2 p)"),
     FF_QUANTITY("B2", "1/GPa", yasutomi, B2, FF_REQUIRED, NULL, NULL, 0, 1000, 0.05, 50,
                 "F = 1 - B1 ln(1 + B2 p)"),
     FF_QUANTITY("C1", "1", yasutomi, C1, FF_REQUIRED, NULL, NULL, 1, 100, 8, 20,
-                "lg(eta_g/eta) far above the glass"),
+                "lg(eta_g/eta) far above the glass transition"),
     FF_QUANTITY("C2", "K", yasutomi, C2, FF_REQUIRED, NULL, NULL, 1, 500, 10, 60,
                 "lg(eta_g/eta) = C1 (T - Tg) F/[C2 + (T - Tg) F]"),
     FF_QUANTITY_OR("auto", "at", "degC", yasutomi, at, 0, "auto", NULL, -150, 500, -20, 150,
-                   "temperature that eta0 of a contact without an oil holds at; auto: 40 degC"),
+                   "temperature of eta0, for a contact without an oil; auto: 40 degC"),
 };
 
 static ff_status ready(void *self)
