@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rules for the history of a contact: kinematics and Hertz. */
+/* Checks of a contact history: kinematics and Hertz. */
 #include "evaluation.h"
 #include "offer.h"
 
@@ -102,13 +102,13 @@ static void give_pair(const ff_fixture *fixture)
     conformance_give_series(fixture, "load.tooth_force", STATIONS, force);
 }
 
-/* roll = omega t, u1 = omega R1, u2 = omega z1/z2 R2, w = W/b, at the given stations. */
+/* At the given stations: roll = omega t, u1 = omega R1, u2 = omega z1/z2 R2, w = W/b. */
 static void passage(const ff_fixture *fixture)
 {
     conformance_evaluation run;
     if (ff_model_find_input(fixture->model, "load.tooth_force") < 0 ||
         ff_model_find_input(fixture->model, "gear.radius_1") < 0) {
-        fixture->skip(fixture->ctx, NULL); /* this is no pair of teeth */
+        fixture->skip(fixture->ctx, NULL); /* the model is no pair of teeth */
         return;
     }
     give_pair(fixture);
@@ -142,11 +142,11 @@ static void passage(const ff_fixture *fixture)
 static const ff_check checks[] = {
     {"kinematics", "speeds of rolling and sliding are those of the surfaces", kinematics},
     {"hertz", "radius, width and pressure are those of Hertz", hertz},
-    {"passage", "a pair of teeth rolls, slides and bears as gears do", passage},
+    {"passage", "speeds and load of a pair of teeth are those of the gears", passage},
 };
 
 const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
                                           .checks = FF_TABLE(checks)};
 
-CONFORMANCE_MODEL("contact", "what a contact history keeps: kinematics and Hertz",
+CONFORMANCE_MODEL("contact", "checks of a contact history: kinematics and Hertz",
                   "Hertz 1881; Johnson 1985, Contact Mechanics");

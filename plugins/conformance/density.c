@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rules for a density law: positive, not falling with pressure, equal to its oil at ambient
- * pressure. */
+/* Checks of a density law: positive, not decreasing with pressure, equal to its oil at ambient
+   pressure. */
 #include "law-checks.h"
 #include "law-data.h"
 #include "offer.h"
@@ -62,8 +62,8 @@ static void compression(const ff_fixture *fixture)
 
 static const ff_check checks[] = {
     CONFORMANCE_LAW_CHECKS,
-    {"ambient", "is its oil at ambient pressure, and lighter the warmer it is", ambient},
-    {"compression", "gives way to pressure as a liquid does", compression},
+    {"ambient", "equals its oil at ambient pressure, and decreases with temperature", ambient},
+    {"compression", "is as compressible as a liquid", compression},
 };
 
 const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
@@ -71,7 +71,7 @@ const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
                                           .service = FF_DENSITY_ID,
                                           .plain = &liquid};
 
-CONFORMANCE_MODEL(
-    "density",
-    "what a density law keeps: finite, pure, positive, never falling with pressure, its oil",
-    "Bridgman 1931, The Physics of High Pressure");
+CONFORMANCE_MODEL("density",
+                  "checks of a density law: finite, pure, positive, not decreasing with pressure, "
+                  "equal to its oil",
+                  "Bridgman 1931, The Physics of High Pressure");

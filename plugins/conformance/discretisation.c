@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Draft. Rules for a discretisation of the film (film.h): exact films of rigid flanks, and
- * balances of an elastic one. */
+/* Draft. Checks of a film discretisation (film.h): exact films of rigid flanks, and balances of an
+   elastic film. */
 #include "film-cases.h"
 #include "offer.h"
 
@@ -8,8 +8,8 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* A rigid cylinder that comes down through oil, without entrainment:
-   p = 6 eta V R (1/h^2 - 1/h_end^2), V = -dh/dt. */
+/* A rigid cylinder that approaches through oil, without entrainment: p = 6 eta V R (1/h^2 -
+   1/h_end^2), V = -dh/dt. */
 static void squeeze(const ff_fixture *fixture)
 {
     const double fall = 0.02; /* V, m/s */
@@ -28,7 +28,7 @@ static void squeeze(const ff_fixture *fixture)
             double h = film_case_gap(&c, i),
                    p = 6 * c.eta * fall * c.instant.radius * (1 / (h * h) - 1 / (end * end)),
                    top = 6 * c.eta * fall * c.instant.radius / (c.state.h00 * c.state.h00);
-            if (!film_case_near(&c, "the pressure of a cylinder that comes down at 0.02 m/s", i,
+            if (!film_case_near(&c, "the pressure under a cylinder that approaches at 0.02 m/s", i,
                                 c.state.p[i], p, top, 0.03))
                 break;
         }
@@ -52,8 +52,8 @@ static void wedge(const ff_fixture *fixture)
     film_case_close(&c);
 }
 
-/* If shear makes the oil three times as fluid, the same pressure moves three times as much, so
- * that the load is a third. */
+/* If shear makes the oil three times as fluid, the same pressure gives three times the flow, so the
+   load is a third. */
 static void fluidity(const ff_fixture *fixture)
 {
     film_case c;
@@ -64,8 +64,9 @@ static void fluidity(const ff_fixture *fixture)
     if (film_case_solve(&c)) {
         double expected =
             4.86526 * c.eta * c.instant.entrainment * c.instant.radius / c.state.h00 / 3;
-        film_case_near(&c, "the load of a rigid wedge of an oil that shear makes thrice as fluid",
-                       0, film_case_load(&c), expected, expected, 0.05);
+        film_case_near(
+            &c, "the load of a rigid wedge with an oil that shear makes three times as fluid", 0,
+            film_case_load(&c), expected, expected, 0.05);
     }
     film_case_close(&c);
 }
@@ -112,9 +113,9 @@ static void elastic(const ff_fixture *fixture)
 }
 
 static const ff_check checks[] = {
-    {"squeeze", "a rigid cylinder that comes down bears the exact pressure", squeeze},
-    {"wedge", "a rigid wedge bears Martin's load", wedge},
-    {"fluidity", "what shear does to the oil counts in the flow", fluidity},
+    {"squeeze", "a rigid approaching cylinder has the exact pressure", squeeze},
+    {"wedge", "a rigid wedge carries Martin's load", wedge},
+    {"fluidity", "the flow includes the effect of shear on the oil", fluidity},
     {"elastic", "load, deflection and flow are those of its pressure", elastic},
 };
 
@@ -122,5 +123,5 @@ const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
                                           .checks = FF_TABLE(checks)};
 
 CONFORMANCE_MODEL("discretisation",
-                  "what a discretisation of the film keeps: exact films, load, deflection, flow",
+                  "checks of a film discretisation: exact films, load, deflection, flow",
                   "Martin 1916, Engineering 102; Cameron 1966, Principles of Lubrication");

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rules for the motion of a gear pair: periodicity, momentum and energy, and exact cases. */
+/* Checks of the motion of a gear pair: periodicity, momentum and energy, and exact cases. */
 #include "evaluation.h"
 #include "offer.h"
 
@@ -18,8 +18,8 @@ typedef struct test_pair {
 
 static const test_pair plain = {.stiffness = 4e8, .mass = 1, .load = 3000, .frequency = 1000};
 
-/* Returns the roll angle of a station, which are spaced for double contact during 3/4 of a cycle
- * from SAP, and again before the tip. */
+/* Returns the roll angle of a station. The stations imply double contact during 3/4 of a cycle
+   after SAP, and again before the tip. */
 static double roll_of(int station)
 {
     const int part = station / (STATIONS / 3);
@@ -66,7 +66,7 @@ static void give_pair(const ff_fixture *fixture, const test_pair *s)
     conformance_give_series(fixture, "stiffness.loaded_transmission_error", PHASES, loaded);
     conformance_give_series(fixture, "stiffness.tooth_force", STATIONS, force);
     conformance_give_series(fixture, "stiffness.load_share", STATIONS, share);
-    /* the mass of the test pair, whatever the user's file has */
+    /* the mass of the test pair, even if the user's file has another one */
     fixture->set(fixture->ctx, "equivalent_mass", "1 kg");
 }
 
@@ -74,15 +74,15 @@ static const char wanted[] =
     "phase dte dte_velocity mesh_force dte_rms dte_mean dte_peak_to_peak "
     "period natural_frequency multipliers tooth_force dynamic_factor_tooth";
 
-/* Whether the pair can only rotate. With other freedoms it has other positions of rest; two
- * multipliers show that there are none. */
+/* Whether the pair can only rotate, which two multipliers show. With other degrees of freedom it
+   has other equilibrium positions. */
 static bool rotates_only(const conformance_evaluation *e)
 {
     size_t numbers = conformance_array_of(e, "multipliers").count;
     return numbers == 0 || numbers == 4;
 }
 
-/* Constant stiffness, no error: the pair rests at s = F/k, its force F. */
+/* With constant stiffness and no error, the pair rests at s = F/k and its force is F. */
 static void rest(const ff_fixture *fixture)
 {
     conformance_evaluation run;
@@ -100,7 +100,7 @@ static void rest(const ff_fixture *fixture)
            conformance_near(&run, "dte_peak_to_peak", 0,
                             conformance_scalar_of(&run, "dte_peak_to_peak"), 0, deflection, 1e-4);
     double mean = conformance_scalar_of(&run, "dte_mean");
-    /* s counts from the middle of the backlash, or from contact if there is no backlash */
+    /* s is measured from the middle of the backlash, or from contact if there is no backlash */
     if (good && fabs(mean - deflection) > 1e-4 * deflection)
         good =
             conformance_near(&run, "dte_mean", 0, mean, deflection + play_half, deflection, 1e-4);
@@ -132,8 +132,8 @@ static harmonic first_harmonic(conformance_array phase, conformance_array y, dou
 
 static const double damping = 0.05, ratio = 0.7; /* of a linear pair: zeta, and f over f_n */
 
-/* Opens a linear pair, of constant stiffness, under e = E cos(2 pi phase). False if the model
- * has no inertia, has other freedoms or lacks the parameters, which is then reported. */
+/* Opens a linear pair with constant stiffness, excited by e = E cos(2 pi phase). False, after a
+   report, if the model has no inertia, has other degrees of freedom or lacks the parameters. */
 static bool open_linear(conformance_evaluation *run, const ff_fixture *fixture, test_pair *s)
 {
     *s = plain;
@@ -154,9 +154,10 @@ static bool open_linear(conformance_evaluation *run, const ff_fixture *fixture, 
     return false;
 }
 
-/* F = (k + i w c)(S - E) and F = m w^2 S in the first harmonic, with w c = 2 zeta r k and m w^2
- * = r^2 k, for the mesh and for the mass. |S| = E sqrt(1 + d^2)/sqrt((1 - r^2)^2 + d^2), d = 2
- * zeta r. e is linear between 64 phases, so that its harmonic is sinc^2(1/64) of the cosine's. */
+/* In the first harmonic F = (k + i w c)(S - E) and F = m w^2 S, with w c = 2 zeta r k and m w^2 =
+   r^2 k. The first equation checks the mesh, the second the mass. |S| = E sqrt(1 + d^2)/sqrt((1 -
+   r^2)^2 + d^2), d = 2 zeta r. e is linear between 64 phases, so its harmonic is sinc^2(1/64) times
+   that of the cosine. */
 static void linear(const ff_fixture *fixture)
 {
     test_pair s;
@@ -182,7 +183,7 @@ static void linear(const ff_fixture *fixture)
                viscous = (F.cosine * W.sine - F.sine * W.cosine) / size,
                inertia = (F.cosine * S.cosine + F.sine * S.sine) /
                          (S.cosine * S.cosine + S.sine * S.sine);
-        /* -viscous: the cosine leads */
+        /* -viscous, since the cosine leads */
         if (conformance_near(&run, "mesh_force over the deflection, N/m,", 0, elastic, k, k,
                              0.02) &&
             conformance_near(&run, "the damper's share of it, 2 zeta r k,", 0, viscous, d * k,
@@ -193,8 +194,8 @@ static void linear(const ff_fixture *fixture)
     conformance_close(&run);
 }
 
-/* Checks that the tooth forces of the pairs in mesh add up to the mesh force, at phases away
- * from those at which a pair enters or leaves. */
+/* Checks that the tooth forces of the pairs in mesh sum to the mesh force, except near phases at
+   which a pair enters or leaves. */
 static void teeth(const ff_fixture *fixture)
 {
     static const double phases[] = {0.1, 0.3, 0.5, 0.6, 0.85, 0.9};
@@ -229,7 +230,7 @@ static void teeth(const ff_fixture *fixture)
     conformance_close(&run);
 }
 
-/* Opens the motion of the user's file, or that of a plain pair. */
+/* Opens the motion of the user's file, or that of a simple pair. */
 static bool open_motion(conformance_evaluation *e, const ff_fixture *fixture)
 {
     void *probe = fixture->open(fixture->ctx);
@@ -242,8 +243,8 @@ static bool open_motion(conformance_evaluation *e, const ff_fixture *fixture)
     return conformance_evaluate(e, fixture, wanted);
 }
 
-/* Position and velocity must return after the stated period; a decaying drift is allowed up to
- * 1e-3 of the motion. Without inertia, the position may jump with the stiffness. */
+/* Position and velocity must return after the given period; a decaying drift up to 1e-3 of the
+   motion is allowed. Without inertia, the position may jump with the stiffness. */
 static void periodicity(const ff_fixture *fixture)
 {
     conformance_evaluation run;
@@ -277,13 +278,13 @@ static void periodicity(const ff_fixture *fixture)
     conformance_close(&run);
 }
 
-/* m s'' = F - F_mesh. Over a period the mean mesh force is therefore the load (momentum), and
- * int (F_mesh - F) s' dt = 0: damping takes out what stiffness and error put in (energy). */
+/* m s'' = F - F_mesh. Therefore, over a period the mean mesh force equals the load (momentum), and
+   int (F_mesh - F) s' dt = 0: damping dissipates the work of stiffness and error (energy). */
 static void energy(const ff_fixture *fixture)
 {
     conformance_evaluation run;
     if (!conformance_offers(fixture, "dte_velocity")) {
-        fixture->skip(fixture->ctx, NULL); /* there is no inertia */
+        fixture->skip(fixture->ctx, NULL); /* the model has no inertia */
         return;
     }
     if (!open_motion(&run, fixture))
@@ -314,7 +315,7 @@ static void energy(const ff_fixture *fixture)
     conformance_close(&run);
 }
 
-/* Checks that the numbers which summarise a series follow from the series. */
+/* Checks that the scalars which summarise a series follow from the series. */
 static void means(const ff_fixture *fixture)
 {
     conformance_evaluation run;
@@ -348,8 +349,8 @@ static void means(const ff_fixture *fixture)
     conformance_close(&run);
 }
 
-/* Under an error that removes the load, flanks part and do not pull until the backlash is
- * crossed. A damper may pull, by up to 2 zeta r of the swing. */
+/* Under an error that removes the load, flanks separate and do not pull until the backlash is
+   crossed. A damper may pull, by up to 2 zeta r of the amplitude. */
 static void parting(const ff_fixture *fixture)
 {
     test_pair s = plain;
@@ -359,7 +360,7 @@ static void parting(const ff_fixture *fixture)
     give_pair(fixture, &s);
     fixture->set(fixture->ctx, "damping_ratio", "0.03");
     if (!conformance_offers(fixture, "dte_velocity")) {
-        fixture->skip(fixture->ctx, NULL); /* there is no inertia */
+        fixture->skip(fixture->ctx, NULL); /* the model has no inertia */
         return;
     }
     if (!conformance_evaluate(&run, fixture, wanted))
@@ -391,17 +392,17 @@ static void parting(const ff_fixture *fixture)
 
 static const ff_check checks[] = {
     {"rest", "a pair of constant stiffness rests at F/k", rest},
-    {"linear", "a linear pair answers as the oscillator of one degree of freedom", linear},
-    {"teeth", "the pairs in mesh bear what the mesh does", teeth},
+    {"linear", "a linear pair responds as an oscillator of one degree of freedom", linear},
+    {"teeth", "the tooth forces of the pairs in mesh sum to the mesh force", teeth},
     {"means", "mean, rms and range are those of the series", means},
-    {"parting", "flanks part, and do not pull within the backlash", parting},
-    {"periodicity", "position and velocity come back after the period", periodicity},
-    {"energy", "the mesh force holds the load, and works nothing over a period", energy},
+    {"parting", "flanks separate, and do not pull within the backlash", parting},
+    {"periodicity", "position and velocity return after the period", periodicity},
+    {"energy", "the mean mesh force is the load, and its net work over a period is 0", energy},
 };
 
 const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
                                           .checks = FF_TABLE(checks)};
 
-CONFORMANCE_MODEL(
-    "dynamics", "what the motion of a gear pair keeps: periodicity, momentum, energy, exact cases",
-    "");
+CONFORMANCE_MODEL("dynamics",
+                  "checks of the motion of a gear pair: periodicity, momentum, energy, exact cases",
+                  "");

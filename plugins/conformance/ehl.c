@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rules for a film: load balance, mass conservation, an exact limit, and steady films of an
- * independent program. */
+/* Checks of a film: load balance, mass conservation, an exact limit, and steady films computed by
+   an independent program. */
 #include "evaluation.h"
 #include "offer.h"
 
@@ -70,7 +70,7 @@ static double moes_film(const line_contact *c, double h)
     return h / c->radius / sqrt(2 * c->eta * c->speed / (c->modulus * c->radius));
 }
 
-/* Feeds `times` instants whose load swings by the share `swing`. */
+/* Feeds `times` instants; the load varies by the relative amplitude `swing`. */
 static void give_contact(const ff_fixture *fixture, const line_contact *c, size_t times,
                          double swing)
 {
@@ -137,7 +137,7 @@ static double flux_at(const line_contact *c, const double *x, const double *p, c
            cubes / (12 * c->eta) * (p[i] - p[i - 1]) / (x[i] - x[i - 1]);
 }
 
-/* Checks that u h - h^3/(12 eta) dp/dx is the same from the inlet to where the film ruptures. */
+/* Checks that u h - h^3/(12 eta) dp/dx is the same from the inlet to film rupture. */
 static void mass(const ff_fixture *fixture)
 {
     line_contact c;
@@ -169,8 +169,8 @@ static void mass(const ff_fixture *fixture)
     conformance_close(&run);
 }
 
-/* Rigid cylinder, isoviscous oil (Martin 1916): w h/(eta u R) = 4.86526 with an inlet at
-   20 sqrt(2 R h). */
+/* Rigid cylinder, isoviscous oil (Martin 1916): w h/(eta u R) = 4.86526 with the inlet at 20 sqrt(2
+   R h). */
 static void rigid(const ff_fixture *fixture)
 {
     const double h = 1e-6, number = 4.86526;
@@ -197,8 +197,8 @@ static void rigid(const ff_fixture *fixture)
     conformance_close(&run);
 }
 
-/* Central films of an independent program (dense Newton, extrapolated to a fine grid), to 1.5 % or
-   twice the error that the model itself states. */
+/* Central films of an independent program (dense Newton, extrapolated to a fine grid). The
+   tolerance is 1.5 %, or twice the error that the model itself states. */
 static void benchmark(const ff_fixture *fixture)
 {
     static const struct {
@@ -222,8 +222,9 @@ static void benchmark(const ff_fixture *fixture)
     }
 }
 
-/* A rigid contact whose load swings faster than oil can be squeezed out. A quasi-steady film
- * would swing by (1 + s)/(1 - s), as 1/w does; squeeze must leave less than half of that. */
+/* A rigid contact whose load varies faster than oil can be squeezed out. A quasi-steady film would
+   vary by the factor (1 + s)/(1 - s), as 1/w does; squeeze must leave less than half of this
+   variation. */
 static void squeeze(const ff_fixture *fixture)
 {
     const double h = 1e-6, swing = 0.5;
@@ -236,7 +237,7 @@ static void squeeze(const ff_fixture *fixture)
     }
     make_contact(&c, 1, 0);
     c.modulus = 1e18;
-    c.speed = 0.4; /* m/s: through the inlet, 160 um long, in twice the time of the history */
+    c.speed = 0.4; /* m/s: oil passes the inlet, 160 um long, in twice the time of the history */
     c.load = 4.86526 * c.eta * c.speed * c.radius / h;
     give_contact(fixture, &c, 24, swing);
     double width = sqrt(8 * c.load * (1 + swing) * c.radius / (pi * c.modulus)),
@@ -268,15 +269,15 @@ static void squeeze(const ff_fixture *fixture)
 
 static const ff_check checks[] = {
     {"balance", "the pressure carries the load at every instant", balance},
-    {"mass", "as much oil leaves a section as enters it", mass},
-    {"rigid", "a rigid contact of constant viscosity meets Martin's film", rigid},
-    {"benchmark", "smooth steady films are those of the literature", benchmark},
-    {"squeeze", "oil has to be squeezed out", squeeze},
+    {"mass", "the volume flow is the same at each section", mass},
+    {"rigid", "a rigid contact with constant viscosity has Martin's film", rigid},
+    {"benchmark", "smooth steady films agree with an independent program", benchmark},
+    {"squeeze", "squeeze limits the variation of the film", squeeze},
 };
 
 const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
                                           .checks = FF_TABLE(checks)};
 
-CONFORMANCE_MODEL("ehl",
-                  "what a film solution keeps: balance of load and mass, exact and published films",
-                  "Martin 1916, Engineering 102; Moes 2000, Lubrication and Beyond");
+CONFORMANCE_MODEL(
+    "ehl", "checks of a film solution: balance of load and mass, exact and independent films",
+    "Martin 1916, Engineering 102; Moes 2000, Lubrication and Beyond");

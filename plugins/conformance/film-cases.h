@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One instant of a line contact, which a discretisation under test solves. */
+/* One instant of a line contact, to be solved by a discretisation under test. */
 #ifndef FILM_CASES_H
 #define FILM_CASES_H
 
@@ -10,16 +10,16 @@
 
 enum { FILM_NODES = 193 };
 
-/* Rigid flanks with constant viscosity, which shear may make three times as fluid; or elastic
- * flanks with Barus' oil. FILM_EVEN: the nodes reach as far behind the contact as in front of
- * it. */
+/* The cases: rigid flanks with constant viscosity, optionally three times as fluid by shear; or
+   elastic flanks with Barus' oil. FILM_EVEN: the nodes extend as far behind the contact as in front
+   of it. */
 enum { FILM_PLAIN = 0, FILM_RIGID = 1, FILM_FLUID = 2, FILM_EVEN = 4 };
 
 typedef struct film_case {
     const ff_fixture *fixture;
     void *model, *solver;
     const ff_film *film;
-    double eta, alpha, rho; /* at p = 0; rho at any p */
+    double eta, alpha, rho; /* eta and alpha at p = 0; rho at any p */
     ff_viscosity viscosity;
     ff_density density;
     ff_rheology rheology;
@@ -30,9 +30,9 @@ typedef struct film_case {
     unsigned char full[FILM_NODES];
 } film_case;
 
-/* False, after a report, if there is nothing to check; otherwise to be closed. */
+/* False, after a report, if there is nothing to check; otherwise the caller closes the case. */
 bool film_case_open(film_case *c, const ff_fixture *fixture, unsigned how);
-/* False, after a report, if the result is not a film. */
+/* False, after a report, if the result is no valid film. */
 bool film_case_solve(film_case *c);
 void film_case_close(film_case *c);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rules for a spur gear pair: the identities of involutes. */
+/* Checks of a spur gear pair: the identities of involutes. */
 #include "evaluation.h"
 #include "offer.h"
 
@@ -7,8 +7,9 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* Radii of curvature are r_b roll and add up to the line of action between the base circles;
- * base = working pitch radius times cos alpha_w; contact ratio = path over base pitch. */
+/* Radii of curvature are r_b roll, and their sum is the line of action between the base circles.
+   The base radius is the working pitch radius times cos alpha_w. The contact ratio is path over
+   base pitch. */
 static void involute(const ff_fixture *fixture)
 {
     conformance_evaluation run;
@@ -79,7 +80,7 @@ static void path(const ff_fixture *fixture)
     conformance_close(&run);
 }
 
-/* No flank reaches beyond the tip circle: R = sqrt(r_a^2 - r_b^2) there. */
+/* No flank extends beyond the tip circle, where R = sqrt(r_a^2 - r_b^2). */
 static bool ends_at_tips(const conformance_evaluation *run)
 {
     conformance_array base = conformance_array_of(run, "base_radius"),
@@ -148,10 +149,10 @@ static void pair(const ff_fixture *fixture)
 static const ff_check checks[] = {
     {"involute", "radii, pitches and contact ratio are those of involutes", involute},
     {"path", "the path of contact runs from SAP to the tip", path},
-    {"pair", "circles, centres, mass and modulus are those of its data", pair},
+    {"pair", "radii, centre distance, mass and modulus follow from its data", pair},
 };
 
 const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
                                           .checks = FF_TABLE(checks)};
 
-CONFORMANCE_MODEL("gear", "what a gear pair keeps: the identities of involutes", "DIN 3960:1987");
+CONFORMANCE_MODEL("gear", "checks of a gear pair: the identities of involutes", "DIN 3960:1987");

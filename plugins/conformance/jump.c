@@ -5,11 +5,11 @@
 
 enum { INTERVALS = 256, HALVINGS = 80 };
 
-/* relative to the value, since a law may join its pieces by rounded constants */
+/* relative to the value, since a law may join its pieces with rounded constants */
 static const double least = 1e-6;
 
 typedef struct point {
-    double x, value, slope; /* slope 0: the law gives none */
+    double x, value, slope; /* slope 0: the law gives no slope */
 } point;
 
 static point point_at(const conformance_line *l, double x)
@@ -52,7 +52,7 @@ static bool is_jump(const conformance_line *l, point a, point b, conformance_jum
 bool conformance_find_jump(const conformance_line *l, conformance_jump *jump)
 {
     const conformance_axis *axis = l->function->axes[l->axis];
-    bool below = axis->logarithmic && axis->extremes[0] < 0; /* the range continues below 0 */
+    bool below = axis->logarithmic && axis->extremes[0] < 0; /* the axis continues below 0 */
     point last = point_at(l, below ? -axis->low : axis->low);
     bool found = false;
     for (int i = below ? 0 : 1; i <= INTERVALS && !found; i++) {

@@ -83,8 +83,8 @@ static batch batch_draw(const ff_fixture *fixture, const conformance_function *f
     return b;
 }
 
-/* Flags of the arguments that a call passes; the others are NULL: the optional argument, the
- * derivatives. */
+/* Which arguments a call passes; the others are NULL. They are the optional argument and the
+   derivatives. */
 enum { WITH_OPTIONAL = 1, WITH_DERIVATIVES = 2, WITH_ALL = 3, CHOICES = 4 };
 
 static ff_status call(const conformance_function *function, const void *table, const batch *b,
@@ -99,10 +99,10 @@ static ff_status call(const conformance_function *function, const void *table, c
     return function->call(table, b->n, in, speed, out);
 }
 
-/* A test of one function, with the service's table and one speed. */
+/* A test of one function, given the service's table and one speed. */
 typedef bool function_test(checking *, const conformance_function *, const void *, double);
 
-/* Tests the functions of the service of one output. */
+/* Tests the functions of one service output. */
 static bool test_output(checking *c, void *instance, uint32_t output, function_test *test)
 {
     const ff_fixture *fixture = c->fixture;
@@ -129,7 +129,8 @@ static bool test_output(checking *c, void *instance, uint32_t output, function_t
     return good;
 }
 
-/* Calls `test` for each service function of a few instances, and each speed of the function. */
+/* Calls `test` for each service function of several instances, and for each speed of the
+   function. */
 static void for_each_function(const ff_fixture *fixture, function_test *test)
 {
     const ff_model *model = fixture->model;
@@ -266,7 +267,7 @@ static bool check_finite(checking *c, const conformance_function *function, cons
     return true;
 }
 
-/* Tests every combination of extremes, and points between. */
+/* Tests every combination of extreme arguments, and points in between. */
 static bool extremes(checking *c, const conformance_function *function, const void *table,
                      double speed)
 {
@@ -309,7 +310,7 @@ static bool derivatives(checking *c, const conformance_function *function, const
             double scale = axis->scale > 0 ? axis->scale : 10;
             double x = l.point[l.axis], h = 0.02 * (axis->logarithmic ? x : scale);
             conformance_value_at(&l, x, out);
-            /* twice, so that a kink within the first step is no fault */
+            /* two attempts, so that a kink within the first step is no fault */
             if (conformance_compare_slope(&l, out[i], h, &found) == 1 &&
                 conformance_compare_slope(&l, out[i], h / 8, &found) == 1)
                 return ff_check_failf(
@@ -392,7 +393,7 @@ void conformance_check_physics(const ff_fixture *fixture)
     for_each_function(fixture, physics);
 }
 
-/* The share of one thread in the work. */
+/* The work of one thread. */
 typedef struct shift {
     const conformance_function *function;
     const void *table;
@@ -443,21 +444,22 @@ static bool purity(checking *c, const conformance_function *function, const void
                             .start = &start};
     }
     call(function, table, &shifts[0].work, speed, WITH_ALL);
-    bool good =
-        same(function, &shifts[0].work, &expected[0]) ||
-        ff_check_failf(c->fixture, "%s gives other answers to the same question", function->name);
+    bool good = same(function, &shifts[0].work, &expected[0]) ||
+                ff_check_failf(c->fixture, "%s gives different results for the same arguments",
+                               function->name);
     if (good && pthread_create(&thread, NULL, work, &shifts[1]) == 0) {
         work(&shifts[0]);
         pthread_join(thread, NULL);
-        good = (!shifts[0].differs && !shifts[1].differs) ||
-               ff_check_failf(c->fixture, "%s gives other answers while another thread calls it",
-                              function->name);
+        good =
+            (!shifts[0].differs && !shifts[1].differs) ||
+            ff_check_failf(c->fixture, "%s gives different results while another thread calls it",
+                           function->name);
     }
     pthread_barrier_destroy(&start);
     return good;
 }
 
-/* Checks that another instance, made later with other parameters, has no effect. */
+/* Checks that another instance, created later with other parameters, has no effect. */
 static bool apart(checking *c, const conformance_function *function, const void *table,
                   double speed)
 {
@@ -467,9 +469,10 @@ static bool apart(checking *c, const conformance_function *function, const void 
     call(function, table, &before, speed, WITH_ALL);
     void *other = c->fixture->open(c->fixture->ctx);
     call(function, table, &after, speed, WITH_ALL);
-    bool good = same(function, &before, &after) ||
-                ff_check_failf(c->fixture, "%s gives other answers once another instance is there",
-                               function->name);
+    bool good =
+        same(function, &before, &after) ||
+        ff_check_failf(c->fixture, "%s gives different results after another instance was created",
+                       function->name);
     c->fixture->close(c->fixture->ctx, other);
     return good;
 }

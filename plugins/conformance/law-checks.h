@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Checks for any law of its functions, which take and give arrays. Each plugin of a kind of law
- * defines conformance_functions and is linked with law-checks.c. */
+/* Checks that apply to the functions of any law, which take and return arrays. Each conformance
+   plugin of a law kind defines conformance_functions and is linked with law-checks.c. */
 #ifndef LAW_CHECKS_H
 #define LAW_CHECKS_H
 
@@ -13,9 +13,9 @@ enum { CONFORMANCE_AXES = 4, CONFORMANCE_RESULTS = 4, CONFORMANCE_SPEEDS = 3 };
 /* An argument. */
 typedef struct conformance_axis {
     const char *name;
-    double low, high; /* the range in which a law is meant to be used */
-    bool logarithmic; /* logarithmic axis, also for the steps of differences */
-    double scale;     /* of the steps of differences if the axis is linear; 0: 10 of its unit */
+    double low, high; /* range in which a law is meant to be used */
+    bool logarithmic; /* logarithmic axis; also affects the steps of differences */
+    double scale;     /* step of differences on a linear axis; 0: 10 of its unit */
     bool optional;    /* may be NULL */
     const double *extremes;
     size_t extreme_count;
@@ -23,16 +23,17 @@ typedef struct conformance_axis {
 
 typedef struct conformance_function {
     const char *service, *name;
-    size_t size; /* of the table of the service */
+    size_t size; /* size of the service's table */
     const conformance_axis *axes[CONFORMANCE_AXES];
     size_t axis_count;
-    const char *results[CONFORMANCE_RESULTS]; /* the value, then its derivatives over axis `by` */
+    const char *results[CONFORMANCE_RESULTS]; /* the value, then its derivatives over the axes
+                                                 `by` */
     size_t by[CONFORMANCE_RESULTS];
     size_t result_count;
-    double speeds[CONFORMANCE_SPEEDS]; /* of the scalar argument */
+    double speeds[CONFORMANCE_SPEEDS]; /* values of the scalar argument */
     size_t speed_count;
     bool positive;      /* the value must be positive */
-    bool rising;        /* the value must not fall along axis 0 */
+    bool rising;        /* the value must not decrease along axis 0 */
     bool follows_speed; /* the value must have the sign of the scalar argument */
     ff_status (*call)(const void *table, size_t n, const double *const *in, double speed,
                       double *const *out);
@@ -50,21 +51,21 @@ void conformance_check_continuity(const ff_fixture *fixture);
 void conformance_check_physics(const ff_fixture *fixture);
 void conformance_check_purity(const ff_fixture *fixture);
 
-/* The rows of these checks in a table of checks. */
+/* The rows of these checks in a conformance table. */
 #define CONFORMANCE_LAW_CHECKS                                                                     \
     {"empty", "a batch of no points is legal", conformance_check_empty},                           \
         {"guards", "writes its results and nothing else", conformance_check_guards},               \
-        {"batch", "a batch gives what single calls give", conformance_check_batch},                \
+        {"batch", "a batch gives the same as single calls", conformance_check_batch},              \
         {"finite", "is finite for extreme arguments", conformance_check_finite},                   \
         {"derivatives", "derivatives agree with differences", conformance_check_derivatives},      \
         {"continuity", "has no jumps", conformance_check_continuity},                              \
-        {"physics", "has the sign and slope that physics asks for", conformance_check_physics},    \
+        {"physics", "has the sign and slope required by physics", conformance_check_physics},      \
     {                                                                                              \
-        "purity", "gives the same answers again, and in two threads", conformance_check_purity     \
+        "purity", "gives the same results again, and in two threads", conformance_check_purity     \
     }
 
-/* law-common.c: arguments that several laws share, and the `eval` of a law of p and T whose value
- * is the number that `self` points to. */
+/* law-common.c: arguments that several laws share; and the `eval` of a law of p and T whose value
+   is the constant to which `self` points. */
 extern const conformance_axis conformance_pressure, conformance_temperature, conformance_ln_eta,
     conformance_film, conformance_stress;
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Axes and extremes for the checks of laws. */
+/* Argument axes and extreme values for the checks of laws. */
 #include "law-checks.h"
 
 static const double pressures[] = {-1e30, -1e10, -1e6, 0, 1e6, 1e9, 1e10, 1e12, 1e30};

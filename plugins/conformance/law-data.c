@@ -65,7 +65,7 @@ const void *conformance_open_law(const ff_fixture *fixture, const char *service,
     return NULL;
 }
 
-/* The service tables of both laws begin alike. */
+/* The common first members of both service tables. */
 typedef struct law_table {
     size_t size;
     const void *self;
@@ -102,7 +102,7 @@ static bool follows(const ff_fixture *fixture, const law_table *law, int32_t pro
             double warm, cool;
             if (law->eval(law->self, 1, &pressures[i], &T, &warm, NULL, NULL) != FF_OK ||
                 law->eval(law->self, 1, &pressures[i], &cooler, &cool, NULL, NULL) != FF_OK)
-                continue; /* the law is outside of its range */
+                continue; /* the law is outside its range */
             if (warm > cool)
                 return ff_check_failf(
                     fixture,

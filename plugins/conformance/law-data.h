@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A known oil, with which a law is compared. */
+/* An oil with given properties, with which a law is compared. */
 #ifndef LAW_DATA_H
 #define LAW_DATA_H
 
@@ -15,8 +15,8 @@ extern const ff_liquid conformance_oil;
 /* Returns a property of that oil. */
 double conformance_oil_at(int32_t property, double T);
 
-/* Opens an instance, and returns the table of the first output with that interface. NULL, after
- * a report, if there is none. */
+/* Opens an instance, and returns the table of the first output with that interface id. NULL, after
+   a report, if there is none. */
 const void *conformance_open_law(const ff_fixture *fixture, const char *service, void **instance);
 
 /* "eval" of a law of p and T. */
@@ -25,9 +25,9 @@ typedef ff_status conformance_pT(const void *self, size_t n, const double *p, co
 double conformance_law_at(conformance_pT *eval, const void *self, double p, const double *T,
                           double *by_p);
 
-/* Checks that a law with an oil equals the oil at ambient pressure, at each temperature, to
- * `within`, and falls with temperature from 0 to 1 GPa. A law without an oil must have the value
- * of its parameter, "0.05 Pa s", `value` in SI. */
+/* Checks a law with an oil: it must equal the oil at ambient pressure, at each temperature, to
+   `within`, and decrease with temperature from 0 to 1 GPa. A law without an oil must have the value
+   of its parameter: `text` such as "0.05 Pa s", which is `value` in SI. */
 bool conformance_is_oil(const ff_fixture *fixture, const char *service, int32_t property,
                         double within);
 bool conformance_is_as_set(const ff_fixture *fixture, const char *service, const char *param,

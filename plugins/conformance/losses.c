@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Draft. Rules for the losses of a mesh: energy. */
+/* Draft. Checks of the losses of a mesh: energy. */
 #include "evaluation.h"
 #include "offer.h"
 
@@ -7,8 +7,8 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* The power of the torque is either lost or passed on; the mean loss is the work of one pair,
- * int P b d(roll)/omega, once in each pitch 2 pi/(z omega). */
+/* The power of the torque is either lost or transmitted. The mean loss is the work of one pair, int
+   P b d(roll)/omega, once in each pitch 2 pi/(z omega). */
 static void energy(const ff_fixture *fixture)
 {
     enum { POINTS = 65 };
@@ -19,7 +19,7 @@ static void energy(const ff_fixture *fixture)
         for (int i = 0; i < POINTS; i++) {
             double at = (double)i / (POINTS - 1);
             roll[i] = 0.2 + at * 1.6 * 2 * pi / teeth[0];
-            loss[i] = 2000 * fabs(2 * at - 1); /* W/m: none at the pitch point */
+            loss[i] = 2000 * fabs(2 * at - 1); /* W/m: 0 at the pitch point */
         }
         conformance_give_series(fixture, "ehl.roll_angle", POINTS, roll);
         conformance_give_series(fixture, "ehl.power_loss", POINTS, loss);
@@ -54,10 +54,10 @@ static void energy(const ff_fixture *fixture)
 }
 
 static const ff_check checks[] = {
-    {"energy", "power in is lost or goes on; the loss is that of all pairs in mesh", energy},
+    {"energy", "input power is lost or transmitted; the loss is that of all pairs in mesh", energy},
 };
 
 const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
                                           .checks = FF_TABLE(checks)};
 
-CONFORMANCE_MODEL("losses", "what the losses of a mesh keep: energy", "");
+CONFORMANCE_MODEL("losses", "checks of the losses of a mesh: energy", "");

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Draft. Rules for an oil: positive properties, and a viscosity that does not rise with
- * temperature. */
+/* Draft. Checks of an oil: positive properties, and a viscosity that does not rise with
+   temperature. */
 #include "law-checks.h"
 #include "law-data.h"
 #include "offer.h"
@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-/* Whether the oil knows a property; its data may lack one, or give it at one temperature only. */
+/* Whether the oil has a property; its data may lack one, or give it at one temperature only. */
 static bool is_known(const ff_liquid *oil, int32_t what)
 {
     const double T[2] = {313.15, 373.15};
@@ -18,7 +18,7 @@ static bool is_known(const ff_liquid *oil, int32_t what)
     return !isnan(value[0]) && !isnan(value[1]);
 }
 
-/* Evaluates a property; a constant replaces what is not known. */
+/* Evaluates a property; an unknown one is replaced by a constant. */
 static ff_status property(const void *table, int32_t what, size_t n, const double *T, double sign,
                           double *const *out)
 {
@@ -94,7 +94,7 @@ const conformance_function conformance_functions[] = {
 const size_t conformance_function_count =
     sizeof conformance_functions / sizeof conformance_functions[0];
 
-/* An oil that does not change with temperature and knows no thermal data. */
+/* An oil that does not change with temperature and has no thermal data. */
 static ff_status plain_eval(const void *self, int32_t what, size_t n, const double *T,
                             double *value, double *slope)
 {
@@ -117,7 +117,7 @@ static ff_status plain_eval(const void *self, int32_t what, size_t n, const doub
 
 static const ff_liquid plain = {sizeof plain, NULL, plain_eval};
 
-/* NaN: not known. */
+/* Returns a property; NaN: unknown. */
 static double at(const ff_liquid *oil, int32_t what, double T)
 {
     double value = NAN;
@@ -125,8 +125,8 @@ static double at(const ff_liquid *oil, int32_t what, double T)
     return value;
 }
 
-/* A grade has its kinematic viscosity at 40 degC (ISO 3448); alpha is valid at alpha_at; warm
- * oil is not heavier. */
+/* A grade has its kinematic viscosity at 40 degC (ISO 3448); alpha holds at alpha_at; the density
+   does not rise with temperature. */
 static void data(const ff_fixture *fixture)
 {
     void *instance;
@@ -153,7 +153,7 @@ static void data(const ff_fixture *fixture)
 
 static const ff_check checks[] = {
     CONFORMANCE_LAW_CHECKS,
-    {"data", "has the properties that its data say, and expands with temperature", data},
+    {"data", "has the properties of its data, and expands with temperature", data},
 };
 
 const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
@@ -163,4 +163,4 @@ const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
 
 CONFORMANCE_MODEL(
     "lubricant",
-    "what an oil keeps: finite, pure, positive, a viscosity that falls with temperature", "");
+    "checks of an oil: finite, pure, positive, a viscosity that falls with temperature", "");

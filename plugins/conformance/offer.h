@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What all plugins of this kind share. Such a plugin defines conformance_offer and, by the
- * macro, its descriptor, and is built with offer.c. */
+/* Shared by all conformance plugins. Such a plugin defines conformance_offer and, by the macro, its
+   descriptor. It is built with offer.c. */
 #ifndef OFFER_H
 #define OFFER_H
 

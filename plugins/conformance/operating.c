@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rules for an operating point: the power that flows through the mesh. */
+/* Checks of an operating point: speed and torque at the mesh. */
 #include "evaluation.h"
 #include "offer.h"
 
@@ -33,5 +33,4 @@ static const ff_check checks[] = {
 const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
                                           .checks = FF_TABLE(checks)};
 
-CONFORMANCE_MODEL("operating",
-                  "what an operating point keeps: speed and torque carried to the mesh", "");
+CONFORMANCE_MODEL("operating", "checks of an operating point: speed and torque at the mesh", "");

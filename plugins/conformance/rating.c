@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Draft. Rules for a rating: how it rises and falls with what its standard names. */
+/* Draft. Checks of a rating: how it varies with the quantities of its standard. */
 #include "evaluation.h"
 #include "offer.h"
 
@@ -8,7 +8,7 @@
 
 enum { MOST = 100000 };
 
-/* Returns `safety` with one input multiplied by a factor; NaN: it cannot be said. */
+/* Returns `safety` with one input multiplied by a factor; NaN: not available. */
 static double safety_at(const ff_fixture *fixture, const char *input, double factor)
 {
     conformance_evaluation run;
@@ -37,8 +37,8 @@ static double safety_at(const ff_fixture *fixture, const char *input, double fac
     return safety;
 }
 
-/* Half of the film, or 1.5 times the load or roughness, must not be safer. Each input is
- * restored afterwards. */
+/* Half of the film, or 1.5 times the load or roughness, must not increase the safety. Each input is
+   restored afterwards. */
 static void order(const ff_fixture *fixture)
 {
     static const struct {
@@ -81,4 +81,4 @@ static const ff_check checks[] = {
 const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
                                           .checks = FF_TABLE(checks)};
 
-CONFORMANCE_MODEL("rating", "what a rating keeps: it falls with load and roughness", "");
+CONFORMANCE_MODEL("rating", "checks of a rating: it falls with load and roughness", "");

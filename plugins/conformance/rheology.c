@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rules for a rheology: shear never makes the oil stiffer than a Newtonian one, in either
- * direction. */
+/* Checks of a rheology: shear never makes the oil stiffer than a Newtonian one, in either
+   direction. */
 #include "law-checks.h"
 #include "law-data.h"
 #include "offer.h"
@@ -145,7 +145,7 @@ static int agree(double a, double b)
     return fabs(a - b) <= 1e-9 * fmax(fabs(a), fabs(b)) + 1e-300;
 }
 
-/* Shear thins: psi >= 1/eta and |tau| <= eta |u_s|/h; psi is even and tau odd in u_s. */
+/* Shear thinning: psi >= 1/eta and |tau| <= eta |u_s|/h; psi is even and tau odd in u_s. */
 static void check_point(const ff_fixture *fixture, const ff_rheology *law)
 {
     double ln_eta = -7 + 20 * fixture->random(fixture->ctx),
@@ -182,7 +182,7 @@ static void newtonian(const ff_fixture *fixture)
     fixture->close(fixture->ctx, instance);
 }
 
-/* Shear thins at a point, too: |rate| >= |tau|/eta; the rate is odd in tau. */
+/* Shear thinning at a point: |rate| >= |tau|/eta; the rate is odd in tau. */
 static void check_rate(const ff_fixture *fixture, const ff_rheology_2 *law)
 {
     double ln_eta = -7 + 20 * fixture->random(fixture->ctx),
@@ -201,7 +201,7 @@ static void check_rate(const ff_fixture *fixture, const ff_rheology_2 *law)
                        rate, tau, rate_back);
 }
 
-/* Checks rates; not every rheology offers them. */
+/* Checks rates, if the rheology offers them. */
 static void check_rates(const ff_fixture *fixture)
 {
     void *instance = fixture->open(fixture->ctx);
@@ -217,7 +217,8 @@ static void check_rates(const ff_fixture *fixture)
     fixture->close(fixture->ctx, instance);
 }
 
-/* Checks that psi is the slope of the rate over the stress, and that both depend on u_s/h alone. */
+/* Checks that psi is the slope of the shear rate over the stress, and that both depend on u_s/h
+   only. */
 static void check_tangent(const ff_fixture *fixture, const ff_rheology *law)
 {
     const double d = 1e-4;
@@ -256,9 +257,10 @@ static void tangent(const ff_fixture *fixture)
 
 static const ff_check checks[] = {
     CONFORMANCE_LAW_CHECKS,
-    {"newtonian", "shears no stiffer than a Newtonian liquid, the same both ways", newtonian},
-    {"rates", "so does its shear rate over stress, where it offers one", check_rates},
-    {"tangent", "pressure flow and shear are of one liquid", tangent},
+    {"newtonian", "is no stiffer in shear than a Newtonian liquid, equally in both directions",
+     newtonian},
+    {"rates", "its shear rate over stress is no stiffer either, if it offers one", check_rates},
+    {"tangent", "pressure flow and shear follow the same flow curve", tangent},
 };
 
 const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
@@ -267,5 +269,5 @@ const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
                                           .plain = &newtonian_liquid};
 
 CONFORMANCE_MODEL("rheology",
-                  "what a rheology keeps: finite, pure, shear-thinning, odd in the sliding speed",
+                  "checks of a rheology: finite, pure, shear-thinning, odd in the sliding speed",
                   "");

@@ -21,7 +21,7 @@ double conformance_value_at(const conformance_line *l, double x, double out[CONF
 }
 
 /* Ridders 1982, Adv. Eng. Software 4, 75-76: central differences extrapolated to h = 0; *error
-   bounds what truncation and rounding leave. */
+   bounds the remaining truncation and rounding error. */
 static double difference(const conformance_line *l, double x, double h, double *error)
 {
     enum { ROWS = 8 };

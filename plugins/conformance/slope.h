@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The derivative of a law by differences. */
+/* The derivative of a law by finite differences. */
 #ifndef SLOPE_H
 #define SLOPE_H
 
@@ -15,9 +15,9 @@ typedef struct conformance_line {
 
 double conformance_value_at(const conformance_line *l, double x, double out[CONFORMANCE_RESULTS]);
 
-/* Compares a derivative with differences about the point, the first over `h`. 0: agrees; 1: does
- * not; 2: the differences are too rough to tell, as beside a kink. *found: the result of the
- * differences. */
+/* Compares a derivative with finite differences about the point; `h` is the first step. 0: they
+   agree; 1: they differ; 2: the differences are too inaccurate to decide, for example near a kink.
+   *found: the result of the differences. */
 int conformance_compare_slope(const conformance_line *l, double claimed, double h, double *found);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rules for a mesh stiffness: positive, periodic, in balance with the load. */
+/* Checks of a mesh stiffness: positive, periodic, in balance with the load. */
 #include "evaluation.h"
 #include "offer.h"
 
@@ -43,8 +43,8 @@ static void give_gear(const ff_fixture *fixture)
     conformance_give_scalar(fixture, "operating.line_force", 3500);
 }
 
-/* Opens the gear of the user's file, or a plain one, with the definition for which e_l = e + F/k
- * holds. */
+/* Opens the stiffness with the gear of the user's file, or a standard one, and with the definition
+   for which e_l = e + F/k holds. */
 static bool open_secant(conformance_evaluation *e, const ff_fixture *fixture)
 {
     void *probe = fixture->open(fixture->ctx);
@@ -56,8 +56,8 @@ static bool open_secant(conformance_evaluation *e, const ff_fixture *fixture)
     return conformance_evaluate(e, fixture, NULL);
 }
 
-/* Checks that k > 0 from phase 0 to 1, that its ends meet unless phase 0 is a breakpoint, and
- * that the stated mean is the mean of the series. */
+/* Checks that k > 0 from phase 0 to 1, that its values at both ends are equal unless phase 0 is a
+   breakpoint, and that the mean output is the mean of the series. */
 static void periodic(const ff_fixture *fixture)
 {
     conformance_evaluation run;
@@ -93,8 +93,8 @@ static void periodic(const ff_fixture *fixture)
     conformance_close(&run);
 }
 
-/* Returns the force at a roll angle, linear between stations; *beside: a jump, at a repeated
- * station, is near. */
+/* Returns the force at a roll angle, linear between stations; *beside: a jump, which is a repeated
+   station, is near. */
 static double at_roll(conformance_array roll, conformance_array force, double angle, bool *beside)
 {
     size_t i = 1;
@@ -106,9 +106,9 @@ static double at_roll(conformance_array roll, conformance_array force, double an
     return conformance_at(roll, force, angle);
 }
 
-/* At every phase the forces of the pairs in contact add up to the load; tooth_force = load_share
- * times the load; e_l = e + F/k. Phases at which a pair enters or leaves are left out, since
- * interpolation fails there. */
+/* At every phase the forces of the pairs in contact sum to the load; tooth_force = load_share times
+   the load; e_l = e + F/k. Phases near which a pair enters or leaves are left out, since
+   interpolation fails there. */
 static void balance(const ff_fixture *fixture)
 {
     enum { PHASES = 97 };
@@ -148,10 +148,10 @@ static void balance(const ff_fixture *fixture)
     conformance_close(&run);
 }
 
-/* The stiffness of a pair does not change when another pair enters or leaves: k times its share
- * is the same on either side of the station, except for the contact, whose load changes. So the
- * share must fall where k rises, at the phases given by the contact ratio; loads, ramps and
- * deviations blur that by less than a factor of 1.75. */
+/* The stiffness of a pair does not change when another pair enters or leaves. Therefore k times its
+   share is the same on both sides of such a phase, except for the Hertzian contact, whose load
+   changes. Thus the share must fall where k rises. Loads, ramps and deviations change the product
+   by less than a factor of 1.75. The phases follow from the contact ratio. */
 static void pairs(const ff_fixture *fixture)
 {
     conformance_evaluation run;
@@ -193,23 +193,24 @@ static void pairs(const ff_fixture *fixture)
     }
     double apart = good ? fabs(log(stiff[0] * part[0] / (stiff[1] * part[1]))) : 0;
     if (good && ratio > 1.1 && ratio < 1.9 && !(apart < log(1.75)))
-        ff_check_failf(
-            fixture,
-            "stiffness times the larger load_share is %.4g N/m where one pair is in "
-            "contact, at phase %.3g, but %.4g N/m where two are, at phase %.3g: a pair is "
-            "as stiff beside another one",
-            stiff[0] * part[0], one, stiff[1] * part[1], two);
+        ff_check_failf(fixture,
+                       "stiffness times the larger load_share is %.4g N/m with one pair in "
+                       "contact, at phase %.3g, but %.4g N/m with two pairs, at phase %.3g: the "
+                       "stiffness of a pair must not depend on the other pair",
+                       stiff[0] * part[0], one, stiff[1] * part[1], two);
     conformance_close(&run);
 }
 
 static const ff_check checks[] = {
     {"periodic", "stiffness is positive and periodic, with the mean it states", periodic},
     {"balance", "the tooth forces sum to the load", balance},
-    {"pairs", "pairs are as stiff as teeth are, alone and beside each other", pairs},
+    {"pairs",
+     "the stiffness of a pair is that of steel teeth, with one and with two pairs in contact",
+     pairs},
 };
 
 const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
                                           .checks = FF_TABLE(checks)};
 
 CONFORMANCE_MODEL("stiffness",
-                  "what a mesh stiffness keeps: positive, periodic, in balance with the load", "");
+                  "checks of a mesh stiffness: positive, periodic, in balance with the load", "");

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Draft. Rules for a record of roughness: the heights are as rough as stated. */
+/* Draft. Checks of a roughness record: the heights have the stated rms. */
 #include "evaluation.h"
 #include "offer.h"
 
@@ -17,8 +17,8 @@ static double rms(conformance_array height)
     return sqrt(square);
 }
 
-/* Checks a periodic record: it ends one step before its period, and rq is that of its heights. A
- * record that does not repeat, such as a dent, is no roughness. */
+/* Checks a periodic record: its last point is one step before the period, and rq is the rms of its
+   heights. A record that does not repeat, such as a dent, is no roughness. */
 static void record(const ff_fixture *fixture)
 {
     conformance_evaluation run;
@@ -33,7 +33,7 @@ static void record(const ff_fixture *fixture)
                                 position.data[n - 1] * (double)i / (double)(n > 1 ? n - 1 : 1),
                                 position.data[n - 1], 1e-9);
     if (good && n > 1 && period > 0)
-        good = conformance_near(&run, "period, a step behind the last position,", 0, period,
+        good = conformance_near(&run, "period, one step behind the last position,", 0, period,
                                 position.data[n - 1] * (double)n / (double)(n - 1), period, 1e-6);
     for (int g = 0; good && n > 1 && period > 0 && g < 2; g++) {
         const conformance_array height = conformance_array_of(&run, g ? "height_2" : "height_1");
@@ -52,4 +52,4 @@ static const ff_check checks[] = {
 const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
                                           .checks = FF_TABLE(checks)};
 
-CONFORMANCE_MODEL("surface", "what a record of roughness keeps: its rms", "");
+CONFORMANCE_MODEL("surface", "checks of a roughness record: its rms", "");

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rules for a viscosity law: it does not fall with pressure or rise with temperature, and equals
- * its oil at ambient pressure. */
+/* Checks of a viscosity law: it does not fall with pressure or rise with temperature, and equals
+   its oil at ambient pressure. */
 #include "law-checks.h"
 #include "law-data.h"
 #include "offer.h"
@@ -42,7 +42,7 @@ static void ambient(const ff_fixture *fixture)
 {
     if (!conformance_is_oil(fixture, FF_VISCOSITY_ID, FF_LIQUID_LN_ETA0, 0.01))
         return;
-    /* parameters that laws without an oil require */
+    /* parameters that some laws require if there is no oil */
     static const char *const known[][2] = {
         {"alpha", "20 1/GPa"}, {"at", "40 degC"}, {"base", "paraffinic"}};
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
@@ -63,7 +63,7 @@ static double star_of(const ff_viscosity *law)
     return 3 / (step * sum);
 }
 
-/* Checks a coefficient to 15 %, within which laws are that match neither definition exactly. */
+/* Checks a coefficient to 15 %, a tolerance for laws that match neither definition exactly. */
 static bool rises(const ff_fixture *fixture, const ff_viscosity *law, double alpha,
                   const char *whose)
 {
@@ -76,8 +76,8 @@ static bool rises(const ff_fixture *fixture, const ff_viscosity *law, double alp
                1e9 * slope, 1e9 * star, whose, 1e9 * alpha);
 }
 
-/* The alpha of a law is its slope at p = 0 or its alpha*; a law without an alpha has that of the
- * oil. */
+/* The alpha of a law is its slope at p = 0 or its alpha*; a law without an alpha uses that of the
+   oil. */
 static void coefficient(const ff_fixture *fixture)
 {
     void *instance;
@@ -100,8 +100,8 @@ static void coefficient(const ff_fixture *fixture)
 
 static const ff_check checks[] = {
     CONFORMANCE_LAW_CHECKS,
-    {"ambient", "is its oil at ambient pressure, and thinner the warmer it is", ambient},
-    {"coefficient", "rises with pressure as its alpha, or that of its oil, says", coefficient},
+    {"ambient", "equals its oil at ambient pressure, and decreases with temperature", ambient},
+    {"coefficient", "rises with pressure according to its alpha, or that of its oil", coefficient},
 };
 
 const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
@@ -109,6 +109,6 @@ const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
                                           .service = FF_VISCOSITY_ID,
                                           .plain = &oil};
 
-CONFORMANCE_MODEL("viscosity",
-                  "what a viscosity law keeps: finite, pure, never falling with pressure, its oil",
-                  "");
+CONFORMANCE_MODEL(
+    "viscosity",
+    "checks of a viscosity law: finite, pure, not falling with pressure, equal to its oil", "");

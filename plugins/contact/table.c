@@ -57,7 +57,7 @@ static ff_status check_row(const table_contact *t, size_t i)
     const double *const *column = file->columns, *time = column[TIME];
     if (i > 1 && !(time[i] > time[i - 2]))
         return ff_table_failf(t->host, file, i, TIME,
-                              "a jump takes two rows of one time, not three");
+                              "a jump has two rows with the same time, not three");
     return FF_OK;
 }
 

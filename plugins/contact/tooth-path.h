@@ -20,7 +20,7 @@ enum {
     CONTACT_TOOTH_TOOTH_FORCE,
     CONTACT_TOOTH_GAP,
     CONTACT_TOOTH_VISCOSITY,
-    CONTACT_TOOTH_OIL, /* two rows */
+    CONTACT_TOOTH_OIL, /* this row and the next one */
     CONTACT_TOOTH_INPUTS = CONTACT_TOOTH_OIL + 2
 };
 

@@ -103,7 +103,7 @@ static ff_status check_companions(const lubricant_oil *oil)
                         "nu_40 and nu_100 belong together");
     if (isnan(oil->eta0) != isnan(oil->at))
         return ff_failf(host, FF_INVALID, isnan(oil->eta0) ? "at" : "eta0",
-                        "eta0 needs the temperature that it holds at: eta0 and at");
+                        "eta0 needs its temperature: give eta0 and at");
     if (!isnan(oil->density) && isnan(oil->at))
         return ff_failf(host, FF_INVALID, "density",
                         "density is that at the temperature `at`, which belongs to eta0; here "
@@ -137,7 +137,7 @@ static ff_status from_one_point(lubricant_oil *oil)
     double nu = oil->eta0 / lubricant_density(oil, oil->at), y = lubricant_d341_ordinate(nu);
     if (!(nu >= LUBRICANT_D341_LEAST && nu <= LUBRICANT_D341_MOST))
         return ff_failf(oil->host, FF_INVALID, "eta0",
-                        "the kinematic viscosity is %g cSt; ASTM D341 knows 0.21 to 2e7 cSt",
+                        "the kinematic viscosity is %g cSt; ASTM D341 covers 0.21 to 2e7 cSt",
                         1e6 * nu);
     oil->low = oil->high = oil->at;
     return lubricant_curve_make(&oil->viscosity, 1, &x, &y) ? lubricant_oil_ready(oil) : FF_NOMEM;
@@ -165,11 +165,12 @@ static ff_status take_viscosity(lubricant_oil *oil, const ff_table *file, double
             nu /= lubricant_density(oil, T);
         if (!(nu >= LUBRICANT_D341_LEAST && nu <= LUBRICANT_D341_MOST))
             return ff_table_failf(oil->host, file, i, which,
-                                  "%g cSt; ASTM D341 knows 0.21 to 2e7 cSt", 1e6 * nu);
+                                  "%g cSt; ASTM D341 covers 0.21 to 2e7 cSt", 1e6 * nu);
         x[i] = log(T);
         y[i] = lubricant_d341_ordinate(nu);
         if (i && !(x[i] > x[i - 1]))
-            return ff_table_failf(oil->host, file, i, TEMPERATURE, "a temperature stands twice");
+            return ff_table_failf(oil->host, file, i, TEMPERATURE,
+                                  "this temperature appears twice");
         if (i && !(y[i] < y[i - 1]))
             return ff_table_failf(oil->host, file, i, which,
                                   "the viscosity of an oil falls with temperature");

@@ -19,11 +19,10 @@ typedef struct numerics_exchange {
     const ff_array *in; /* inputs for the model: the original ones if gear 1 drives */
     int back;           /* true: gear 2 drives */
     double ratio;       /* z_1/z_2 */
-    double top;         /* roll_sap of the exchanged pair, rad: roll angle of gear 2 at the first
+    double top;         /* roll angle of gear 2 = ratio (top - roll angle of gear 1), rad */
+    double sap;         /* roll_sap of the exchanged pair, rad: roll angle of gear 2 at the first
                            whole number of mesh cycles after SAP of gear 1 that is not before the
                            end of the path */
-    double sap;         /* roll angle of gear 2 from which roll angles differ by whole mesh
-                           cycles at conversion, rad */
     ff_array *arrays;
     double *room;
 } numerics_exchange;
@@ -81,9 +80,8 @@ static inline int numerics_exchange_ends(const char *dims, const char *last)
            (n == m || dims[n - m - 1] == ' ' || dims[n - m - 1] == '.');
 }
 
-/* Finds the roll angles of gear 2 at the end of the path of contact and of its whole mesh cycles.
-   They follow from the radii of curvature; without radii only differences of the roll angle can be
-   used. */
+/* Sets ratio, top and sap. Roll angles of gear 2 follow from the radii of curvature; without radii,
+   only differences of the roll angle can be used. */
 static inline void numerics_exchange_measure(const ff_port *ports, size_t count, const ff_array *in,
                                              numerics_exchange *x)
 {

@@ -19,12 +19,12 @@ typedef struct stiffness_breakpoint_list {
     double phase[STIFFNESS_MAX_BREAKPOINTS]; /* at these phases k or e jumps */
 } stiffness_breakpoint_list;
 
-/* Starts the list with the breakpoints that are known beforehand: ends of contact, changes in
- * the slope of the compliance, corners of the profiles. */
+/* Starts the list with the breakpoints known in advance: ends of contact, changes in the slope of
+   the compliance, corners of the profiles. */
 void stiffness_breakpoints_known(const stiffness_source *s, stiffness_breakpoint_list *b);
 
-/* Adds the phases at which pairs gain or lose load, or another pair becomes the first to touch.
- * False if memory is short. */
+/* Adds the phases at which a pair gains or loses load, or at which a different pair is the first to
+   touch. False if memory is short. */
 bool stiffness_breakpoints_find(const stiffness_source *s, stiffness_breakpoint_list *b);
 
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The gears, the deviations of their flanks, their load, and the requested mesh cycle. */
+/* Operating conditions of a stiffness model: the gears, the deviations of their flanks, their load,
+   and the requested mesh cycle. */
 #ifndef STIFFNESS_CONDITIONS_H
 #define STIFFNESS_CONDITIONS_H
 

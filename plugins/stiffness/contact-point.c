@@ -21,16 +21,16 @@ double stiffness_gears_curvature(const stiffness_gears *g, double age)
     return r1 * (g->tangent_length - r1) / g->tangent_length;
 }
 
-/* Contact of the tip corner of gear `tip` with the flank of the other gear. Both are turned to
- * where perfect flanks of a pair of that age would meet on the line of action. Coordinates: x
- * along the line of action from the point where it touches the base circle of the flank, y
- * towards the centre of gear `tip`. */
+/* Finds the contact of the tip corner of gear `tip` with the flank of the other gear. Both gears
+   are turned so that perfect flanks of a pair of that age would meet on the line of action.
+   Coordinates: x along the line of action from its tangent point on the base circle of the flank's
+   gear, y towards the centre of gear `tip`. */
 static bool meet_corner(const stiffness_gears *g, int tip, double age, double roll[2], double *gap)
 {
     const stiffness_gear *corner = &g->gear[tip], *flank = &g->gear[1 - tip];
     double radius = corner->base_radius * sqrt(1 + corner->roll_tip * corner->roll_tip);
-    /* polar angle of the corner, from the point where the line of action touches the base circle
-     * of its gear */
+    /* polar angle of the corner, from the tangent point of the line of action on the base circle of
+       its gear */
     double turn = stiffness_gears_roll(g, tip, age) - numerics_involute_at_roll(corner->roll_tip);
     double x = g->tangent_length - radius * sin(turn);
     double y = corner->base_radius - radius * cos(turn) + flank->base_radius;
@@ -39,7 +39,7 @@ static bool meet_corner(const stiffness_gears *g, int tip, double age, double ro
         return false;
     roll[tip] = corner->roll_tip;
     roll[1 - tip] = sqrt(ratio * ratio - 1);
-    /* the flank turns on until it passes the corner */
+    /* the flank turns further until it passes the corner */
     *gap = flank->base_radius * (atan2(x, y) + numerics_involute_at_roll(roll[1 - tip]) -
                                  stiffness_gears_roll(g, 1 - tip, age));
     return true;

@@ -6,10 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_PIECES = 256, LEAST_SAMPLES = 4 /* in a piece */ };
+enum { MOST_PIECES = 256, LEAST_SAMPLES = 4 /* in one piece */ };
 
-/* Weight of the straightness of the pieces against the samples; it matters only if samples are
- * few. */
+/* Weight of the straightness of the pieces against the fit to the samples; it matters only if
+   samples are few. */
 static const double straightness = 1e-4;
 
 /* A breakpoint between two pieces, and the indices of the unknowns on its lower and upper side. */
@@ -24,8 +24,8 @@ typedef struct equations {
     const bool *corner;
     size_t nodes, unknowns;
     node *node;
-    double *matrix,
-        *x; /* normal equations, the lower triangle by rows; right-hand side, later the solution */
+    double *matrix, *x; /* lower triangle of the normal equations, by rows; right-hand side, later
+                           the solution */
 } equations;
 
 /* Places nodes at corners and jumps, and at every stride-th breakpoint in between. */
@@ -50,7 +50,7 @@ static bool place_nodes(equations *s, size_t stride)
     return true;
 }
 
-/* Adds the square of weight (sum of c x - y) to the function that is minimised. */
+/* Adds (weight (sum of c x - y))^2 to the minimised function. */
 static void add_row(equations *s, const size_t at[4], const double c[4], double y, double weight)
 {
     for (int a = 0; a < 4; a++) {
@@ -69,7 +69,7 @@ static double distance(const stiffness_table_phases *k, size_t from, size_t to)
     return d > 0 ? d : d + 1;
 }
 
-/* Counts the breakpoints from node i to the next one. */
+/* Counts the breakpoints between node i and the next node. */
 static size_t steps_of(const equations *s, size_t i)
 {
     size_t count = s->points->count, from = s->node[i].point,
@@ -77,7 +77,7 @@ static size_t steps_of(const equations *s, size_t i)
     return to > from ? to - from : to + count - from;
 }
 
-/* Adds the piece from the upper side of node i to the lower side of the next one. */
+/* Adds the piece between the upper side of node i and the lower side of the next node. */
 static void add_piece(equations *s, size_t i)
 {
     const stiffness_table_phases *k = s->points;

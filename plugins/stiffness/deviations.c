@@ -147,7 +147,7 @@ size_t stiffness_hunting_period(const stiffness_deviations *d)
 
 size_t stiffness_profile_corners(const stiffness_deviations *d, int gear, double *roll, size_t room)
 {
-    /* a corner's least change of slope, over the range of slopes */
+    /* minimum change of slope at a corner, relative to the range of slopes */
     const double share = 0.05;
     double least = INFINITY, most = -INFINITY;
     size_t found = 0;

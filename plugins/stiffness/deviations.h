@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Deviations of the flanks from perfect involutes, as the gear states them: along the normal
- * over the flank's own roll angle, and index deviations of single teeth; positive where there is
- * more metal. The metal missing on both flanks of a pair is its gap, and the least gap of all
- * pairs is the transmission error without load. Lengths in m, angles in rad. */
+/* Deviations of the flanks from perfect involutes, given by the gear stage: along the normal over
+   the flank's own roll angle, and index deviations of single teeth; positive where there is more
+   metal. The metal missing on both flanks of a pair is the gap of the pair. The smallest gap of all
+   pairs is the transmission error without load. Lengths in m, angles in rad. */
 #ifndef STIFFNESS_DEVIATIONS_H
 #define STIFFNESS_DEVIATIONS_H
 
@@ -11,7 +11,7 @@
 #include <stdbool.h>
 
 typedef struct stiffness_deviations {
-    size_t points; /* of each profile, linear between them; 0: perfect profiles */
+    size_t points; /* points of each profile, linear between them; 0: perfect profiles */
     const double *roll[2], *profile[2];
     size_t teeth[2];
     const double *index[2]; /* NULL: perfect pitch */
@@ -28,15 +28,15 @@ ff_status stiffness_deviations_read_back(const ff_host *host, const ff_array *in
 
 /* Returns the deviation of the flank of gear 0 or 1 at its own roll angle. */
 double stiffness_profile_deviation(const stiffness_deviations *d, int gear, double roll);
-/* Returns the index deviation of the pair that comes `number` pairs after the first one of the
- * hunting period. */
+/* Returns the index deviation of the pair number `number`, counted from the first pair of the
+   hunting period. */
 double stiffness_index_deviation(const stiffness_deviations *d, long number);
-/* Returns the number of mesh cycles after which the same teeth meet again; 1 without index
- * deviations. */
+/* Returns the hunting period: the number of mesh cycles after which the same teeth meet again; 1
+   without index deviations. */
 size_t stiffness_hunting_period(const stiffness_deviations *d);
 
-/* Finds the roll angles at which the slope of a gear's profile jumps, and stores at most `room`.
- * Returns their number. */
+/* Finds the roll angles at which the slope of a gear's profile jumps, and stores up to `room` of
+   them. Returns their number. */
 size_t stiffness_profile_corners(const stiffness_deviations *d, int gear, double *roll,
                                  size_t room);
 

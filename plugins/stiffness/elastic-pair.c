@@ -51,8 +51,9 @@ double stiffness_elastic_pair_teeth(const stiffness_elastic_pair *p, const doubl
     return sum;
 }
 
-/* Displacement of pair i under a unit force on pair k. Older pairs are ahead: on the driving
- * gear on the side of the loaded flank, on the driven gear on the other side. */
+/* Returns the displacement of pair i under a unit force on pair k. Older pairs are ahead in the
+   direction of rotation: on the driving gear on the side of the loaded flank, on the driven gear on
+   the other side. */
 static double cross_compliance(const stiffness_elastic_pair *p, const stiffness_position *at,
                                size_t i, size_t k)
 {
@@ -69,8 +70,8 @@ void stiffness_elastic_pair_compliance(const void *self, const stiffness_positio
     const stiffness_elastic_pair *p = self;
     for (size_t i = 0; i < at->count; i++) {
         c->compliance[i][i] = stiffness_elastic_pair_teeth(p, at->roll[i]);
-        /* the contact is narrow compared with the face width, so it is in plane strain, whatever
-         * the tooth is in */
+        /* the contact is narrow compared with the face width, so it is in plane strain even if the
+           tooth is in plane stress */
         c->hertz[i] = stiffness_elastic_pair_approach(
             p, at->roll[i], stiffness_gears_curvature(p->gears, at->age[i]), true);
         for (size_t k = 0; k < i; k++)
@@ -109,8 +110,8 @@ static ff_status fail_ring(const stiffness_elasticity *m, int gear, int result)
                     "gear %d: the stiffness matrix of the elements is singular", gear + 1);
 }
 
-/* The error is estimated from the change with half as many elements; it decreases at least in
- * proportion to their number. */
+/* The error is estimated from a mesh with half as many elements; it decreases at least in
+   proportion to their number. */
 static ff_status make_ring(const stiffness_elasticity *m, int gear, stiffness_body *b)
 {
     const stiffness_body_data *r = &b->data;

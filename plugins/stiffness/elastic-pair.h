@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A pair of gears with elastic teeth: the compliance of teeth, fillets and bodies down to the
- * rim, by finite elements or as beams; the coupling of neighbouring teeth through the body; and
- * the load-dependent approach in the Hertzian contact. */
+/* A pair of gears with elastic teeth. Includes the compliance of teeth, fillets and bodies down to
+   the rim, by finite elements or as beams; the coupling of neighbouring teeth through the body; and
+   the load-dependent approach in the Hertzian contact. */
 #ifndef STIFFNESS_ELASTIC_PAIR_H
 #define STIFFNESS_ELASTIC_PAIR_H
 
@@ -9,7 +9,7 @@
 #include "equilibrium.h"
 #include "tooth-beam.h"
 
-/* The data that determine the compliance of a gear; compared byte for byte. */
+/* The data that determine the compliance of a gear; instances are compared bytewise. */
 typedef struct stiffness_body_data {
     stiffness_contour_data contour;
     stiffness_material material;
@@ -26,19 +26,19 @@ typedef struct stiffness_body {
         mesh_error; /* relative change of the compliance at mid-flank with half as many elements */
 } stiffness_body;
 
-/* The compliance by finite elements, or that of teeth as uncoupled beams. */
+/* The compliance by finite elements; or by beams, without coupling of teeth. */
 enum { STIFFNESS_FINITE_ELEMENT, STIFFNESS_ANALYTICAL };
 enum { STIFFNESS_STRAIN, STIFFNESS_STRESS };
 
-/* How the compliance is computed, and the parts that have been computed. */
+/* The settings for computing the compliance, and the bodies computed so far. */
 typedef struct stiffness_elasticity {
     const ff_host *host;
-    int64_t elements;   /* of one sector */
+    int64_t elements;   /* number of elements in one sector */
     int32_t compliance; /* STIFFNESS_FINITE_ELEMENT, STIFFNESS_ANALYTICAL */
     int32_t plane;      /* STIFFNESS_STRAIN, STIFFNESS_STRESS */
     int32_t coupling;   /* 1: a loaded tooth moves its neighbours */
     gsl_integration_glfixed_table *rule;
-    stiffness_body body[2]; /* kept for later evaluations */
+    stiffness_body body[2]; /* cached for later evaluations */
 } stiffness_elasticity;
 
 /* The pair during one evaluation. */
@@ -50,19 +50,19 @@ typedef struct stiffness_elastic_pair {
     double half_space[2]; /* compliance (1 - nu^2)/(pi E b) of each flank as a half space, m/N */
 } stiffness_elastic_pair;
 
-/* Computes what is missing. Gears with the same data share one body. */
+/* Computes the missing bodies. Gears with equal data share one body. */
 ff_status stiffness_elastic_pair_make(stiffness_elasticity *model, const stiffness_gears *gears,
                                       stiffness_elastic_pair *pair);
 
-/* For stiffness_source; `self` is a stiffness_elastic_pair. */
+/* The `compliance` function of a stiffness_source; `self` is a stiffness_elastic_pair. */
 void stiffness_elastic_pair_compliance(const void *self, const stiffness_position *at,
                                        stiffness_contacts *c);
 
-/* Returns the compliance of both teeth at the roll angles of their contact, without the contact
- * itself, m/N. */
+/* Returns the compliance of both teeth at the roll angles of their contact, without the Hertzian
+   approach, m/N. */
 double stiffness_elastic_pair_teeth(const stiffness_elastic_pair *p, const double roll[2]);
-/* Returns the approach in that contact, in plane strain or plane stress; `curvature` is its
- * equivalent radius, m. */
+/* Returns the Hertzian approach of this contact, in plane strain or plane stress; `curvature` is
+   its equivalent radius, m. */
 stiffness_hertz stiffness_elastic_pair_approach(const stiffness_elastic_pair *p,
                                                 const double roll[2], double curvature,
                                                 bool strain);

@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-/* N. A mesh without load gets the stiffness that it has under this force. */
+/* N. Without load, the stiffness is evaluated under this force. */
 static const double least_force = 1e-6;
 
 double stiffness_source_force(const stiffness_source *s)
@@ -15,15 +15,15 @@ double stiffness_source_force(const stiffness_source *s)
     return fmax(s->conditions->path.line_force, least_force);
 }
 
-/* Finds the gap of a pair along the line of action, m; false if the tip corner does not meet a
- * flank. */
+/* Finds the gap of a pair along the line of action, m. False if the tip corner does not meet a
+   flank. */
 static bool find_gap(const stiffness_source *s, double age, long number, double roll[2],
                      double *gap)
 {
     if (s->corner || (age >= 0 && age <= s->conditions->gears.contact_ratio)) {
         if (!stiffness_gears_contact(&s->conditions->gears, age, roll, gap))
             return false;
-    } else { /* beyond the path, the contact is held at the path's ends */
+    } else { /* beyond the path, the contact stays at the end of the path */
         double end = age < 0 ? 0 : s->conditions->gears.contact_ratio;
         stiffness_gears_contact(&s->conditions->gears, end, roll, gap);
     }
@@ -62,7 +62,7 @@ static stiffness_loaded share_force(const stiffness_source *s, const stiffness_p
     r.stiffness = s->tangent ? r.sharing.tangent : force / r.sharing.deflection;
     r.solved = r.solved && r.stiffness > 0 && isfinite(r.stiffness);
     const double same_gap = 1e-15; /* m */
-    const int offset = 8; /* larger than the whole cycles before SAP in which a pair may touch */
+    const int offset = 8; /* more than the whole mesh cycles before SAP in which a pair may touch */
     double least = INFINITY;
     for (size_t i = 0; i < r.at.count; i++) {
         int place = (int)lround(r.at.age[i] - phase);
@@ -96,7 +96,7 @@ stiffness_loaded stiffness_source_solve(const stiffness_source *s, size_t cycle,
     return r;
 }
 
-/* Returns the whole mesh cycles between a pair and the one that entered last. */
+/* Returns the whole mesh cycles between this pair and the pair that entered last. */
 static int place_of(double age, double phase)
 {
     return (int)lround(age - phase);

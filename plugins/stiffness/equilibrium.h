@@ -17,50 +17,50 @@ typedef struct stiffness_position {
 } stiffness_position;
 
 enum { STIFFNESS_MAX_SLOPE_CHANGES = 8 };
-/* A model of mesh stiffness that knows the compliance of its pairs. */
+/* A stiffness model given by the compliance of its pairs. */
 typedef struct stiffness_source {
     const ff_host *host;
     const stiffness_conditions *conditions;
-    size_t points; /* equal steps of the mesh cycle */
+    size_t points; /* number of equal steps of the mesh cycle */
     stiffness_mesh_cycles cycles;
     bool tangent;         /* k is dF/ds instead of F/(s - e) */
-    bool corner;          /* includes contact of tip corners off the line of action */
+    bool corner;          /* includes tip corner contact off the line of action */
     double before, after; /* mesh cycles of contact before SAP and after the tip */
-    bool sharp;           /* pairs enter and leave at once, so k jumps */
+    bool sharp;           /* pairs enter and leave abruptly, so that k jumps */
     size_t slope_changes; /* ages at which the compliance of a pair changes its slope */
     double slope_change[STIFFNESS_MAX_SLOPE_CHANGES];
-    /* Fills in compliance and Hertzian approach of the pairs. */
+    /* Computes compliance and Hertzian approach of the pairs. */
     void (*compliance)(const void *self, const stiffness_position *at, stiffness_contacts *c);
     const void *self;
-    const char *fault; /* parameter or port to name if there is no solution */
+    const char *fault; /* parameter or port named in the error if there is no solution */
 } stiffness_source;
 
-/* Loaded teeth at a mesh position. */
+/* The loaded teeth at one mesh position. */
 typedef struct stiffness_loaded {
     stiffness_position at;
     stiffness_sharing sharing;
     double stiffness; /* N/m */
     bool solved;      /* false: the pairs cannot carry the force */
-    uint64_t loaded;  /* a bit for each loaded pair, at its age in whole cycles */
-    int first;        /* the pair that would touch first without load, by its age in whole cycles */
+    uint64_t loaded;  /* one bit per loaded pair, numbered by its age in whole cycles */
+    int first;        /* the pair that touches first without load, by its age in whole cycles */
 } stiffness_loaded;
 
-/* Solves a phase of that mesh cycle of the hunting period. `side` selects the limit if pairs
- * enter or leave at that phase. */
+/* Solves one phase of one mesh cycle of the hunting period. If pairs enter or leave at that phase,
+   `side` selects the limit. */
 stiffness_loaded stiffness_source_solve(const stiffness_source *s, size_t cycle, double phase,
                                         int side);
 
-/* The same under several forces, N; 0 stands for a very small force. */
+/* Solves one phase for several forces, N; 0 means a very small force. */
 void stiffness_source_solve_all(const stiffness_source *s, size_t cycle, double phase, int side,
                                 size_t count, const double *force, stiffness_loaded *loaded);
 
 /* Returns the force on the pair of that age, N; 0: it is not loaded. */
 double stiffness_loaded_force(const stiffness_loaded *loaded, double age, double phase);
 
-/* Returns the force that the pairs carry together, N. */
+/* Returns the total force on the pairs, N. */
 double stiffness_source_force(const stiffness_source *s);
 
-/* Returns the transmission error without load, the least gap of all pairs, m. */
+/* Returns the transmission error without load: the smallest gap of all pairs, m. */
 double stiffness_source_unloaded(const stiffness_source *s, size_t cycle, double phase);
 
 #endif

@@ -85,8 +85,7 @@ static ff_status read_gear(const ff_host *host, const ff_array *in, const ff_rea
                     : bore > 0 ? bore
                                : g->root_radius / default_body_ratio;
     g->full_thickness = g->thickness;
-    /* a backlash without known thicknesses is an arc of the base circle, shared equally by both
-     * gears */
+    /* a backlash without given thicknesses is an arc of the base circle, half of it on each gear */
     g->thickness += in[STIFFNESS_IN_ALLOWANCE].data
                         ? allowance
                         : -backlash / 2 * g->reference_radius / g->base_radius;

@@ -11,10 +11,10 @@
 typedef struct stiffness_gear {
     double teeth;
     double base_radius, reference_radius, root_radius;
-    double rim_radius;     /* the body inside is rigid */
+    double rim_radius;     /* the body inside this radius is rigid */
     double thickness;      /* arc at the reference circle */
-    double full_thickness; /* as the profile shift alone would give it */
-    double tool_tip;       /* radius of the rack's tip, in modules */
+    double full_thickness; /* thickness from the profile shift alone */
+    double tool_tip;       /* tip radius of the rack, in modules */
     double elastic_modulus, poisson_ratio;
     double roll_low, roll_tip; /* roll angles of lowest contact and tip on its own flank */
 } stiffness_gear;
@@ -26,8 +26,8 @@ typedef struct stiffness_gears {
     double roll_sap, pitch, contact_ratio;
 } stiffness_gears;
 
-/* Reads and checks the input rows from STIFFNESS_IN_BASE on. `rim`: the radii that the user
- * gives; if empty, the bore, or without a bore half of the root radius. */
+/* Reads and checks the input rows from STIFFNESS_IN_BASE on. `rim`: the rim radii given by the
+   user; if empty, the bore radius, or without a bore half of the root radius. */
 ff_status stiffness_gears_read(const ff_host *host, const ff_array *in, const stiffness_path *e,
                                const ff_reals *rim, stiffness_gears *gears);
 

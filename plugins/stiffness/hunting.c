@@ -21,16 +21,16 @@ static double pressure_of(const stiffness_gears *g, double force, double age)
     return sqrt(force / (M_PI * softness * stiffness_gears_curvature(g, age) * g->width));
 }
 
-/* Returns the mesh cycle in which a pair entered that has this age at this phase of `cycle`. A
- * pair that is at SAP at the end of `cycle` enters in the next one. */
+/* Returns the mesh cycle in which a pair entered contact, if it has this age at this phase of
+   `cycle`. A pair that is at SAP at the end of `cycle` enters in the next cycle. */
 static size_t entered_in(size_t period, size_t cycle, double age, double phase)
 {
     long number = ((long)cycle - lround(age - phase)) % (long)period;
     return (size_t)(number < 0 ? number + (long)period : number);
 }
 
-/* Notes the pressure on the pairs on the path of contact. Beyond it a tip corner meets the
- * flank, for which Hertz's theory does not hold. */
+/* Records the pressure on the pairs on the path of contact. Beyond the path a tip corner meets the
+   flank, and Hertz's theory does not hold. */
 static void note_pairs(const stiffness_source *s, const stiffness_loaded *r, size_t cycle,
                        double phase, stiffness_hunting *h)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* With index deviations, every mesh cycle of the hunting period differs. Finds the load on the
- * pairs of teeth in each of them, and the pair with the highest. */
+/* With index deviations, all mesh cycles of the hunting period differ. Finds the load on the pairs
+   of teeth in each of them, and the pair with the highest Hertz pressure. */
 #ifndef STIFFNESS_HUNTING_H
 #define STIFFNESS_HUNTING_H
 
@@ -15,8 +15,8 @@ typedef struct stiffness_hunting {
     size_t period;
     double *pressure; /* highest Hertz pressure on the pair that enters in each mesh cycle, Pa */
     size_t worst;     /* the cycle with the highest pressure */
-    size_t teeth[2];  /* of gear 1 and gear 2, which meet in that cycle, counted from 1 */
-    stiffness_error_range all; /* of the loaded transmission error, over all mesh cycles, m */
+    size_t teeth[2];  /* teeth of gear 1 and gear 2 that meet in that cycle, counted from 1 */
+    stiffness_error_range all; /* range of the loaded transmission error over all mesh cycles, m */
     double narrowest; /* the smallest range of the loaded transmission error within one mesh cycle,
                          m */
 } stiffness_hunting;
@@ -26,7 +26,8 @@ typedef struct stiffness_hunting {
 ff_status stiffness_hunting_scan(const stiffness_source *s, const stiffness_cycle *grid,
                                  stiffness_hunting *h);
 
-/* Reports as quality how far mesh cycle `number`, which represents all, is from the worst. */
+/* Reports as quality the difference between mesh cycle `number`, which represents all, and the
+   worst one. */
 void stiffness_hunting_report(const stiffness_source *s, const stiffness_hunting *h, size_t number);
 
 #endif

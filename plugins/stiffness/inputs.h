@@ -5,8 +5,8 @@
 
 #include <flankfilm/plugin.h>
 
-/* In the order of the rows. A table takes the rows of the path of contact, which come first; a
- * standard takes all rows; other models take all but the pinion. */
+/* In the order of the rows. A table uses the rows of the path of contact, which come first; a
+   standard uses all rows; other models use all rows except the pinion. */
 enum {
     STIFFNESS_IN_ROLL,
     STIFFNESS_IN_SAP,

@@ -50,8 +50,8 @@ const char *stiffness_table_phases_make(stiffness_table_phases *points, size_t c
     }
     size_t n = 0, last = count - 1;
     bool at_0 = phase[0] <= 0, at_1 = phase[last] >= 1;
-    /* the value before phase 1 is the first sample there; the value after it is the last one of
-     * those at 1 and 0 */
+    /* the value before phase 1 is the first sample there; the value after phase 1 is the last of
+       the samples at 1 and 0 */
     if (at_1) {
         size_t first = count > 1 && phase[last - 1] >= 1 ? last - 1 : last;
         points->phase[n] = 0;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Mesh stiffness of ISO 6336-1, method B: single stiffness c' from a series fitted to gears on
- * solid blanks, mesh stiffness c_gamma = c' (0.75 eps + 0.25). This mean is linear in the
- * contact ratio eps if p pairs together have the stiffness c' (0.75 p + 0.25). That gives the
- * variation over the mesh cycle, which the standard leaves open. */
+/* Mesh stiffness of ISO 6336-1, method B. The single stiffness c' comes from a series fitted to
+   gears on solid blanks. The mesh stiffness is c_gamma = c' (0.75 eps + 0.25). This mean is linear
+   in the contact ratio eps if p pairs together have the stiffness c' (0.75 p + 0.25); this gives
+   the variation over the mesh cycle, which the standard leaves open. */
 #include "inputs.h"
 #include "loaded-cycle.h"
 #include "outputs.h"
@@ -25,7 +25,7 @@ typedef struct iso_model {
     double blank, correction;  /* C_R, C_M */
 } iso_model;
 
-/* The values that the standard gives for one pair of gears. */
+/* The values of the standard for one pair of gears. */
 typedef struct iso_pair {
     double contact_ratio, ramp;
     double single; /* c' b, N/m */
@@ -36,14 +36,14 @@ static const ff_param params[] = {
     STIFFNESS_DEFINITION_ROW(iso_model),
     FF_ONE_OF(
         "rectangular|trapezoidal", "shape", iso_model, shape, 0, "rectangular",
-        "rectangular: pairs take part at once and share the load in equal parts; trapezoidal: they "
-        "do over a ramp, centred on SAP and on the tip, with the same mean"),
+        "rectangular: pairs enter and leave abruptly and share the load equally; trapezoidal: they "
+        "enter and leave over a ramp centred on SAP and on the tip, with the same mean"),
     FF_QUANTITY("ramp", "1", iso_model, ramp, FF_MIN_OPEN, "0.2", NULL, 0, 0.5, 0, 0,
                 "length of the trapezoid's ramps in mesh cycles"),
     FF_QUANTITY("blank_factor", "1", iso_model, blank, FF_MIN_OPEN, "1", NULL, 0, 1, 0, 0,
                 "gear blank factor C_R: 1 for solid disc gears, less for thin rims and webs"),
     FF_QUANTITY("correction_factor", "1", iso_model, correction, FF_MIN_OPEN, "0.8", NULL, 0, 1, 0,
-                0, "C_M, which brings the theoretical single stiffness to the measured one"),
+                0, "correction factor C_M from theoretical to measured single stiffness"),
     STIFFNESS_MESH_CYCLE_ROW,
 };
 
@@ -72,9 +72,9 @@ static double profile_shift(const stiffness_gear *g)
     return (g->full_thickness / module - M_PI / 2) / (2 * tangent);
 }
 
-/* ISO 6336-1, clause 9, theoretical single stiffness: the series for q' = 1/c'_th, in mm um/N, of
-   spur gears, whose virtual number of teeth is that of teeth. The pinion has index 0 here and 1 in
-   the standard. */
+/* ISO 6336-1, clause 9, theoretical single stiffness: the series for q' = 1/c'_th, in mm um/N. For
+   spur gears the virtual number of teeth is the number of teeth. The pinion has index 0 here and 1
+   in the standard. */
 static double theoretical_compliance(const double z[2], const double x[2])
 {
     double z1 = z[0], z2 = z[1];
@@ -132,14 +132,14 @@ static ff_status set_single(const iso_model *m, const stiffness_gears *g, int pi
     return FF_OK;
 }
 
-/* Returns the stiffness of that many pairs over the single stiffness. */
+/* Returns the stiffness of this number of pairs over the single stiffness. */
 static double stiffness_factor(double pairs)
 {
     return 0.75 * pairs + 0.25;
 }
 
-/* A pair alone has the stiffness c'. Several pairs are coupled so that they have c' (0.75 p +
- * 0.25) together. */
+/* A single pair has the stiffness c'. Several pairs are coupled so that they have c' (0.75 p +
+   0.25) together. */
 static void couple(const iso_pair *f, stiffness_contacts *c)
 {
     double pairs = (double)c->count, own = 1 / f->single;
@@ -149,8 +149,8 @@ static void couple(const iso_pair *f, stiffness_contacts *c)
             c->compliance[i][k] = i == k ? own : shared;
 }
 
-/* Returns how far a pair of that age takes part, from 0 to 1 over the ramps, but never quite 0,
- * so that its compliance stays finite. */
+/* Returns the participation of a pair of that age, from 0 to 1 over the ramps. It is never exactly
+   0, so that the compliance stays finite. */
 static double part(const iso_pair *f, double age)
 {
     const double least = 1e-9;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Tooth forces and errors at several mesh forces. */
+/* Tooth forces and transmission errors at several mesh forces. */
 #include "levels.h"
 
 #include <flankfilm/author.h>
@@ -15,8 +15,8 @@ typedef struct levels {
     double force[MOST];
 } levels;
 
-/* Forces F (3 i/9)^2 up to 9 F, or up to more with a power above 2, so that a line force that
-   swings stays below them by a fifth. */
+/* Forces F (3 i/9)^2 up to 9 F. If the line force fluctuates, the power is larger than 2, so that
+   the highest level exceeds the largest line force by a fifth. */
 static levels levels_of(const stiffness_source *s)
 {
     static const double above = 1.2, square = (MOST - 1) * (MOST - 1) / (double)(MEAN * MEAN);

@@ -17,9 +17,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { NODES = 32 }; /* of the Gauss-Legendre rule; accurate to rounding (see potential-energy.c) */
+enum {
+    NODES = 32
+}; /* nodes of the Gauss-Legendre rule; accurate to rounding (see
+      potential-energy.c) */
 
-/* The contact ratio up to which teeth are coupled over as many places (ring.h) as pairs mesh. */
+/* The largest contact ratio for which the coupled places (ring.h) include all pairs in mesh. */
 static const double highest_contact_ratio = 4;
 
 typedef struct distribution {
@@ -34,25 +37,23 @@ typedef struct distribution {
 static const ff_param params[] = {
     STIFFNESS_POINTS_ROW(distribution),
     FF_ONE_OF("secant|tangent", "definition", distribution, definition, 0, "tangent",
-              "tangent dF/d(e_l), which a small vibration about the load sees, or secant F/(e_l - "
-              "e), the "
-              "chord that Li & Kahraman 2011 take"),
+              "tangent: dF/d(e_l), the stiffness for small vibrations about the load; secant: "
+              "F/(e_l - e), the definition of Li & Kahraman 2011"),
     FF_ONE_OF("finite-element|analytical", "compliance", distribution, teeth.compliance, 0,
               "finite-element",
-              "finite-element: plane elements of the whole ring of teeth; analytical: beam with "
-              "the foundation of Sainsot et al. 2004, teeth uncoupled"),
+              "finite-element: plane elements of the whole gear with all teeth; analytical: beam "
+              "with the foundation of Sainsot et al. 2004, without coupling of teeth"),
     FF_COUNT("elements_per_tooth", distribution, teeth.elements, FF_TUNABLE, "900", NULL, 50, 20000,
-             0, 0, "about how many elements of eight nodes one sector of a gear has"),
-    FF_ONE_OF(
-        "strain|stress", "plane", distribution, teeth.plane, 0, "strain",
-        "strain: teeth that are wide against their thickness, some five times or more; stress: "
-        "narrow ones, free to bulge sideways, but for the contact, which stays in plane strain"),
+             0, 0, "approximate number of eight-node elements in one sector of a gear"),
+    FF_ONE_OF("strain|stress", "plane", distribution, teeth.plane, 0, "strain",
+              "strain: plane strain, for face widths of about five tooth thicknesses or more; "
+              "stress: plane stress, for narrower teeth; the contact stays in plane strain"),
     FF_SWITCH("neighbour_coupling", distribution, teeth.coupling, "true",
-              "whether a loaded tooth moves its neighbours through the gear body; with finite "
-              "elements alone"),
+              "whether a loaded tooth displaces its neighbours through the gear body; with finite "
+              "elements only"),
     FF_SWITCH("corner_contact", distribution, corner, "false",
-              "whether tip corners touch under load before SAP and after the tip, off the line of "
-              "action"),
+              "whether to include tip corner contact under load before SAP and after the tip, off "
+              "the line of action"),
     STIFFNESS_RIM_RADIUS_ROW(distribution),
     STIFFNESS_MESH_CYCLE_ROW,
 };
@@ -121,14 +122,15 @@ static void report_mesh(const distribution *m, const stiffness_elastic_pair *p)
     double reciprocity = fmax(p->body[0]->ring.reciprocity, p->body[1]->ring.reciprocity);
     m->host->quality(m->host->ctx, "stiffness_mesh_error", error, limit,
                      error <= limit ? FF_GOOD : FF_DOUBTFUL,
-                     "compliance of a tooth against that of half as many elements");
+                     "relative change of the compliance of a tooth with half as many elements");
     m->host->quality(m->host->ctx, "reciprocity", reciprocity, 1e-10,
                      reciprocity <= 1e-10 ? FF_GOOD : FF_BAD,
-                     "displacements of two points of a flank under each other's load");
+                     "reciprocity: relative difference between the displacements of two flank "
+                     "points, each under a load on the other");
 }
 
-/* Reports whether the contact is narrow compared with the distance to the axis of the tooth,
- * since the local approach is that of a half plane. */
+/* Reports whether the contact is narrow compared with its distance to the axis of the tooth, since
+   the local approach is that of a half plane. */
 static void report_contact(const distribution *m, const stiffness_elastic_pair *p,
                            const stiffness_path *e)
 {
@@ -147,7 +149,7 @@ static void report_contact(const distribution *m, const stiffness_elastic_pair *
     }
     m->host->quality(m->host->ctx, "contact_width", worst, limit,
                      worst <= limit ? FF_GOOD : FF_DOUBTFUL,
-                     "half width of the contact under the whole force, over the depth of the "
+                     "half width of the contact under the whole force over the depth of the "
                      "tooth's axis; the local approach is that of a half plane");
 }
 
@@ -182,12 +184,12 @@ static void report_half_plane(const distribution *m, const stiffness_elastic_pai
     double share = fabs(thin) / at_mid_path(p, e).deflection;
     m->host->quality(
         m->host->ctx, "half_plane", share, limit, share <= limit ? FF_GOOD : FF_RANGE,
-        "share of a pair's deflection that is added since a tooth is not a half plane");
+        "share of a pair's deflection due to the difference between tooth and half plane");
 }
 
-/* Reports the effect of plane stress in the contact. Only the teeth are in plane stress: within
- * the width of the contact, some tenths of a millimetre, steel bulges only at the ends of the
- * face. */
+/* Reports the effect of plane stress in the contact. Only the teeth can be in plane stress: over
+   the width of the contact, some tenths of a millimetre, steel can expand sideways only at the ends
+   of the face. */
 static void report_plane(const distribution *m, const stiffness_elastic_pair *p,
                          const stiffness_path *e)
 {
@@ -195,10 +197,10 @@ static void report_plane(const distribution *m, const stiffness_elastic_pair *p,
     mid_path at = at_mid_path(p, e);
     stiffness_hertz h = stiffness_elastic_pair_approach(p, at.roll, at.curvature, false);
     double more = (h.constant - h.slope * log(e->line_force) - at.hertz) / at.deflection;
-    m->host->quality(m->host->ctx, "contact_in_plane_strain", more, limit,
-                     more <= limit ? FF_GOOD : FF_DOUBTFUL,
-                     "the contact stays in plane strain, as its width is small against the face "
-                     "width: share of a pair's deflection that plane stress would add there");
+    m->host->quality(
+        m->host->ctx, "contact_in_plane_strain", more, limit, more <= limit ? FF_GOOD : FF_DOUBTFUL,
+        "share of a pair's deflection that plane stress in the contact would add; the contact "
+        "stays in plane strain, since it is narrow compared with the face width");
 }
 
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)

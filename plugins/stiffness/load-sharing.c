@@ -6,16 +6,16 @@
 
 enum {
     MAX_STEPS = 200 /* of Newton's method */,
-    MAX_SETS = 64 /* of the set of pairs in contact */
+    MAX_SETS = 64 /* iterations of the active set */
 };
 
-/* A pair with a smaller share of F leaves the contact. */
+/* A pair with a smaller share of F is removed from the contact. */
 static const double vanishing = 1e-13;
 
 typedef struct sharing_state {
     const stiffness_contacts *contacts;
     double total;
-    double unloaded; /* gaps and the approach are counted from this error */
+    double unloaded; /* gaps and approach are measured from this transmission error */
     double force[STIFFNESS_MAX_PAIRS], approach;
     size_t count, member[STIFFNESS_MAX_PAIRS]; /* pairs in contact */
 } sharing_state;
@@ -60,8 +60,8 @@ static bool solve(size_t n, double m[STIFFNESS_MAX_PAIRS][STIFFNESS_MAX_PAIRS],
     return true;
 }
 
-/* With the matrix M = C + H'(f) of the pairs in contact and their separations w, computes x[0] =
- * M^-1 w and x[1] = M^-1 1. False if M is not positive definite. */
+/* For the pairs in contact, with the matrix M = C + H'(f) and their separations w, computes x[0] =
+   M^-1 w and x[1] = M^-1 1. False if M is not positive definite. */
 static bool linearise(const sharing_state *s, double x[2][STIFFNESS_MAX_PAIRS])
 {
     const stiffness_contacts *c = s->contacts;
@@ -119,8 +119,8 @@ static bool solve_contacts(sharing_state *s)
     return false;
 }
 
-/* Adds the pair without contact that overlaps most, with a small initial force. False if none
- * overlaps. */
+/* Adds the pair that overlaps most, among those not in contact, with a small initial force. False
+   if none overlaps. */
 static bool add_overlapping(sharing_state *s, double tolerance)
 {
     size_t worst = s->contacts->count;

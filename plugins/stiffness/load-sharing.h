@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How the pairs of teeth at one mesh position share the line force (Conry & Seireg 1973): forces
- * f >= 0 that sum to F, gaps w = C f + H(f) + gap - s >= 0, f w = 0, with the compliance C, the
- * Hertzian approach H and the loaded transmission error s. Lengths in m, forces in N. */
+/* Load sharing of the pairs of teeth at one mesh position (Conry & Seireg 1973). The forces f >= 0
+   sum to the line force F, and the separations are w = C f + H(f) + gap - s >= 0 with f w = 0. C is
+   the compliance, H the Hertzian approach and s the loaded transmission error. Lengths in m, forces
+   in N. */
 #ifndef STIFFNESS_LOAD_SHARING_H
 #define STIFFNESS_LOAD_SHARING_H
 
@@ -24,18 +25,18 @@ typedef struct stiffness_contacts {
 
 typedef struct stiffness_sharing {
     double force[STIFFNESS_MAX_PAIRS]; /* 0: not in contact */
-    double unloaded;                   /* transmission error without load: the least gap */
+    double unloaded;                   /* transmission error without load: the smallest gap */
     double deflection;                 /* s - unloaded */
     double tangent;                    /* dF/ds */
-    double residual; /* relative to the deflection: largest gap of a pair in contact, or largest
-                        overlap of another pair */
+    double residual; /* relative to the deflection: largest separation of a pair in contact, or
+                        largest overlap of another pair */
 } stiffness_sharing;
 
-/* Shares the force, which is positive. False if there is no solution, because a contact would be
- * pressed through its tooth. */
+/* Solves the load sharing for a positive force. False if there is no solution because the approach
+   of a contact would exceed the depth of its tooth. */
 bool stiffness_share(const stiffness_contacts *c, double force, stiffness_sharing *result);
-/* Does the same faster, starting from the sharing of another force by the same contacts; NULL:
- * there is none. */
+/* Does the same faster, starting from the solution `near` for another force on the same contacts;
+   NULL: there is none. */
 bool stiffness_share_near(const stiffness_contacts *c, double force, const stiffness_sharing *near,
                           stiffness_sharing *result);
 

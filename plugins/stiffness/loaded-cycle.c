@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Solves a mesh cycle of loaded teeth and gives its outputs. */
+/* Solves a mesh cycle of loaded teeth and writes its outputs. */
 #include "loaded-cycle.h"
 
 #include "back-flank.h"
@@ -16,9 +16,9 @@
 
 const double stiffness_corner_reach = 0.45;
 
-/* HUNTING_STEPS: steps per mesh cycle of the transmission error without load. The others limit
- * the points over a hunting period, without load and with load; LOADED_MOST points take a second
- * or two. */
+/* HUNTING_STEPS: steps per mesh cycle of the transmission error without load. The other two are
+   limits on the number of points over a hunting period, without load and with load; LOADED_MOST
+   points take one or two seconds. */
 enum { HUNTING_STEPS = 32, HUNTING_MOST = 1 << 22, LOADED_MOST = 1 << 19 };
 
 static stiffness_loaded solve(const stiffness_source *s, double phase, int side)
@@ -97,7 +97,8 @@ static ff_status sample(const stiffness_source *s, samples *v)
         v->pairs[i] = 0;
         for (size_t k = 0; k < r.at.count; k++)
             v->pairs[i] += r.sharing.force[k] > 0;
-        if (s->conditions->path.line_force > 0) /* else the deflection is round-off of the gaps */
+        if (s->conditions->path.line_force > 0) /* otherwise the deflection is only the rounding
+                                                   error of the gaps */
             v->residual = fmax(v->residual, r.sharing.residual);
     }
     return FF_OK;
@@ -123,14 +124,14 @@ static ff_status sample_hunting(const stiffness_source *s, samples *v)
 static void report_contact(const stiffness_source *s, const samples *v)
 {
     const double limit = 1e-10;
-    s->host->quality(s->host->ctx, "complementarity", v->residual, limit,
-                     v->residual <= limit ? FF_GOOD : FF_BAD,
-                     "gap of a loaded pair or overlap of another, over the deflection");
+    s->host->quality(
+        s->host->ctx, "complementarity", v->residual, limit,
+        v->residual <= limit ? FF_GOOD : FF_BAD,
+        "largest gap of a loaded pair or overlap of an unloaded pair, relative to the deflection");
 }
 
-/* Solves all mesh cycles of the hunting period at equal steps and at the breakpoints known
- * beforehand. If the worst mesh
- * cycle is requested, it becomes the one to be solved. */
+/* Solves all mesh cycles of the hunting period at equal steps and at the breakpoints known in
+   advance. If the worst mesh cycle is requested, selects it. */
 static ff_status scan_hunting_period(stiffness_source *s, const stiffness_breakpoint_list *b,
                                      stiffness_hunting *h)
 {

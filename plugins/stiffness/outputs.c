@@ -13,8 +13,8 @@ const ff_port stiffness_outputs[STIFFNESS_ALL_OUTPUTS] = {
     {.name = "phase",
      .unit = "1",
      .label = "mesh cycle",
-     .doc = "mesh cycle from 0 (the entering pair at SAP) to 1; a phase given twice marks a jump: "
-            "value before, value after",
+     .doc = "phase of the mesh cycle from 0 (the entering pair at SAP) to 1; a repeated phase is a "
+            "jump, with the values before and after it",
      .dims = "phase"},
     {.name = "stiffness",
      .unit = "N/m",
@@ -47,12 +47,12 @@ const ff_port stiffness_outputs[STIFFNESS_ALL_OUTPUTS] = {
     {.name = "load_share",
      .label = "load share of the pair",
      .unit = "1",
-     .doc = "the pair's part of the line force, W_s/F",
+     .doc = "share of the line force on the pair, W_s/F",
      .dims = "engagement? gear.station",
      .max = 1},
     {.name = "pairs_in_contact",
      .unit = "1",
-     .doc = "pairs of teeth that carry load",
+     .doc = "number of pairs of teeth that carry load",
      .dims = "phase",
      .max = INFINITY},
     {.name = "breakpoints",
@@ -66,12 +66,12 @@ const ff_port stiffness_outputs[STIFFNESS_ALL_OUTPUTS] = {
      .max = INFINITY},
     {.name = "engagement_roll",
      .unit = "rad",
-     .doc = "roll angle of gear 1 over the whole engagement, corner contact before SAP and after "
-            "the tip included",
+     .doc = "roll angle of gear 1 over the whole engagement, including corner contact before SAP "
+            "and after the tip",
      .dims = "engagement_point"},
     {.name = "engagement_force",
      .unit = "N",
-     .doc = "quasi-static normal force of one pair there",
+     .doc = "quasi-static normal force of one pair at engagement_angle",
      .dims = "engagement_point"},
     {.name = "hunting_period",
      .unit = "1",
@@ -90,33 +90,33 @@ const ff_port stiffness_outputs[STIFFNESS_ALL_OUTPUTS] = {
      .max = INFINITY},
     {.name = "worst_mesh_cycle",
      .unit = "1",
-     .doc = "mesh cycle of the hunting period with the highest of them",
+     .doc = "mesh cycle of the hunting period with the highest Hertz pressure",
      .dims = ""},
     {.name = "worst_teeth",
      .unit = "1",
-     .doc = "teeth of gear 1 and gear 2 that meet then, counted from 1",
+     .doc = "teeth of gear 1 and gear 2 that meet in the worst mesh cycle, counted from 1",
      .dims = "gear"},
     {.name = "transmission_error_peak_to_peak",
      .unit = "m",
-     .doc = "largest less least of loaded_transmission_error over the mesh cycle",
+     .doc = "maximum minus minimum of loaded_transmission_error over the mesh cycle",
      .dims = "",
      .max = INFINITY},
     {.name = "force_level",
      .unit = "N",
-     .doc = "mesh forces from 0 up; the line force is one of them",
+     .doc = "increasing mesh forces from 0; the line force is one of them",
      .dims = "level"},
     {.name = "level_error",
      .unit = "m",
-     .doc = "transmission error under each of them; under 0 that without load",
+     .doc = "transmission error under each mesh force; for force 0, that without load",
      .dims = "level phase"},
     {.name = "level_stiffness",
      .unit = "N/m",
-     .doc = "slope dF/d(e_l) of the mesh force there",
+     .doc = "slope dF/d(e_l) of the mesh force at each mesh force",
      .dims = "level phase",
      .max = INFINITY},
     {.name = "level_tooth_force",
      .unit = "N",
-     .doc = "quasi-static normal force of one pair from SAP to tip there",
+     .doc = "quasi-static normal force of one pair from SAP to tip at each mesh force",
      .dims = "level gear.station"},
     {.name = "back_phase",
      .unit = "1",
@@ -176,7 +176,7 @@ double stiffness_station_age(const stiffness_path *path, size_t i, int *side)
     return age;
 }
 
-/* Returns the share of F on the pair that enters in mesh cycle `number`, at station i. */
+/* Returns the share of F at station i on the pair that enters in mesh cycle `number`. */
 static double station_share(const stiffness_result *r, const stiffness_path *path, size_t number,
                             size_t i)
 {
@@ -192,8 +192,8 @@ static double share_above(const stiffness_result *r, double age)
     return r->share(r->self, age, stiffness_phase_of(age, STIFFNESS_ABOVE), STIFFNESS_ABOVE);
 }
 
-/* Bisects between the ages `idle`, at which a pair carries nothing, and `loaded`, at which it
- * does. Returns where the load begins. */
+/* Bisects between `idle`, an age at which a pair is unloaded, and `loaded`, an age at which it is
+   loaded. Returns the age at which the load begins. */
 static double start_of_load(const stiffness_result *r, double idle, double loaded)
 {
     for (int i = 0; i < 40; i++) {
@@ -203,8 +203,8 @@ static double start_of_load(const stiffness_result *r, double idle, double loade
     return loaded;
 }
 
-/* Returns the mesh cycles between the first and the last load on a pair, searched on 400 steps
- * and then bisected. */
+/* Returns the mesh cycles between the first and the last load on a pair; searches 400 steps and
+   then bisects. */
 static double loaded_ratio(const stiffness_result *r, const stiffness_path *path)
 {
     enum { STEPS = 400 };
@@ -248,8 +248,8 @@ static ff_status write_stations(const ff_host *host, uint64_t wanted, const stif
     return FF_OK;
 }
 
-/* Writes W_s at the stations, and at further places before SAP and after the tip where contact
- * is possible. */
+/* Writes W_s at the stations, and at further places before SAP and after the tip where contact is
+   possible. */
 static ff_status write_engagement(const ff_host *host, uint64_t wanted, const stiffness_result *r,
                                   const stiffness_path *path)
 {
@@ -337,7 +337,8 @@ static ff_status write_hunting(const ff_host *host, uint64_t wanted, const stiff
     return FF_OK;
 }
 
-/* Writes the pressure on the pairs of the hunting period, and the pair with the highest. */
+/* Writes the pressure on the pairs of the hunting period, and the pair with the highest
+   pressure. */
 static ff_status write_worst(const ff_host *host, uint64_t wanted, const stiffness_result *r)
 {
     static const uint32_t rows[] = {STIFFNESS_OUT_HUNTING_PRESSURE, STIFFNESS_OUT_WORST_CYCLE,
@@ -434,9 +435,9 @@ static void report_equilibrium(const ff_host *host, const stiffness_result *r,
                          "not fit the gear's path of contact");
 }
 
-/* Reports the mean distance of k from the straight lines between the points, over the mean of k;
- * the amplitudes of k are off by at most twice that. For a parabola, the mean distance is 2/3 of
- * the distance from the chord in the middle. */
+/* Reports the mean deviation of k from linear interpolation between the points, over the mean of k.
+   The error of the amplitudes of k is at most twice that. For a parabola, the mean deviation is 2/3
+   of the deviation from the chord in the middle. */
 static void report_interpolation(const ff_host *host, const stiffness_result *r)
 {
     const double limit = 1e-3;
@@ -453,7 +454,7 @@ static void report_interpolation(const ff_host *host, const stiffness_result *r)
     int held = mean <= limit;
     host->quality(host->ctx, "interpolation_error", mean, limit, held ? FF_GOOD : FF_DOUBTFUL,
                   held ? "straight lines between the points follow k"
-                       : "straight lines between the points cut corners of k: raise points");
+                       : "straight lines between the points deviate from k: increase points");
 }
 
 ff_status stiffness_result_publish(const ff_host *host, uint64_t wanted, const stiffness_result *r,

@@ -8,15 +8,15 @@
 /* Number of equal steps of the mesh cycle: the member `points`. */
 #define STIFFNESS_POINTS_ROW(type)                                                                 \
     FF_COUNT("points", type, points, FF_TUNABLE, "200", NULL, 4, 100000, 0, 0,                     \
-             "equal steps of the mesh cycle that the outputs are given at")
+             "number of equal steps of the mesh cycle at which the outputs are given")
 
 /* Radii of the rims, for stiffness_conditions_read: the member `rim`. */
 #define STIFFNESS_RIM_RADIUS_ROW(type)                                                             \
     FF_LIST("rim_radius", "mm", type, rim, FF_MIN_OPEN, NULL, NULL, 0, 1e5, 0, 0, 1, 2,            \
-            "radius inside which a gear's body is rigid, one value or two; without it the bore "   \
+            "radius inside which a gear's body is rigid, one value or two; left out: the bore "    \
             "radius, or half the root radius for a gear without a bore")
 
-/* Definition of the stiffness, 1: tangent. The member `definition`. */
+/* The parameter row of the stiffness definition, 1: tangent. The member `definition`. */
 #define STIFFNESS_DEFINITION_ROW(type)                                                             \
     FF_ONE_OF("secant|tangent", "definition", type, definition, 0, "secant",                       \
               "secant F/(e_l - e) or tangent dF/d(e_l); they differ where deviations of the "      \
@@ -25,9 +25,9 @@
 /* Set by stiffness_mesh_cycles_set, since each word has its own meaning. */
 #define STIFFNESS_MESH_CYCLE_ROW                                                                   \
     FF_ROW("mesh_cycle", "1",                                                                      \
-           "which mesh cycle of the hunting period, where teeth have index deviations, from 0; "   \
-           "worst: the one whose pair bears the highest Hertz pressure; all: tooth_force and "     \
-           "load_share of the pairs of all of them, the rest of mesh cycle 0",                     \
+           "mesh cycle of the hunting period, from 0, for teeth with index deviations; "           \
+           "worst: the one whose pair has the highest Hertz pressure; all: tooth_force and "       \
+           "load_share of the pairs of all mesh cycles, other outputs of mesh cycle 0",            \
            FF_INT, 0, "0", "worst|all", NULL, 0, 1e9, 0, 0, 0, 0, 0)
 
 #endif

@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-/* More than any gear has; keeps loops over pairs short. */
+/* More than any gear has; limits the loops over pairs. */
 static const double highest_contact_ratio = 10;
 
 static ff_status check_stations(const ff_host *host, const stiffness_path *p, double roll_tip)

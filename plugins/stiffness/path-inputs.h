@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The path of contact, and the force that its pairs of teeth carry together. */
+/* The path of contact, and the total force on its pairs of teeth. */
 #ifndef STIFFNESS_PATH_INPUTS_H
 #define STIFFNESS_PATH_INPUTS_H
 
@@ -10,9 +10,10 @@ typedef struct stiffness_path {
     const double *roll;     /* roll angle of gear 1 at the stations, rad */
     double roll_sap, pitch; /* roll angle at SAP and of one mesh cycle, rad */
     double contact_ratio;   /* (tip - SAP)/pitch */
-    double line_force;      /* F, N, at which stiffness and sharing are taken */
-    double largest;         /* N, that the line force swings to; 0: it does not swing */
-    double load;            /* N, of both signs of the torque, which the pairs share */
+    double line_force;      /* F, N, for which stiffness and load sharing are evaluated; never
+                               negative */
+    double largest;         /* largest line force during a fluctuation, N; 0: no fluctuation */
+    double load;            /* load shared by the pairs, N, for either sign of the torque */
 } stiffness_path;
 
 /* Reads and checks the input rows of the path of contact. */

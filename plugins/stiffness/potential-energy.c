@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Mesh stiffness of a spur pair from the strain energy of its teeth. Two teeth, two bodies and
- * one contact act in series; the pairs act in parallel along the geometric path of contact. A
- * pair does not deform the body below another one, and contact begins and ends as without load. */
+/* Mesh stiffness of a spur pair from the strain energy of its teeth. Two teeth, two bodies and one
+   contact act in series; the pairs act in parallel along the geometric path of contact. A pair does
+   not deform the body below another pair, and contact begins and ends as without load. */
 #include "contact-point.h"
 #include "inputs.h"
 #include "loaded-cycle.h"
@@ -42,8 +42,8 @@ static const ff_param params[] = {
     STIFFNESS_POINTS_ROW(energy_model),
     STIFFNESS_RIM_RADIUS_ROW(energy_model),
     FF_ONE_OF("stress|strain", "plane", energy_model, plane, 0, "stress",
-              "stress: the tooth bends as a narrow beam; strain: as a wide plate, E/(1-nu^2) in "
-              "bending and compression"),
+              "stress: the tooth bends like a narrow beam; strain: like a wide plate, with "
+              "E/(1-nu^2) in bending and compression"),
     STIFFNESS_DEFINITION_ROW(energy_model),
     STIFFNESS_MESH_CYCLE_ROW,
 };

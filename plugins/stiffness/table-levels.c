@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Forces closer than this, relatively, and phases closer than this, in mesh cycles, count as the
- * same. */
+/* Forces with a smaller relative difference, and phases with a smaller difference in mesh cycles,
+   are treated as equal. */
 static const double same_force = 1e-9, same_phase = 1e-9;
 
 static ff_status fail_at(const stiffness_table *t, size_t row, size_t column, const char *why,
@@ -37,7 +37,7 @@ static ff_status check_header(const stiffness_table *t)
     return FF_OK;
 }
 
-/* Checks that a row has the force and the phase that belong at its place. */
+/* Checks that a row has the force and the phase expected at its position. */
 static ff_status check_row(const stiffness_table *t, size_t i, size_t phases)
 {
     const double *force = t->file->columns[COLUMN_FORCE], *at = t->file->columns[COLUMN_PHASE];
@@ -63,8 +63,9 @@ static ff_status check_row(const stiffness_table *t, size_t i, size_t phases)
     return FF_OK;
 }
 
-/* Refuses a table whose stiffness is the chord force/(error - error without load) in all rows,
- * although the errors have another slope: the column is not the slope that it is taken for. */
+/* Refuses a table whose stiffness equals the chord force/(error - error without load) in all rows,
+   although the errors have another slope. Such a column is not the slope dF/d(e_l) that is
+   required. */
 static ff_status check_slopes(const stiffness_table *t, size_t rows, size_t phases)
 {
     static const double rounded = 1e-3, other = 1e-2;
@@ -157,7 +158,7 @@ static curve curve_at(const stiffness_table *t, size_t phase)
         c.error[i] = t->file->columns[COLUMN_LOADED][at];
     }
     numerics_steffen_slopes(c.count, c.force, c.error, c.slope);
-    /* a slope of 0, which Steffen's cubic may have at its ends, would be a rigid mesh */
+    /* a slope of 0, which Steffen's cubic may have at its ends, would mean a rigid mesh */
     size_t last = c.count - 1;
     c.slope[0] = fmax(c.slope[0], 0.1 * rise(&c, 0));
     c.slope[last] = fmax(c.slope[last], 0.1 * rise(&c, last - 1));
@@ -168,8 +169,8 @@ static curve curve_at(const stiffness_table *t, size_t phase)
     return c;
 }
 
-/* Fills in one phase of all rows. `low` is the force of the table below the line force, if the
- * line force is not one of the table's. */
+/* Fills in one phase of all rows. If the line force is not a force of the table, `low` is the table
+   force below it. */
 static void fill_phase(const stiffness_table *t, stiffness_table_levels *l, size_t phase,
                        int between)
 {

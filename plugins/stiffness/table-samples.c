@@ -9,15 +9,15 @@
 #include <stdlib.h>
 
 const ff_param stiffness_table_columns[STIFFNESS_TABLE_COLUMNS] = {
-    FF_ROW("phase", "1", "mesh cycles, from 0 to 1", FF_REALS, FF_REQUIRED, NULL, NULL, NULL, 0, 0,
-           0, 0, 0, 100000, 0),
+    FF_ROW("phase", "1", "phase in mesh cycles, from 0 to 1", FF_REALS, FF_REQUIRED, NULL, NULL,
+           NULL, 0, 0, 0, 0, 0, 100000, 0),
     FF_COLUMN("stiffness", "N/m", 0, NULL, 0, 0, "mesh stiffness"),
     FF_COLUMN("transmission_error", "um", 0, NULL, 0, 0, "without load"),
     FF_COLUMN("loaded_transmission_error", "um", 0, NULL, 0, 0,
-              "under the load of the operating point"),
-    FF_COLUMN("load_share", "1", 0, NULL, 0, 0, "of the entering pair"),
+              "loaded transmission error, under the load of the operating point"),
+    FF_COLUMN("load_share", "1", 0, NULL, 0, 0, "load share of the pair that entered last"),
     FF_COLUMN("force", "N", 0, NULL, 0, 0,
-              "mesh force under which loaded_transmission_error of the row is, from 0 up"),
+              "mesh force for loaded_transmission_error of the row, increasing from 0"),
     FF_COLUMN("torque", "N m", 0, NULL, 0, 0, "not read: force is wanted"),
 };
 
@@ -72,7 +72,7 @@ static ff_status use_columns(stiffness_table *t)
     return FF_OK;
 }
 
-/* Fails at sample i, and names its place in the file or in the list. */
+/* Reports an error in sample i, with its place in the file or in the list. */
 static ff_status fail_at(const stiffness_table *t, const char *list, size_t column, size_t i,
                          const char *why, double value)
 {
@@ -81,8 +81,8 @@ static ff_status fail_at(const stiffness_table *t, const char *list, size_t colu
     return ff_failf(t->host, FF_INVALID, list, "value %zu: %s; found %.9g", i + 1, why, value);
 }
 
-/* Returns the sample at phase 1 if it differs from that at phase 0 by more than the noise of a
- * table, 5 % of its range; otherwise NULL. */
+/* Returns the sample at phase 1 if it differs from that at phase 0 by more than 5 % of the range,
+   the assumed noise of a table; otherwise NULL. */
 static const double *differs_from_start(const stiffness_table *t, const double *value)
 {
     const stiffness_table_phases *k = &t->distinct;
@@ -102,8 +102,8 @@ static const char loaded_jumps[] =
     "the loaded transmission error is not periodic: at phase 1 it must have the value of phase 0, "
     "unless ends: jump says that it jumps there";
 
-/* Checks that the table is periodic. The transmission error without load always is; the
- * stiffness may jump at the end of a mesh cycle if the table gives both values. */
+/* Checks that the table is periodic. The transmission error without load must always be; the
+   stiffness may jump at the end of a mesh cycle if the table gives both values. */
 static ff_status check_periodic(const stiffness_table *t)
 {
     const double *stiffness = t->k ? t->k : t->loaded;

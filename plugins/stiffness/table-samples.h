@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Samples of stiffness/table, from lists or a file, after their checks. */
+/* Samples of stiffness/table, read from lists or a file and checked. */
 #ifndef STIFFNESS_TABLE_SAMPLES_H
 #define STIFFNESS_TABLE_SAMPLES_H
 
@@ -33,7 +33,7 @@ typedef struct stiffness_table {
     int64_t points;
     double tolerance;
     ff_reals corner; /* phases at which the slope of a fit may jump */
-    bool *corner_at; /* the same, as a flag for each distinct phase */
+    bool *corner_at; /* the corners as a flag for each distinct phase */
     const ff_table *file;
     size_t forces; /* number of forces in the file; 0: one force, that of the operating point */
     size_t count;  /* number of samples, in the lists or the file */
@@ -45,7 +45,8 @@ typedef struct stiffness_table {
 
 extern const ff_param stiffness_table_columns[STIFFNESS_TABLE_COLUMNS];
 
-/* Finds the samples and their distinct phases. Refuses wrong ones with their place in the file. */
+/* Finds the samples and their distinct phases. Refuses invalid ones with their place in the
+   file. */
 ff_status stiffness_table_samples(stiffness_table *t);
 
 #endif

@@ -20,54 +20,53 @@ typedef struct curve {
     stiffness_cubic_fit fit;
 } curve;
 
-/* The table as functions of phase, during one evaluation. */
+/* The table as functions of phase, for one evaluation. */
 typedef struct table_curves {
     const stiffness_table *table;
     double contact_ratio;
-    double
-        secant_of; /* N: the stiffness is this force over the deflection; 0: the curve k gives it */
+    double secant_of; /* force, N; the stiffness is this force over the deflection; 0: the curve k
+                         is the stiffness */
     curve k, error, loaded, share;
 } table_curves;
 
 static const ff_param params[] = {
-    FF_PATH(
-        "file", stiffness_table, path, FF_REQUIRED, "source",
-        "table with the columns phase, stiffness [N/m], or phase, transmission_error [um], "
-        "loaded_transmission_error [um], where k = F/(e_l - e); transmission_error may stand "
-        "beside stiffness, and with definition: tangent both; load_share as said there; with a "
-        "column force [N], rows for each force from 0 up, loaded_transmission_error under it and, "
-        "with definition: tangent, stiffness, the slope there"),
+    FF_PATH("file", stiffness_table, path, FF_REQUIRED, "source",
+            "table with the columns phase and stiffness [N/m], or phase, transmission_error [um] "
+            "and loaded_transmission_error [um], from which k = F/(e_l - e). transmission_error is "
+            "also allowed with stiffness; with definition: tangent both errors are. load_share: "
+            "see that parameter. With a column force [N]: rows for increasing forces from 0, with "
+            "loaded_transmission_error and, with definition: tangent, the slope as stiffness"),
     FF_LIST("phase", "1", stiffness_table, phase, FF_REQUIRED | FF_INCREASING, NULL, "source", 0, 1,
             0, 0, 1, 100000,
-            "phases of the mesh cycle, 0 = the entering pair at SAP; one given twice holds the "
-            "values before and after a jump, and so do 1 and 0 with ends: jump"),
+            "phases of the mesh cycle, 0 = the entering pair at SAP; a repeated phase has the "
+            "values before and after a jump; with ends: jump so do 1 and 0"),
     FF_LIST("stiffness", "N/m", stiffness_table, stiffness, FF_MIN_OPEN, NULL, NULL, 0, 1e15, 1e5,
             1e11, 1, 100000, "mesh stiffness along the line of action at these phases"),
     FF_ONE_OF("linear|cubic|fitted", "interpolation", stiffness_table, interpolation, 0, "linear",
-              "between the phases: linear, or the piecewise cubic of Steffen, which has a "
-              "continuous slope between jumps and never leaves the range of its two neighbours; "
+              "interpolation between the phases: linear; cubic: the piecewise cubic of Steffen, "
+              "which has a continuous slope between jumps and stays within its two neighbours; "
               "fitted: least-squares piecewise cubics, for tables of many noisy samples"),
-    FF_ONE_OF(
-        "rigid|file", "load_share", stiffness_table, load_share, 0, "rigid",
-        "rigid: the pairs in contact carry equal parts; file: column load_share holds the part of "
-        "the pair that entered last, over phase, and the pair before it carries the rest"),
+    FF_ONE_OF("rigid|file", "load_share", stiffness_table, load_share, 0, "rigid",
+              "rigid: the pairs in contact carry equal shares; file: the column load_share gives "
+              "the share of the pair that entered last, and the previous pair carries the rest"),
     FF_COUNT("points", stiffness_table, points, FF_TUNABLE, "200", NULL, 4, 100000, 0, 0,
-             "equal steps of the mesh cycle that the outputs are given at, beside the table's own "
-             "phases"),
+             "number of equal steps of the mesh cycle at which the outputs are given, in addition "
+             "to the table's own phases"),
     FF_ONE_OF("secant|tangent", "definition", stiffness_table, definition, 0, "secant",
-              "what the given stiffness is: secant F/(e_l - e), or tangent dF/d(e_l), beside which "
-              "the file may give loaded_transmission_error; without it the tangent stands for the "
-              "secant there"),
-    FF_QUANTITY(
-        "tolerance", "1", stiffness_table, tolerance, FF_MIN_OPEN | FF_TUNABLE, "0.01", NULL, 0, 1,
-        0, 0, "largest distance of the fitted cubics from a sample, over the range of the samples"),
+              "definition of the given stiffness: secant F/(e_l - e), or tangent dF/d(e_l). With "
+              "tangent the file may also give loaded_transmission_error; otherwise the tangent is "
+              "used as the secant"),
+    FF_QUANTITY("tolerance", "1", stiffness_table, tolerance, FF_MIN_OPEN | FF_TUNABLE, "0.01",
+                NULL, 0, 1, 0, 0,
+                "largest allowed deviation of the fitted cubics from a sample, relative to the "
+                "range of the samples"),
     FF_LIST("corners", "1", stiffness_table, corner, FF_INCREASING, NULL, NULL, 0, 1, 0, 0, 1, 200,
-            "phases of the table at which the slope of the fitted cubics may jump; those given "
-            "twice for a jump are corners anyway"),
-    FF_ONE_OF(
-        "periodic|jump", "ends", stiffness_table, ends, 0, "periodic",
-        "stiffness at phases 1 and 0 when the table gives both: periodic refuses a difference "
-        "above 5 % of its range; jump says that it jumps there, as where a pair enters"),
+            "phases of the table at which the slope of the fitted cubics may jump; repeated phases "
+            "are corners in any case"),
+    FF_ONE_OF("periodic|jump", "ends", stiffness_table, ends, 0, "periodic",
+              "treatment of the stiffness at phases 1 and 0 if the table gives both. periodic: a "
+              "difference above 5 % of its range is refused; jump: the stiffness jumps there, for "
+              "example because a pair enters"),
 };
 
 static void destroy(void *self)
@@ -148,8 +147,8 @@ static double share(const void *self, double age, double phase, int side)
     return age - phase < 0.5 ? last : 1 - last;
 }
 
-/* Lists the phases of the table, and the one at which the oldest pair leaves and the number of
- * pairs jumps. */
+/* Lists the phases of the table, and the phase at which the oldest pair leaves and the number of
+   pairs jumps. */
 static size_t list_cycle_breakpoints(const stiffness_table *t, double contact_ratio,
                                      const double *k, stiffness_breakpoint *breaks)
 {
@@ -172,8 +171,8 @@ static size_t list_cycle_breakpoints(const stiffness_table *t, double contact_ra
     return n;
 }
 
-/* Lists the phases at which an integration over the mesh cycle must stop: jumps of k and e and,
- * with linear interpolation, changes of their slope. */
+/* Lists the phases at which an integration over the mesh cycle must be split: jumps of k and e and,
+   with linear interpolation, changes of their slope. */
 static size_t list_output_breakpoints(const stiffness_table *t, const double *k, double *phase)
 {
     bool (*is_break)(const stiffness_table_phases *, const double *, size_t) =
@@ -187,7 +186,7 @@ static size_t list_output_breakpoints(const stiffness_table *t, const double *k,
     return n;
 }
 
-/* Computes k at the samples, from the transmission errors if the table gives these. */
+/* Computes k at the samples; from the transmission errors if the table gives these. */
 static ff_status sample_stiffness(const stiffness_table *t, const stiffness_path *e, double *k)
 {
     for (size_t i = 0; i < t->count; i++)
@@ -195,8 +194,8 @@ static ff_status sample_stiffness(const stiffness_table *t, const stiffness_path
     for (size_t i = 0; i < t->count; i++)
         if (!(k[i] > 0 && isfinite(k[i])))
             return ff_failf(t->host, FF_INVALID, "operating.line_force",
-                            "a stiffness out of transmission errors needs a load: F = %g N gives "
-                            "%g N/m at phase %g",
+                            "a stiffness from transmission errors needs a load: F = %g N gives %g "
+                            "N/m at phase %g",
                             e->line_force, k[i], t->at[i]);
     return FF_OK;
 }
@@ -313,7 +312,7 @@ static ff_status fill_level(const table_curves *at, const stiffness_path *path,
     return FF_OK;
 }
 
-/* Gives the levels; a table at one force has one level, 0. */
+/* Writes the levels; a table at one force has one level, 0. */
 static ff_status publish_levels(const stiffness_table *t, const table_work *w, uint64_t wanted,
                                 const stiffness_path *path)
 {
@@ -351,7 +350,7 @@ static ff_status publish_levels(const stiffness_table *t, const table_work *w, u
     return status;
 }
 
-/* For a table at several forces, replaces the samples under load by those under the line force. */
+/* For a table at several forces, replaces the loaded samples by those under the line force. */
 static ff_status take_levels(stiffness_table *t, double line_force, table_work *w)
 {
     ff_status status = stiffness_table_levels_make(t, line_force, &w->levels);

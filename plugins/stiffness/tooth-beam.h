@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Compliance of one involute tooth and of the body below it, per unit of normal force, by the
- * potential-energy method (Yang & Lin 1987, Tian 2004) with the foundation of Sainsot, Velex &
- * Duverger 2004. The tooth is a beam whose axis x runs from the gear's centre through the middle
- * of the tooth. Its outline is the true involute down to the base circle, and a radial straight
- * line from there to the root circle. A root circle above the base circle cuts the involute off. */
+   potential-energy method (Yang & Lin 1987, Tian 2004) with the foundation of Sainsot, Velex &
+   Duverger 2004. The tooth is a beam whose axis x runs from the gear's centre through the middle of
+   the tooth. Its outline is the true involute down to the base circle, and a radial straight line
+   from there to the root circle. If the root circle is above the base circle, the involute ends at
+   the root circle. */
 #ifndef STIFFNESS_TOOTH_BEAM_H
 #define STIFFNESS_TOOTH_BEAM_H
 
@@ -12,8 +13,8 @@
 #include <gsl/gsl_integration.h>
 #include <stdbool.h>
 
-/* A section of a symmetric beam: place on the axis, half thickness, and dx/dt for the outline's
- * parameter t. */
+/* A section of a symmetric beam: position on the axis, half thickness, and dx/dt for the outline's
+   parameter t. */
 typedef struct stiffness_section {
     double x, half, dx;
 } stiffness_section;
@@ -25,7 +26,8 @@ typedef struct stiffness_load {
     double x, y, across, along;
 } stiffness_load;
 
-/* bending, axial: elastic moduli (raised by 1/(1-nu^2) in plane strain); width: face width */
+/* Elastic moduli for bending and axial load (multiplied by 1/(1-nu^2) in plane strain), and the
+   face width. */
 typedef struct stiffness_beam {
     double bending, axial, shear, width;
 } stiffness_beam;
@@ -37,8 +39,8 @@ typedef struct stiffness_compliance {
 
 double stiffness_compliance_sum(const stiffness_compliance *c);
 
-/* Adds the strain energy between the parameters t0 and t1 to *c, integrated with the nodes of
- * `rule`. */
+/* Adds to *c the strain energy between the parameters t0 and t1, integrated with the nodes of
+   `rule`. */
 void stiffness_beam_add(const stiffness_beam *beam, stiffness_outline outline, const void *shape,
                         double t0, double t1, const stiffness_load *load,
                         const gsl_integration_glfixed_table *rule, stiffness_compliance *c);
@@ -64,7 +66,8 @@ typedef struct stiffness_tooth {
     stiffness_sainsot body;
 } stiffness_tooth;
 
-/* Radii in m; thickness: arc at the reference circle. The function fills in all the rest. */
+/* Input data. Radii in m; thickness: arc at the reference circle. The function computes all other
+   data. */
 typedef struct stiffness_tooth_data {
     double base_radius, root_radius, reference_radius, rim_radius, thickness, width;
     double elastic_modulus, poisson_ratio;

@@ -1,4 +1,4 @@
-/* @ID@: a steady line contact; write your history of one contact into `evaluate`. */
+/* @ID@: a steady line contact. Write the history of your contact into `evaluate`. */
 #include <flankfilm/author.h>
 
 #include <math.h>
@@ -24,7 +24,10 @@ static const ff_param params[] = {
 enum { TIME, EQUIVALENT, SPEED_1, SPEED_2, LOAD, WIDTH, PRESSURE, REDUCED };
 
 static const ff_port outputs[] = {
-    [TIME] = {.name = "time", .unit = "s", .dims = "t", .doc = "time; one: a steady contact"},
+    [TIME] = {.name = "time",
+              .unit = "s",
+              .dims = "t",
+              .doc = "time; one instant: a steady contact"},
     [EQUIVALENT] = {.name = "equivalent_radius", .unit = "m", .dims = "t", .doc = "R"},
     [SPEED_1] = {.name = "speed_1", .unit = "m/s", .dims = "t", .doc = "surface speed u1"},
     [SPEED_2] = {.name = "speed_2", .unit = "m/s", .dims = "t", .doc = "surface speed u2"},
@@ -37,7 +40,7 @@ static const ff_port outputs[] = {
     [REDUCED] = {.name = "reduced_modulus", .unit = "Pa", .dims = "", .doc = "E'"},
 };
 
-/* `wanted` has a bit for each output; those that are not wanted may be left out. */
+/* `wanted` has one bit per output; outputs that are not wanted may be left out. */
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const stage *s = self;
@@ -61,7 +64,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 }
 
 FF_MODEL(model, stage, .id = "@ID@", .version = "0.1.0",
-         .summary = "one line on what it is good for", .reference = "", .bibtex = "",
+         .summary = "one line that says what the model is for", .reference = "", .bibtex = "",
          .licence = "MIT", .params = FF_TABLE(params), .outputs = FF_TABLE(outputs),
          .evaluate = evaluate, .destroy = free);
 FF_EXPORT_MODELS(&model);

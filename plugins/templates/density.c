@@ -1,4 +1,4 @@
-/* @ID@: rho = rho0 (1 + C p/(1 + D p)); write your law into `eval`. */
+/* @ID@: rho = rho0 (1 + C p/(1 + D p)). Write your law into `eval`. */
 #include <flankfilm/author.h>
 #include <flankfilm/laws.h>
 
@@ -16,7 +16,7 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
     (void)T;                             /* NULL: the reference temperature */
     for (size_t i = 0; i < n; i++) {
         double x = p[i] > 0 ? p[i] : 0, slope = C / ((1 + D * x) * (1 + D * x));
-        double tension = p[i] > -0.5 / C ? p[i] - x : -0.5 / C; /* rho stays above 0 */
+        double tension = p[i] > -0.5 / C ? p[i] - x : -0.5 / C; /* keeps rho above 0 */
         rho[i] = l->rho0 * (1 + C * x / (1 + D * x) + slope * tension);
         if (drho_dp)
             drho_dp[i] = l->rho0 * (p[i] > -0.5 / C ? slope : 0);
@@ -31,9 +31,8 @@ static const ff_param params[] = {
                 "density at ambient pressure"),
 };
 
-/* `cost`: seconds for a million points; with it the law takes part where a file says density/auto.
- */
+/* `cost`: seconds for a million points; a law with a cost is a candidate for density/auto. */
 FF_DENSITY_LAW(model, law, eval, .id = "@ID@", .version = "0.1.0",
-               .summary = "one line on what it is good for", .reference = "", .bibtex = "",
+               .summary = "one line that says what the model is for", .reference = "", .bibtex = "",
                .licence = "MIT", .params = FF_TABLE(params), .cost = 4e-3);
 FF_EXPORT_MODELS(&model);

@@ -1,4 +1,4 @@
-/* @ID@: the slow motion, s = e + F/k with no inertia; write your motion into `evaluate`. */
+/* @ID@: the slow motion s = e + F/k, without inertia. Write your motion into `evaluate`. */
 #include <flankfilm/author.h>
 
 #include <math.h>
@@ -11,7 +11,7 @@ typedef struct {
 
 static const ff_param params[] = {
     FF_QUANTITY("scale", "", stage, scale, 0, "1", NULL, 0, 10, 0, 0,
-                "factor on the transmission error, in place of what your motion needs"),
+                "factor on the transmission error; replace it by your own parameters"),
 };
 
 enum { PHASE_IN, LTE, WS, FORCE };
@@ -20,7 +20,7 @@ static const ff_port inputs[] = {
     [PHASE_IN] = {.name = "stiffness.phase",
                   .unit = "1",
                   .dims = "phase",
-                  .doc = "mesh cycle, 0 to 1; twice at a jump"},
+                  .doc = "phase of the mesh cycle, 0 to 1; a repeated phase is a jump"},
     [LTE] = {.name = "stiffness.loaded_transmission_error",
              .unit = "m",
              .dims = "phase",
@@ -41,7 +41,7 @@ static const ff_port outputs[] = {
     [PHASE] = {.name = "phase",
                .unit = "1",
                .dims = "cycle",
-               .doc = "mesh cycles, 0 to the period"},
+               .doc = "phase in mesh cycles, from 0 to the period"},
     [DTE] = {.name = "dte", .unit = "m", .dims = "cycle", .doc = "transmission error s"},
     [DMF] = {.name = "mesh_force", .unit = "N", .dims = "cycle", .doc = "mesh force"},
     [WD] = {.name = "tooth_force",
@@ -49,10 +49,13 @@ static const ff_port outputs[] = {
             .dims = "stiffness.station",
             .doc = "force on one pair"},
     [RMS] = {.name = "dte_rms", .unit = "m", .dims = "", .doc = "rms of the alternating part of s"},
-    [PERIOD] = {.name = "period", .unit = "1", .dims = "", .doc = "mesh cycles of the motion"},
+    [PERIOD] = {.name = "period",
+                .unit = "1",
+                .dims = "",
+                .doc = "period of the motion in mesh cycles"},
 };
 
-/* `wanted` has a bit for each output; those that are not wanted may be left out. */
+/* `wanted` has one bit per output; outputs that are not wanted may be left out. */
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const stage *s = self;
@@ -84,14 +87,14 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         least = fmin(least, wd[i]);
     }
     s->host->quality(s->host->ctx, "pull", -least, 0, least < 0 ? FF_BAD : FF_GOOD,
-                     "largest force that pulls at a tooth");
+                     "largest tensile force on a tooth");
     if (ff_put_scalar(s->host, RMS, sqrt(fmax(0, square))) != FF_OK)
         return FF_NOMEM;
     return ff_put_scalar(s->host, PERIOD, 1);
 }
 
 FF_MODEL(model, stage, .id = "@ID@", .version = "0.1.0",
-         .summary = "one line on what it is good for", .reference = "", .bibtex = "",
+         .summary = "one line that says what the model is for", .reference = "", .bibtex = "",
          .licence = "MIT", .params = FF_TABLE(params), .inputs = FF_TABLE(inputs),
          .outputs = FF_TABLE(outputs), .evaluate = evaluate, .destroy = free);
 FF_EXPORT_MODELS(&model);

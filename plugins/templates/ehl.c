@@ -1,5 +1,5 @@
-/* @ID@: the least film of a line contact, h_min/R = 2.65 U^0.7 G^0.54 W^-0.13 (Dowson 1968); write
-   your film into `evaluate`. */
+/* @ID@: the minimum film thickness of a line contact, h_min/R = 2.65 U^0.7 G^0.54 W^-0.13 (Dowson
+   1968). Write your film into `evaluate`. */
 #include <flankfilm/author.h>
 #include <flankfilm/laws.h>
 
@@ -14,7 +14,7 @@ typedef struct {
 
 static const ff_param params[] = {
     FF_QUANTITY("least_load", "N/m", stage, least_load, 0, "100 N/m", NULL, 1e-3, 1e6, 0, 0,
-                "load per width that a lost contact is given"),
+                "load per width used instead of the load if the contact is lost"),
 };
 
 enum { TIME_IN, RADIUS, SPEED_1, SPEED_2, LOAD, MODULUS, VISCOSITY };
@@ -48,7 +48,7 @@ static const ff_port outputs[] = {
     [LOWEST] = {.name = "h_min_lowest",
                 .unit = "m",
                 .dims = "",
-                .doc = "lowest h_min of all times"},
+                .doc = "minimum of h_min over time"},
 };
 
 static ff_status wire(void *self, uint32_t input, const void *service)
@@ -58,7 +58,7 @@ static ff_status wire(void *self, uint32_t input, const void *service)
     return FF_OK;
 }
 
-/* `wanted` has a bit for each output; those that are not wanted may be left out. */
+/* `wanted` has one bit per output; outputs that are not wanted may be left out. */
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const stage *s = self;
@@ -74,7 +74,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     if (s->oil->eval(s->oil->self, 1, &ambient, NULL, &ln_eta, &alpha, NULL) < 0)
         return ff_failf(s->host, FF_INVALID, "viscosity",
                         "there is no viscosity at ambient pressure");
-    alpha = fmax(alpha, 1e-10); /* 1/Pa; the formula is for oils that thicken with pressure */
+    alpha = fmax(alpha, 1e-10); /* 1/Pa; the formula is for oils whose viscosity rises with
+                                   pressure */
     if (!(E > 1 && E < 1e15))
         return ff_failf(s->host, FF_INVALID, "contact.reduced_modulus", "%g Pa is not a modulus",
                         E);
@@ -97,7 +98,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 }
 
 FF_MODEL(model, stage, .id = "@ID@", .version = "0.1.0",
-         .summary = "one line on what it is good for", .reference = "Dowson 1968, Proc. IMechE 182",
-         .bibtex = "", .licence = "MIT", .params = FF_TABLE(params), .inputs = FF_TABLE(inputs),
-         .outputs = FF_TABLE(outputs), .wire = wire, .evaluate = evaluate, .destroy = free);
+         .summary = "one line that says what the model is for",
+         .reference = "Dowson 1968, Proc. IMechE 182", .bibtex = "", .licence = "MIT",
+         .params = FF_TABLE(params), .inputs = FF_TABLE(inputs), .outputs = FF_TABLE(outputs),
+         .wire = wire, .evaluate = evaluate, .destroy = free);
 FF_EXPORT_MODELS(&model);

@@ -1,4 +1,4 @@
-/* @ID@: a standard involute spur pair with a contact ratio from 1 to 2; write your geometry into
+/* @ID@: a standard involute spur pair with a contact ratio from 1 to 2. Write your geometry into
    `evaluate`. */
 #include <flankfilm/author.h>
 
@@ -22,7 +22,7 @@ static const ff_param params[] = {
     FF_QUANTITY("face_width", "mm", stage, width, FF_REQUIRED, NULL, NULL, 0.1, 1e4, 0, 0,
                 "width of the teeth"),
     FF_QUANTITY("backlash", "mm", stage, backlash, 0, "0 mm", NULL, 0, 10, 0, 0,
-                "along the line of action"),
+                "backlash along the line of action"),
 };
 
 enum { ROLL, RADIUS_1, RADIUS_2, TEETH, BASE, SAP, TIP, RATIO, WIDE, GAP, MASS, MODULUS };
@@ -31,7 +31,7 @@ static const ff_port outputs[] = {
     [ROLL] = {.name = "roll_angle",
               .unit = "rad",
               .dims = "station",
-              .doc = "roll angle of gear 1; LPSTC and HPSTC twice"},
+              .doc = "roll angle of gear 1; LPSTC and HPSTC appear twice"},
     [RADIUS_1] = {.name = "radius_1",
                   .unit = "m",
                   .dims = "station",
@@ -43,18 +43,21 @@ static const ff_port outputs[] = {
     [TIP] = {.name = "roll_tip", .unit = "rad", .dims = "", .doc = "at the tip"},
     [RATIO] = {.name = "contact_ratio", .unit = "1", .dims = "", .doc = "contact ratio"},
     [WIDE] = {.name = "face_width", .unit = "m", .dims = "", .doc = "width of the teeth"},
-    [GAP] = {.name = "backlash", .unit = "m", .dims = "", .doc = "along the line of action"},
+    [GAP] = {.name = "backlash",
+             .unit = "m",
+             .dims = "",
+             .doc = "backlash along the line of action"},
     [MASS] = {.name = "equivalent_mass",
               .unit = "kg",
               .dims = "",
-              .doc = "of two solid steel discs"},
+              .doc = "equivalent mass of two solid steel discs"},
     [MODULUS] = {.name = "reduced_modulus",
                  .unit = "Pa",
                  .dims = "",
-                 .doc = "E' of 2/E' = sum (1 - nu^2)/E"},
+                 .doc = "reduced modulus E': 2/E' = sum (1 - nu^2)/E"},
 };
 
-/* `wanted` has a bit for each output; those that are not wanted may be left out. */
+/* `wanted` has one bit per output; outputs that are not wanted may be left out. */
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const stage *s = self;
@@ -102,7 +105,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 }
 
 FF_MODEL(model, stage, .id = "@ID@", .version = "0.1.0",
-         .summary = "one line on what it is good for", .reference = "", .bibtex = "",
+         .summary = "one line that says what the model is for", .reference = "", .bibtex = "",
          .licence = "MIT", .params = FF_TABLE(params), .outputs = FF_TABLE(outputs),
          .evaluate = evaluate, .destroy = free);
 FF_EXPORT_MODELS(&model);

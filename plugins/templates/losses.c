@@ -1,4 +1,5 @@
-/* @ID@: the loss of all pairs in mesh, of the film of one pair; write your loss into `evaluate`. */
+/* @ID@: the loss of all pairs in mesh from the film of one pair. Write your loss into
+   `evaluate`. */
 #include <flankfilm/author.h>
 
 #include <stdlib.h>
@@ -10,7 +11,7 @@ typedef struct {
 
 static const ff_param params[] = {
     FF_QUANTITY("bearing_loss", "W", stage, bearings, 0, "0 W", NULL, 0, 1e9, 0, 0,
-                "loss beside the mesh"),
+                "power loss outside the mesh"),
 };
 
 enum { ROLL, LOSS, FACE, TEETH, TORQUE, SPEED };
@@ -28,11 +29,14 @@ enum { MEAN, INPUT, EFFICIENCY };
 
 static const ff_port outputs[] = {
     [MEAN] = {.name = "power_loss_mean", .unit = "W", .dims = "", .doc = "mean loss"},
-    [INPUT] = {.name = "power_input", .unit = "W", .dims = "", .doc = "power that comes in"},
-    [EFFICIENCY] = {.name = "efficiency", .unit = "1", .dims = "", .doc = "power out over in"},
+    [INPUT] = {.name = "power_input", .unit = "W", .dims = "", .doc = "input power"},
+    [EFFICIENCY] = {.name = "efficiency",
+                    .unit = "1",
+                    .dims = "",
+                    .doc = "efficiency: output power over input power"},
 };
 
-/* A pair loses its work once in each pitch. `wanted` has a bit for each output. */
+/* The work lost by a pair occurs once per pitch. `wanted` has one bit per output. */
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const stage *s = self;
@@ -61,7 +65,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 }
 
 FF_MODEL(model, stage, .id = "@ID@", .version = "0.1.0",
-         .summary = "one line on what it is good for", .reference = "", .bibtex = "",
+         .summary = "one line that says what the model is for", .reference = "", .bibtex = "",
          .licence = "MIT", .params = FF_TABLE(params), .inputs = FF_TABLE(inputs),
          .outputs = FF_TABLE(outputs), .evaluate = evaluate, .destroy = free);
 FF_EXPORT_MODELS(&model);

@@ -1,4 +1,4 @@
-/* @ID@: an oil that changes with temperature by powers of e and straight lines; write your data
+/* @ID@: an oil whose properties vary exponentially or linearly with temperature. Write your data
    into `value_at`. */
 #include <flankfilm/author.h>
 #include <flankfilm/laws.h>
@@ -26,10 +26,11 @@ static const ff_param params[] = {
                 "pressure coefficient"),
 };
 
-/* NaN: the data do not tell. */
+/* Returns a property; NaN: the data do not give it. */
 static double value_at(const oil *o, int32_t property, double T, double *slope)
 {
-    double warm = fmin(fmax(T, 200), 600) - reference; /* kept where no oil is */
+    /* clamped to the temperatures at which there is an oil */
+    double warm = fmin(fmax(T, 200), 600) - reference;
     int inside = T > 200 && T < 600;
     *slope = 0;
     switch (property) {
@@ -63,8 +64,8 @@ static ff_status eval(const void *self, int32_t property, size_t n, const double
     return FF_OK;
 }
 
-FF_SERVICE_MODEL(model, oil, "oil", FF_LIQUID_ID, "the oil over temperature",
+FF_SERVICE_MODEL(model, oil, "oil", FF_LIQUID_ID, "the oil as a function of temperature",
                  ((ff_liquid){sizeof(ff_liquid), NULL, eval}), .id = "@ID@", .version = "0.1.0",
-                 .summary = "one line on what it is good for", .reference = "", .bibtex = "",
-                 .licence = "MIT", .params = FF_TABLE(params));
+                 .summary = "one line that says what the model is for", .reference = "",
+                 .bibtex = "", .licence = "MIT", .params = FF_TABLE(params));
 FF_EXPORT_MODELS(&model);

@@ -1,4 +1,4 @@
-/* @ID@: torque and speed at a temperature; write your duty into `evaluate`. */
+/* @ID@: torque and speed at one temperature. Write your operating point into `evaluate`. */
 #include <flankfilm/author.h>
 
 #include <stdlib.h>
@@ -25,12 +25,15 @@ static const ff_port inputs[] = {
 static const ff_port outputs[] = {
     {.name = "torque", .unit = "N m", .dims = "", .doc = "torque on gear 1"},
     {.name = "speed", .unit = "rad/s", .dims = "", .doc = "speed of gear 1"},
-    {.name = "mesh_frequency", .unit = "Hz", .dims = "", .doc = "mesh cycles per second"},
+    {.name = "mesh_frequency",
+     .unit = "Hz",
+     .dims = "",
+     .doc = "mesh frequency: mesh cycles per second"},
     {.name = "line_force", .unit = "N", .dims = "", .doc = "force along the line of action"},
     {.name = "oil_temperature", .unit = "K", .dims = "", .doc = "temperature of the oil"},
 };
 
-/* `wanted` has a bit for each output; those that are not wanted may be left out. */
+/* `wanted` has one bit per output; outputs that are not wanted may be left out. */
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const stage *s = self;
@@ -49,7 +52,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 }
 
 FF_MODEL(model, stage, .id = "@ID@", .version = "0.1.0",
-         .summary = "one line on what it is good for", .reference = "", .bibtex = "",
+         .summary = "one line that says what the model is for", .reference = "", .bibtex = "",
          .licence = "MIT", .params = FF_TABLE(params), .inputs = FF_TABLE(inputs),
          .outputs = FF_TABLE(outputs), .evaluate = evaluate, .destroy = free);
 FF_EXPORT_MODELS(&model);

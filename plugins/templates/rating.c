@@ -1,5 +1,5 @@
-/* @ID@: the film over the roughness of the flanks, and how far it is above what is asked; write
-   your rating into `evaluate`. */
+/* @ID@: the film over the roughness of the flanks, compared with a required value. Write your
+   rating into `evaluate`. */
 #include <flankfilm/author.h>
 
 #include <math.h>
@@ -12,7 +12,7 @@ typedef struct {
 
 static const ff_param params[] = {
     FF_QUANTITY("least_lambda", "", stage, least, FF_MIN_OPEN, "1", NULL, 0, 100, 0, 0,
-                "film over roughness that is asked for"),
+                "required film over roughness"),
 };
 
 enum { FILM, ROUGHNESS };
@@ -28,11 +28,11 @@ static const ff_port inputs[] = {
 enum { LAMBDA, SAFETY };
 
 static const ff_port outputs[] = {
-    [LAMBDA] = {.name = "lambda", .unit = "1", .dims = "", .doc = "least film over roughness"},
+    [LAMBDA] = {.name = "lambda", .unit = "1", .dims = "", .doc = "minimum film over roughness"},
     [SAFETY] = {.name = "safety", .unit = "1", .dims = "", .doc = "lambda over least_lambda"},
 };
 
-/* `wanted` has a bit for each output; those that are not wanted may be left out. */
+/* `wanted` has one bit per output; outputs that are not wanted may be left out. */
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const stage *s = self;
@@ -53,7 +53,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 }
 
 FF_MODEL(model, stage, .id = "@ID@", .version = "0.1.0",
-         .summary = "one line on what it is good for", .reference = "", .bibtex = "",
+         .summary = "one line that says what the model is for", .reference = "", .bibtex = "",
          .licence = "MIT", .params = FF_TABLE(params), .inputs = FF_TABLE(inputs),
          .outputs = FF_TABLE(outputs), .evaluate = evaluate, .destroy = free);
 FF_EXPORT_MODELS(&model);

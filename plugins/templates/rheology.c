@@ -1,4 +1,4 @@
-/* @ID@: psi = sqrt(1/eta^2 + (u_s/(tau0 h))^2) of Ree and Eyring; write your law into `flow` and
+/* @ID@: psi = sqrt(1/eta^2 + (u_s/(tau0 h))^2) of Ree and Eyring. Write your law into `flow` and
    `shear`. */
 #include <flankfilm/author.h>
 #include <flankfilm/laws.h>
@@ -33,7 +33,7 @@ static ff_status shear(const void *self, size_t n, const double *p, const double
                        const double *h, double u_s, double *tau)
 {
     const law *l = self;
-    (void)p; /* for laws with a limiting stress */
+    (void)p; /* pressure, for laws with a limiting stress */
     for (size_t i = 0; i < n; i++) {
         double newtonian = fmin(exp(fmin(600, ln_eta[i])) / fmax(h[i], 1e-12), 1e300);
         tau[i] = l->tau0 * asinh(newtonian / l->tau0 * u_s);
@@ -46,9 +46,8 @@ static const ff_param params[] = {
                 "Eyring stress"),
 };
 
-/* `cost`: seconds for a million points; with it the law takes part where a file says rheology/auto.
- */
+/* `cost`: seconds for a million points; a law with a cost is a candidate for rheology/auto. */
 FF_RHEOLOGY_LAW(model, law, flow, shear, .id = "@ID@", .version = "0.1.0",
-                .summary = "one line on what it is good for", .reference = "", .bibtex = "",
-                .licence = "MIT", .params = FF_TABLE(params), .cost = 4e-3);
+                .summary = "one line that says what the model is for", .reference = "",
+                .bibtex = "", .licence = "MIT", .params = FF_TABLE(params), .cost = 4e-3);
 FF_EXPORT_MODELS(&model);

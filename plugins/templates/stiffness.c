@@ -1,4 +1,4 @@
-/* @ID@: every pair in contact is one and the same spring; write your stiffness into `evaluate`. */
+/* @ID@: all pairs in contact are equal linear springs. Write your stiffness into `evaluate`. */
 #include <flankfilm/author.h>
 
 #include <math.h>
@@ -38,14 +38,14 @@ static const ff_port outputs[] = {
     [PHASE] = {.name = "phase",
                .unit = "1",
                .dims = "phase",
-               .doc = "mesh cycle, 0 to 1; twice at a jump"},
+               .doc = "phase of the mesh cycle, 0 to 1; a repeated phase is a jump"},
     [K] = {.name = "stiffness", .unit = "N/m", .dims = "phase", .doc = "mesh stiffness"},
     [LTE] = {.name = "loaded_transmission_error", .unit = "m", .dims = "phase", .doc = "F/k"},
     [TE] = {.name = "transmission_error", .unit = "m", .dims = "phase", .doc = "without load: 0"},
     [PAIRS] = {.name = "pairs_in_contact",
                .unit = "1",
                .dims = "phase",
-               .doc = "pairs that carry load"},
+               .doc = "number of pairs that carry load"},
     [MEAN] = {.name = "stiffness_mean", .unit = "N/m", .dims = "", .doc = "mean mesh stiffness"},
     [BREAKS] = {.name = "breakpoints", .unit = "1", .dims = "breakpoint", .doc = "phases of jumps"},
     [LOAD] = {.name = "tooth_force",
@@ -55,17 +55,17 @@ static const ff_port outputs[] = {
     [SHARE] = {.name = "load_share",
                .unit = "1",
                .dims = "gear.station",
-               .doc = "its part of the line force"},
+               .doc = "share of the line force on one pair"},
 };
 
-/* `wanted` has a bit for each output; those that are not wanted may be left out. */
+/* `wanted` has one bit per output; outputs that are not wanted may be left out. */
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const stage *s = self;
     const double *roll = in[ROLL].data, sap = in[SAP].data[0], force = in[FORCE].data[0],
                  turns = in[TEETH].shape[0] ? in[TEETH].data[0] / 6.283185307179586 : 0;
     size_t stations = in[ROLL].shape[0];
-    /* contact ratio: there are whole + 1 pairs up to the phase `left` */
+    /* contact ratio: whole + 1 pairs are in contact up to the phase `left`, then `whole` pairs */
     double ratio = (in[TIP].data[0] - sap) * turns, whole = floor(ratio), left = ratio - whole;
     (void)wanted;
     if (!(ratio > 1 && ratio < 10 && left > 1e-6 && left < 1 - 1e-6))
@@ -96,7 +96,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         te[i] = 0;
     }
     for (size_t i = 0; i < stations; i++) {
-        /* of an angle given twice, the first belongs to what is before */
+        /* of a repeated angle, the first one belongs to the state before the jump */
         int before = i + 1 == stations || (i > 0 && roll[i] == roll[i + 1]);
         double x = (roll[i] - sap) * turns + (before ? -1e-9 : 1e-9);
         share[i] = 1 / (x - floor(x) < left ? whole + 1 : whole);
@@ -106,7 +106,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 }
 
 FF_MODEL(model, stage, .id = "@ID@", .version = "0.1.0",
-         .summary = "one line on what it is good for", .reference = "", .bibtex = "",
+         .summary = "one line that says what the model is for", .reference = "", .bibtex = "",
          .licence = "MIT", .params = FF_TABLE(params), .inputs = FF_TABLE(inputs),
          .outputs = FF_TABLE(outputs), .evaluate = evaluate, .destroy = free);
 FF_EXPORT_MODELS(&model);

@@ -1,4 +1,4 @@
-/* @ID@: one wave on flank 1, flank 2 smooth; write your flanks into `evaluate`. */
+/* @ID@: one wave on flank 1; flank 2 is smooth. Write your flanks into `evaluate`. */
 #include <flankfilm/author.h>
 
 #include <math.h>
@@ -15,7 +15,8 @@ static const ff_param params[] = {
                 "half the height from valley to crest"),
     FF_QUANTITY("wavelength", "um", stage, wavelength, 0, "200 um", NULL, 0.01, 1e7, 0, 0,
                 "length of a wave"),
-    FF_COUNT("points", stage, points, FF_TUNABLE, "64", NULL, 4, 1e6, 0, 0, "points of a wave"),
+    FF_COUNT("points", stage, points, FF_TUNABLE, "64", NULL, 4, 1e6, 0, 0,
+             "number of points per wave"),
 };
 
 enum { POSITION, HEIGHT_1, HEIGHT_2, RQ_1, RQ_2, PERIOD, ORIGIN };
@@ -24,15 +25,15 @@ static const ff_port outputs[] = {
     [POSITION] = {.name = "position",
                   .unit = "m",
                   .dims = "arc",
-                  .doc = "arc coordinate along x, in equal steps from 0"},
+                  .doc = "arc coordinate of the points along x, in equal steps from 0"},
     [HEIGHT_1] = {.name = "height_1",
                   .unit = "m",
                   .dims = "arc",
-                  .doc = "flank 1, positive out of the metal"},
+                  .doc = "heights of flank 1, positive out of the metal"},
     [HEIGHT_2] = {.name = "height_2",
                   .unit = "m",
                   .dims = "arc",
-                  .doc = "flank 2, positive out of the metal"},
+                  .doc = "heights of flank 2, positive out of the metal"},
     [RQ_1] = {.name = "rq_1",
               .unit = "m",
               .dims = "",
@@ -41,17 +42,18 @@ static const ff_port outputs[] = {
               .unit = "m",
               .dims = "",
               .doc = "root mean square roughness of flank 2"},
-    [PERIOD] = {.name = "period",
-                .unit = "m",
-                .dims = "",
-                .doc = "length after which the record repeats; 0: flat outside of it"},
+    [PERIOD] =
+        {.name = "period",
+         .unit = "m",
+         .dims = "",
+         .doc = "length after which the record repeats; 0: the flanks are flat outside the record"},
     [ORIGIN] = {.name = "origin",
                 .unit = "m",
                 .dims = "",
                 .doc = "arc coordinate that lies at x = 0 at the first time"},
 };
 
-/* `wanted` has a bit for each output; those that are not wanted may be left out. */
+/* `wanted` has one bit per output; outputs that are not wanted may be left out. */
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const stage *s = self;
@@ -77,7 +79,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 }
 
 FF_MODEL(model, stage, .id = "@ID@", .version = "0.1.0",
-         .summary = "one line on what it is good for", .reference = "", .bibtex = "",
+         .summary = "one line that says what the model is for", .reference = "", .bibtex = "",
          .licence = "MIT", .params = FF_TABLE(params), .outputs = FF_TABLE(outputs),
          .evaluate = evaluate, .destroy = free);
 FF_EXPORT_MODELS(&model);

@@ -1,4 +1,4 @@
-/* @ID@: a stage with one optional input and two outputs; write your model into `evaluate`. */
+/* @ID@: a stage with one optional input and two outputs. Write your model into `evaluate`. */
 #include <flankfilm/author.h>
 
 #include <math.h>
@@ -13,14 +13,15 @@ typedef struct {
 static const ff_param params[] = {
     FF_QUANTITY("amplitude", "mm", stage, amplitude, 0, "1 mm", NULL, 0, 1000, 0, 0,
                 "half the height of the wave"),
-    FF_COUNT("points", stage, points, FF_TUNABLE, "64", NULL, 2, 1e6, 0, 0, "points of a period"),
+    FF_COUNT("points", stage, points, FF_TUNABLE, "64", NULL, 2, 1e6, 0, 0,
+             "number of points per period"),
 };
 
 static const ff_port inputs[] = {
     {.name = "operating.speed",
      .unit = "rad/s",
      .dims = "gear",
-     .doc = "speeds; without them: 1 rad/s",
+     .doc = "angular speed; not wired: 1 rad/s",
      .flags = FF_OPTIONAL,
      .from = "operating"},
 };
@@ -30,7 +31,7 @@ static const ff_port outputs[] = {
     {.name = "height", .unit = "m", .dims = "t", .doc = "height of the wave"},
 };
 
-/* `wanted` has a bit for each output; those that are not wanted may be left out. */
+/* `wanted` has one bit per output; outputs that are not wanted may be left out. */
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     stage *s = self;
@@ -54,7 +55,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 }
 
 FF_MODEL(model, stage, .id = "@ID@", .version = "0.1.0",
-         .summary = "one line on what it is good for", .reference = "", .bibtex = "",
+         .summary = "one line that says what the model is for", .reference = "", .bibtex = "",
          .licence = "MIT", .params = FF_TABLE(params), .inputs = FF_TABLE(inputs),
          .outputs = FF_TABLE(outputs), .evaluate = evaluate, .destroy = free);
 FF_EXPORT_MODELS(&model);

@@ -1,4 +1,4 @@
-/* @ID@: ln eta = ln eta0 + alpha p; write your law into `eval`. */
+/* @ID@: ln eta = ln eta0 + alpha p. Write your law into `eval`. */
 #include <flankfilm/author.h>
 #include <flankfilm/laws.h>
 
@@ -33,9 +33,8 @@ static const ff_param params[] = {
                 "pressure-viscosity coefficient"),
 };
 
-/* `cost`: seconds for a million points; with it the law takes part where a file says
- * viscosity/auto. */
+/* `cost`: seconds for a million points; a law with a cost is a candidate for viscosity/auto. */
 FF_VISCOSITY_LAW(model, law, eval, .id = "@ID@", .version = "0.1.0",
-                 .summary = "one line on what it is good for", .reference = "", .bibtex = "",
-                 .licence = "MIT", .params = FF_TABLE(params), .cost = 1e-3);
+                 .summary = "one line that says what the model is for", .reference = "",
+                 .bibtex = "", .licence = "MIT", .params = FF_TABLE(params), .cost = 1e-3);
 FF_EXPORT_MODELS(&model);

@@ -8,23 +8,22 @@
 static const ff_param rows[] = {
     {.name = "rounds",
      .unit = "1",
-     .doc = "evaluations of a loop after which it is bad when it has not settled",
+     .doc = "largest number of rounds; a loop that has not converged after these is bad",
      .type = FF_INT,
      .preset = "30",
      .min = 2,
      .max = 10000},
     {.name = "tolerance",
      .unit = "1",
-     .doc =
-         "change of what a feedback wire carries, over the largest number in it, at which a loop "
-         "has settled; 0: not a bit may change",
+     .doc = "convergence limit: change on a feedback wire between rounds, relative to the largest "
+            "number on it; 0: bitwise equal",
      .type = FF_REAL,
      .flags = FF_MAX_OPEN,
      .preset = "1e-6",
      .max = 1},
     {.name = "relaxation",
      .unit = "1",
-     .doc = "share of that change which the next round takes, for loops that swing",
+     .doc = "share of the change that the next round applies; below 1 for loops that oscillate",
      .type = FF_REAL,
      .flags = FF_MIN_OPEN,
      .preset = "1",

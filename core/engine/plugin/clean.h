@@ -5,6 +5,6 @@
 
 #include <stdbool.h>
 
-bool fe_text_is_clean(const char *text); /* whether its clean copy would equal it */
+bool fe_text_is_clean(const char *text); /* whether the text has no control characters */
 
 #endif

@@ -11,8 +11,8 @@
 
 typedef struct work {
     const stiffness_sector *sector;
-    /* Index of the first degree of freedom of each node: first the nodes inside, then those on
-     * the left and on the right side; STIFFNESS_NO_NODE for a held node. */
+    /* Index of the first degree of freedom of each node: first the inner nodes, then those on the
+       left and on the right side; STIFFNESS_NO_NODE for a fixed node. */
     size_t *freedom;
     size_t inside, side;
     cholmod_common common;
@@ -56,7 +56,7 @@ static void add_triplet(cholmod_triplet *t, size_t row, size_t column, double va
     t->nnz++;
 }
 
-/* Adds the stiffness of one element to the matrix, of which the lower half is stored. */
+/* Adds the stiffness of one element to the matrix, whose lower half is stored. */
 static void add_element(work *w, size_t element, double k[16][16])
 {
     size_t at[16];
@@ -75,7 +75,7 @@ static double *column_of(const cholmod_dense *matrix, size_t column)
     return (double *)matrix->x + column * matrix->d;
 }
 
-/* Analyses and factorises the matrix, with the degrees of freedom of the sides last. */
+/* Analyses and factorises the matrix. The degrees of freedom on the sides come last. */
 static int factorise_ordered(work *w, cholmod_sparse *matrix, int *behind, int *order)
 {
     for (size_t i = 0; i < matrix->nrow; i++)
@@ -103,8 +103,8 @@ static int factorise(work *w)
     return w->common.status == CHOLMOD_OK ? STIFFNESS_CONDENSED : STIFFNESS_CONDENSE_SINGULAR;
 }
 
-/* Multiplies an m x k matrix, or its transpose ('T'), by a k x n matrix. The Fortran name is
- * used because a program linked with GSL finds GSL's own, much slower function under the C name. */
+/* Multiplies an m x k matrix, or its transpose ('T'), by a k x n matrix. The Fortran symbol is
+   called because in a program linked with GSL the C symbol is GSL's own, much slower function. */
 static void multiply(char a_form, char b_form, int m, int n, int k, double *a, int a_rows,
                      double *b, int b_rows, double *product)
 {
@@ -113,8 +113,8 @@ static void multiply(char a_form, char b_form, int m, int n, int k, double *a, i
     (&a_form, &b_form, &m, &n, &k, &one, a, &a_rows, b, &b_rows, &zero, product, &m);
 }
 
-/* Copies L_ss out of the supernodes, whose columns hold the rows of L in order, the diagonal
- * first. */
+/* Copies L_ss out of the supernodes. Their columns contain the rows of L in order, the diagonal
+   first. */
 static void copy_corner(const work *w)
 {
     const cholmod_factor *f = w->factor;
@@ -151,8 +151,8 @@ static int solve(work *w, int system, cholmod_dense *known)
                           &w->spare[1], &w->common);
 }
 
-/* Adds a matrix whose rows are the sides in the factor's order; the columns, too, if it is
- * square. */
+/* Writes a matrix to `to` in natural order. The rows of `from`, and its columns if it is square,
+   are the sides in the factor's order. */
 static void put_in_order(const work *w, const double *from, size_t columns, int square, double *to)
 {
     size_t both = 2 * w->side;
@@ -164,7 +164,7 @@ static void put_in_order(const work *w, const double *from, size_t columns, int 
 }
 
 /* From L y = f, computes L_ss y_s, the forces on the sides, and with x = L_ii'^-1 y_i the
- * compliance x' f. */
+   compliance x' f. */
 static int condense_loads(work *w, stiffness_condensed *c, double *product)
 {
     size_t both = 2 * w->side, all = w->inside + both;
@@ -185,10 +185,9 @@ static int condense_loads(work *w, stiffness_condensed *c, double *product)
     return done;
 }
 
-/* Static condensation (Guyan 1965), with i inside, s on the sides, and loads f: the stiffness
- * K_ss - K_si K_ii^-1 K_is = L_ss L_ss' (George & Liu 1981, Computer solution of large sparse
- * positive definite systems), the forces on the sides -K_si K_ii^-1 f, the compliance f' K_ii^-1
- * f. */
+/* Static condensation (Guyan 1965); i: inner nodes, s: sides, f: loads. Stiffness: K_ss - K_si
+   K_ii^-1 K_is = L_ss L_ss' (George & Liu 1981, Computer solution of large sparse positive definite
+   systems). Forces on the sides: -K_si K_ii^-1 f. Compliance: f' K_ii^-1 f. */
 static int condense(work *w, stiffness_condensed *c)
 {
     size_t both = 2 * w->side;
@@ -230,7 +229,7 @@ int stiffness_condense(stiffness_condensed *c, const stiffness_sector *sector,
     *c = (stiffness_condensed){.loads = loads};
     cholmod_start(&w.common);
     w.common.print = 0;
-    /* keeps the given order without trying others; L is read as supernodes */
+    /* uses the given order without trying others; L is read as supernodes */
     w.common.nmethods = 1;
     w.common.method[0].ordering = CHOLMOD_GIVEN;
     w.common.supernodal = CHOLMOD_SUPERNODAL;

@@ -12,11 +12,11 @@ static double half_angle_at(const stiffness_contour *o, double roll)
     return o->half_angle - numerics_involute_at_roll(roll);
 }
 
-/* Gives the radius of a point of the fillet, and half the angle of the tooth there. The rounded tip
- * of the rack cuts the point when the centre of the tip is `travel` beside the pitch point; the
- * normal at the point passes through the pitch point (Litvin & Fuentes 2004). Along the reference
- * circle, the middle of the tooth space is then travel - land beside the pitch point, on the same
- * side. */
+/* Computes the radius of a point of the fillet, and half the angle of the tooth there. The rounded
+   tip of the rack cuts the point when the centre of its rounding is `travel` beside the pitch
+   point; the normal at the point passes through the pitch point (Litvin & Fuentes 2004). At that
+   moment the middle of the tooth space is travel - land beside the pitch point along the reference
+   circle, on the same side. */
 static void fillet(const stiffness_contour *o, double travel, double *radius, double *half_angle)
 {
     double reach = hypot(travel, o->depth);
@@ -26,8 +26,8 @@ static void fillet(const stiffness_contour *o, double travel, double *radius, do
     *half_angle = o->half_sector - (atan2(x, y) - (travel - o->land) / o->reference_radius);
 }
 
-/* Half angle of the tooth at a point of the fillet minus that of the involute at the same
- * radius; positive where the fillet is outside the involute. */
+/* Returns the half angle of the tooth at a point of the fillet minus that of the involute at the
+   same radius; positive where the fillet is outside the involute. */
 static double excess(const stiffness_contour *o, double travel)
 {
     double radius, angle;
@@ -36,8 +36,8 @@ static double excess(const stiffness_contour *o, double travel)
     return angle - half_angle_at(o, ratio > 1 ? sqrt(ratio * ratio - 1) : 0);
 }
 
-/* Ends the fillet where it crosses the involute above the base circle, as in an undercut tooth;
- * 0: it does not cross. */
+/* Ends the fillet where it crosses the involute above the base circle, as in an undercut tooth.
+   Returns 0 if it does not cross. */
 static int cross_undercut(stiffness_contour *o, double last)
 {
     enum { STEPS = 400 };
@@ -64,7 +64,8 @@ static int cross_undercut(stiffness_contour *o, double last)
     return 1;
 }
 
-/* Finds the rack with a rounded tip that cuts this root circle and this tooth thickness. */
+/* Finds the rack with a rounded tip that cuts this root circle and this tooth thickness. Returns
+   NULL, or what is wrong. */
 static const char *make_rack(stiffness_contour *o, const stiffness_contour_data *d)
 {
     double r = d->reference_radius, c = d->base_radius / r, s = sqrt(1 - c * c);

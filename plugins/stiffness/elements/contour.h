@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Contour of half a tooth space, as a rack with rounded tips cuts it (Litvin & Fuentes 2004):
- * bottom land, trochoid fillet, involute, with one parameter p. The axis x runs from the gear's
- * centre through the middle of the tooth; the contour is the flank at y > 0. */
+/* Contour of half a tooth space as cut by a rack with rounded tips (Litvin & Fuentes 2004): bottom
+   land, trochoid fillet, involute, with one parameter p. The axis x runs from the gear's centre
+   through the middle of the tooth; the contour is the flank at y > 0. */
 #ifndef STIFFNESS_CONTOUR_H
 #define STIFFNESS_CONTOUR_H
 
@@ -13,9 +13,9 @@ typedef struct stiffness_contour {
     double base_radius, reference_radius, root_radius, tip_radius; /* m */
     double half_sector;                                            /* pi over the number of teeth */
     double half_angle; /* of the tooth at the base circle, between its involutes */
-    double depth;      /* of the centre of the tip's rounding below the rolling line of the rack */
-    double round;      /* radius of the rack's rounded tip */
-    double land;       /* half of the flat part of the rack's tip */
+    double depth; /* depth of the centre of the tip's rounding below the rolling line of the rack */
+    double round; /* radius of the rack's rounded tip */
+    double land;  /* half of the flat part of the rack's tip */
     double fillet_end; /* travel of the rack at which the fillet ends */
     double form_roll;  /* roll angle where the involute begins */
     double tip_roll;
@@ -31,14 +31,14 @@ typedef struct stiffness_contour_data {
 /* Returns NULL, or a sentence that explains why there is no such tooth. */
 const char *stiffness_contour_make(stiffness_contour *o, const stiffness_contour_data *data);
 
-/* Returns the point at p, from 0 (middle of the space) over 1 (fillet) and 2 (involute) to 3
- * (tip). */
+/* Returns the point at p, which runs from 0 (middle of the space) over 1 (fillet) and 2 (involute)
+   to 3 (tip). */
 stiffness_point stiffness_contour_at(const stiffness_contour *o, double p);
-/* Returns the p at which the normal of the fillet has turned half way. */
+/* Returns the p at which the normal of the fillet has turned halfway. */
 double stiffness_contour_middle(const stiffness_contour *o);
 
-/* A unit normal force on the flank at a roll angle: its place, its direction into the tooth,
- * where its line crosses the tooth's axis, and how deep that point is. */
+/* A unit normal force on the flank at a roll angle: its point of application, its direction into
+   the tooth, the point where its line crosses the tooth's axis, and the depth of that point. */
 typedef struct stiffness_flank_force {
     double radius;
     stiffness_point direction;

@@ -9,8 +9,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Loads: forces on the flank; forces at the axis below them; and for two places of the flank a
- * pressure, a force in its middle, and a force at the axis. */
+/* The loads: forces on the flank; forces on the axis below them; and at two places of the flank a
+   pressure, a force in its middle, and a force on the axis. */
 enum {
     ROLLS = STIFFNESS_RING_ROLLS,
     PLACES = 2,
@@ -23,8 +23,8 @@ enum {
     PARTS = 2 * ROLLS + PLACES * (PRESSURE_PARTS + 2)
 };
 
-/* Places of the pressures on the flank, from its lowest point (0) to the tip (1), and their half
- * width over the depth of the axis below. */
+/* Places of the pressures on the flank, from its lowest point (0) to the tip (1). The half width of
+   a pressure is relative to the depth of the axis below it. */
 static const double place[PLACES] = {0.3, 0.7}, width_ratio = 0.3;
 
 /* Chebyshev points including both ends, and their barycentric weights. */
@@ -96,7 +96,7 @@ static double half_plane(const stiffness_material *m)
     return 2 / (M_PI * e * m->width) * (log(2 / width_ratio) - nu / 2);
 }
 
-/* Computes the approach of flank and axis under the pressures, minus that of a half plane. */
+/* Computes the approach between flank and axis under the pressures, minus that of a half plane. */
 static void add_thinness(stiffness_ring *r, const stiffness_condensed *c,
                          const stiffness_material *material)
 {
@@ -111,8 +111,8 @@ static void add_thinness(stiffness_ring *r, const stiffness_condensed *c,
     }
 }
 
-/* Turns x and y of the nodes on the right side into the frame of the next sector: in the rows of
- * a matrix with `columns` columns of 2 side numbers, and in the columns of a square matrix. */
+/* Rotates x and y of the nodes on the right side into the frame of the next sector: in the rows of
+   a matrix with `columns` columns of 2 side numbers, and in the columns of a square matrix. */
 static void turn_rows(double *matrix, size_t side, size_t columns, double c, double s)
 {
     for (size_t k = 0; k < columns; k++)
@@ -138,8 +138,9 @@ typedef struct harmonic {
     double complex *matrix, *load; /* side x side, side x LOADS */
 } harmonic;
 
-/* Harmonic n: the right side moves as z times the left one, z = exp(2 pi i n/teeth). Leaves L^-1
- * h in `load`, where L L^H is the stiffness of the harmonic and h its loads. */
+/* Harmonic n: the displacement of the right side is z times that of the left side, z = exp(2 pi
+   i n/teeth). Leaves L^-1 h in `load`, where L L^H is the stiffness of the harmonic and h its
+   loads. */
 static int solve_harmonic(const stiffness_condensed *c, double complex z, harmonic *h)
 {
     size_t n = c->side;
@@ -166,8 +167,8 @@ static double complex product(const harmonic *h, size_t a, size_t b)
     return sum;
 }
 
-/* Adds the harmonic's contribution to all compliances. A load on one sector contains every
- * harmonic equally. */
+/* Adds the contribution of the harmonic to all compliances. A load on one sector contains every
+   harmonic equally. */
 static void add_harmonic(stiffness_ring *r, const harmonic *h, double complex z, double part)
 {
     for (size_t a = 0; a < ROLLS; a++) {
@@ -190,7 +191,7 @@ static int add_harmonics(stiffness_ring *r, stiffness_condensed *c, size_t teeth
     turn_rows(c->stiffness, c->side, 2 * c->side, cos(angle), sin(angle));
     turn_columns(c->stiffness, c->side, cos(angle), sin(angle));
     turn_rows(c->pull, c->side, LOADS, cos(angle), sin(angle));
-    /* harmonics n and teeth - n are conjugate */
+    /* harmonics n and teeth - n are complex conjugates */
     for (size_t n = 0; 2 * n <= teeth && result == STIFFNESS_RING_MADE; n++) {
         double complex z = cexp(I * angle * (double)n);
         int single = n == 0 || 2 * n == teeth;
@@ -207,12 +208,13 @@ static int add_harmonics(stiffness_ring *r, stiffness_condensed *c, size_t teeth
     return result;
 }
 
-/* Adds the compliance with held sides, and measures how far the sum is from symmetric. */
+/* Adds the compliance with fixed sides, and measures the asymmetry of the sum. */
 static void add_held(stiffness_ring *r, const stiffness_condensed *c)
 {
     double worst = 0, largest = 0;
     for (size_t a = 0; a < ROLLS; a++) {
-        r->own[a] += c->held[(ROLLS + a) * LOADS + a]; /* at the axis, by the force on the flank */
+        /* displacement of the axis under the force on the flank */
+        r->own[a] += c->held[(ROLLS + a) * LOADS + a];
         for (size_t b = 0; b < ROLLS; b++)
             r->other[0][a][b] += c->held[b * LOADS + a];
     }
@@ -255,11 +257,11 @@ out:
     return result;
 }
 
-/* Roll angles closer than this, in rad, count as one. */
+/* Roll angles that differ by less than this, in rad, are treated as equal. */
 static const double same_roll = 1e-12;
 
-/* Barycentric interpolation (Berrut & Trefethen 2004): the weights of the points for the value
- * at `roll`. */
+/* Barycentric interpolation (Berrut & Trefethen 2004): computes the weights of the points for the
+   value at `roll`. */
 static void shares(const stiffness_ring *r, double roll, double share[ROLLS])
 {
     double sum = 0;

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The contour over its arc length, from equal steps of its parameter. */
+/* The contour as a function of its arc length, tabulated at equal steps of its parameter. */
 enum { TABLE = 600 };
 typedef struct arc_table {
     const stiffness_contour *contour;
@@ -60,7 +60,8 @@ static size_t *cell(const stiffness_sector *s, size_t row, size_t column)
     return &s->grid[row * s->columns + column];
 }
 
-/* Elements of eight nodes have none in their middle; outside the body, only the tooth has nodes. */
+/* Whether the grid has a node here. Eight-node elements have no node in their middle; outside the
+   body, only the tooth has nodes. */
 static int has_node(const stiffness_sector *s, size_t row, size_t column)
 {
     if (row % 2 == 1 && column % 2 == 1)
@@ -117,9 +118,9 @@ static stiffness_point body_end(const stiffness_sector *s, const arc_table *root
     return at;
 }
 
-/* Steps through the body grow inwards in a geometric series, with a ratio between 1 and 4, from
- * `first` over the depth of the body. fraction[i] is the part of the depth between the rim and
- * row i. */
+/* The steps through the body grow inwards in a geometric series, with a ratio between 1 and 4;
+   `first` is the first step over the depth of the body. fraction[i] is the part of the depth
+   between the rim and row i. */
 static void grade(double *fraction, size_t steps, double first)
 {
     double low = 1, high = 4;
@@ -154,8 +155,8 @@ static void place_body(stiffness_sector *s, const arc_table *root, double rim,
     }
 }
 
-/* Places the rows across the tooth, which are straight at the fillets and gradually take the
- * curvature of the tip circle. */
+/* Places the rows across the tooth. They are straight at the fillets and gradually approach the
+   curvature of the tip circle. */
 static void place_tooth(stiffness_sector *s, const arc_table *flank)
 {
     double tip = s->contour->tip_radius;
@@ -206,7 +207,7 @@ void stiffness_sector_free(stiffness_sector *s)
     *s = (stiffness_sector){0};
 }
 
-/* Shape functions of a side with three nodes, -1 <= t <= 1. */
+/* Shape functions of an element side with three nodes, -1 <= t <= 1. */
 static void side_shape(double t, double n[3])
 {
     n[0] = t * (t - 1) / 2;
@@ -214,8 +215,8 @@ static void side_shape(double t, double n[3])
     n[2] = t * (t + 1) / 2;
 }
 
-/* Finds the point of a column of nodes, from first_row outwards, at a distance from the gear's
- * centre: the side of the element on which it lies, and the shape functions there. */
+/* Finds the point of a column of nodes, from first_row outwards, at a given distance from the
+   gear's centre: the element side that contains it, and the shape functions there. */
 static stiffness_nodal locate(const stiffness_sector *s, size_t column, size_t first_row,
                               double height)
 {
@@ -257,8 +258,8 @@ stiffness_nodal stiffness_sector_axis(const stiffness_sector *s, double roll)
     return f;
 }
 
-/* Derivatives of the shape functions of the eight-node element: corners counter-clockwise from
- * (-1, -1), then the middles of the sides from the first side on. */
+/* Derivatives of the shape functions of the eight-node element. Nodes: corners counter-clockwise
+   from (-1, -1), then the middles of the sides, starting with the first side. */
 static void shape_slopes(double a, double b, double da[8], double db[8])
 {
     static const double corner[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};

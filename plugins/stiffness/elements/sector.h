@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Plane finite elements of one sector of a gear: a tooth with its fillets, and the body below
- * it, held at the rim radius. Quadratic eight-node elements on a grid that follows the contour. */
+/* Plane finite elements of one sector of a gear: a tooth with its fillets, and the body below it,
+   fixed at the rim radius. Quadratic eight-node elements on a grid that follows the contour. */
 #ifndef STIFFNESS_SECTOR_H
 #define STIFFNESS_SECTOR_H
 
@@ -15,7 +15,7 @@ typedef struct stiffness_material {
 
 /* A part of a load, distributed over the three nodes of an element's side. */
 typedef struct stiffness_nodal {
-    size_t load; /* the load that it is part of */
+    size_t load; /* index of the load to which it belongs */
     size_t node[3];
     double weight[3];
     stiffness_point direction;
@@ -25,7 +25,7 @@ typedef struct stiffness_sector {
     size_t nodes, elements;
     stiffness_point *node;
     size_t (*element)[8];        /* corners, then middles of the sides, counter-clockwise */
-    size_t rows, columns;        /* of the grid of nodes */
+    size_t rows, columns;        /* size of the grid of nodes */
     size_t body_rows;            /* from the rim to the fillets, both included */
     size_t tooth_from, tooth_to; /* columns that continue into the tooth */
     size_t *grid;                /* node at row and column, or STIFFNESS_NO_NODE */
@@ -33,17 +33,20 @@ typedef struct stiffness_sector {
 } stiffness_sector;
 #define STIFFNESS_NO_NODE ((size_t)-1)
 
-/* Makes about `elements` elements between the rim radius and the tip. 0 if memory is short. */
+/* Creates about `elements` elements between the rim radius and the tip. Returns 0 if memory is
+   short. */
 int stiffness_sector_make(stiffness_sector *s, const stiffness_contour *contour, double rim_radius,
                           size_t elements);
 void stiffness_sector_free(stiffness_sector *s);
 
-/* A unit normal force on the flank at that roll angle; and the unit displacement, along the
- * force, of the point of the tooth's axis below. */
+/* stiffness_sector_force is a unit normal force on the flank at that roll angle.
+   stiffness_sector_axis is a unit force in the same direction at the point of the tooth's axis
+   below; it also gives the displacement of that point along the force. */
 stiffness_nodal stiffness_sector_force(const stiffness_sector *s, double roll);
 stiffness_nodal stiffness_sector_axis(const stiffness_sector *s, double roll);
 
-/* Computes the stiffness of an element for the displacements x0 y0 x1 y1 ... of its nodes. */
+/* Computes the stiffness matrix of an element for the displacements x0 y0 x1 y1 ... of its
+   nodes. */
 void stiffness_sector_stiffness(const stiffness_sector *s, size_t element,
                                 const stiffness_material *material, double k[16][16]);
 
