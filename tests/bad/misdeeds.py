@@ -332,7 +332,7 @@ for film in ["finite-volume, cells: 96", "control-volume, cells: 96", "film-form
         fails_film("status 2", film, 1, "the law found no ln_eta")
 if not watched:  # a sanitizer's heap lies elsewhere
     fails_film("past 4000", "inlet-analysis", 3, f"; viscosity: the plugin {FILES['law']} fails flankfilm verify --only guards")
-fails_film("slope 1e30", "finite-volume, cells: 96", 3, "ln_eta does not follow its slope, which is 1.5e+31 1/GPa at 0.3")
+fails_film("slope 1e30", "finite-volume, cells: 96", 3, "ln_eta does not agree with its slope, which is 1.5e+31 1/GPa at 0.3")
 # a table that is none is its maker's fault, before who calls it runs
 for table, says in {"null": 'gave a table without its function 1 for its service "viscosity"', "short": "gave a table that says to have 8 bytes",
                     "wild": "crashed during service: segmentation fault"}.items():

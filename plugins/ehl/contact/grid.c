@@ -30,8 +30,9 @@ double ehl_inlet_buildup(double a, double radius, double h)
     return fmin(ehl_hertz_gap_distance(a, radius, h), sqrt(2 * radius * h));
 }
 
-/* Returns the film of a line contact from M = W (2U)^-1/2, L = G (2U)^1/4 and H = (h/R)(2U)^-1/2
- * (Moes 2000, Lubrication and beyond). 0: no load or no entrainment, hence no such film. */
+/* Returns the film thickness of a line contact from M = W (2U)^-1/2, L = G (2U)^1/4 and H =
+   (h/R)(2U)^-1/2 (Moes 2000, Lubrication and beyond). Returns 0 without load or entrainment, where
+   no such film exists. */
 double ehl_moes_film(const ehl_instant *at, double modulus, const ehl_oil *oil)
 {
     double two_u = 2 * oil->viscosity * at->entrainment / (modulus * at->radius);
@@ -55,9 +56,9 @@ double ehl_row_film(const ehl_history *h, size_t row, const ehl_oil *oil)
     return ehl_moes_film(&at, h->modulus, oil);
 }
 
-/* Returns the pressure upstream of x = -end for a Hertzian gap held apart by h. The pressure is low
- * there, so that the oil is taken at ambient pressure: p = 12 eta0 u int (gap - h)/gap^3 dx, x =
- * -end/t, 0 < t < 1. */
+/* Returns the pressure upstream of x = -end for a Hertzian gap with film thickness h. The pressure
+   is low there, so the oil properties are those at ambient pressure: p = 12 eta0 u int (gap -
+   h)/gap^3 dx, x = -end/t, 0 < t < 1. */
 FF_SIMD
 ehl_lost ehl_pressure_upstream(const ehl_oil *oil, const ehl_instant *at, double a, double h,
                                double end)
@@ -83,7 +84,7 @@ ehl_lost ehl_pressure_upstream(const ehl_oil *oil, const ehl_instant *at, double
 void ehl_inlet_ahead(const ehl_oil *oil, const ehl_instant *at, double modulus, double end,
                      double *pressure, double *load)
 {
-    const double most = 0.25; /* of the load */
+    const double most = 0.25; /* share of the load */
     double h = ehl_moes_film(at, modulus, oil);
     double a = ehl_hertz_half_width(at->load, at->radius, modulus);
     *pressure = *load = 0;
@@ -96,20 +97,20 @@ void ehl_inlet_ahead(const ehl_oil *oil, const ehl_instant *at, double modulus, 
     *load = share * l.load;
 }
 
-/* Returns the share of the film that is missing if the domain begins at a distance of `lengths` S.
- * The pressure of the inlet rises over S. Far from the contact dp/dx ~ x^-4, and the film is lower
- * in the ratio of the missing pressure, so that the share falls with the square of the distance.
- * The factor is 2.4 for a rigid cylinder, whose whole pressure arises there, and 0.08 if a is long
- * against S. In between it is fitted to solutions with L from 0 to 8. */
+/* Returns the relative error of the film if the domain begins at a distance of `lengths` S. The
+   pressure of the inlet rises over S. Far from the contact dp/dx ~ x^-4. The film is too thin in
+   proportion to the missing pressure, so that the error is proportional to 1/distance^2. The factor
+   is 2.4 for a rigid cylinder, whose whole pressure arises there, and 0.08 if a is large compared
+   with S. In between it is fitted to solutions with L from 0 to 8. */
 static double inlet_shortfall(double a, double s, double lengths)
 {
     return (0.08 + 2.45 / (1 + pow(0.65 * (a + s) / s, 7))) / (lengths * lengths);
 }
 
-/* Extends the domain for one instant. Under the largest loads less than 0.1 % of the film is
- * missing; the others get `supplied` (ehl_grid_fit). The film ruptures before a + 0.5 S. Loads
- * below 2 % of the largest use the domain of the others: one of their own would make the cells too
- * coarse for these. */
+/* Extends the domain for one instant. At the largest loads less than 0.1 % of the film is missing;
+   at the others the inlet is at least `supplied` (ehl_grid_fit). The film ends before a + 0.5 S.
+   Loads below 2 % of the largest use the domain of the others, since a domain of their own would
+   make the cells too coarse for the others. */
 static void reach(ehl_grid *g, const ehl_instant *at, double modulus, double film, int largest)
 {
     const double missing = 7.5e-4;
@@ -120,7 +121,7 @@ static void reach(ehl_grid *g, const ehl_instant *at, double modulus, double fil
     g->outlet = fmax(g->outlet, a + 2 * s);
 }
 
-/* Returns the gap that a Hertzian contact of half-width `from` has at x = a, times 2 R. */
+/* Returns the gap of a Hertzian contact of half-width `from` at x = a, times 2 R. */
 static double gap_times_2R(double from, double a)
 {
     if (!(from > 0))
@@ -130,10 +131,10 @@ static double gap_times_2R(double from, double a)
 }
 
 /*
- * A contact that swells faster than the oil leaves draws oil in at its outlet, too. The film that
- * it draws in there is that of a contact which the oil enters at the difference of both speeds, and
- * no thicker than the gap that was there. The outlet reaches twice sqrt(2 R h) of it beyond the
- * contact, as far as that of a film that leaves.
+ * Extends the outlet for a contact that grows faster than the oil leaves. Such a contact draws in
+ * oil at its outlet, too. Its film there is that of a contact which the oil enters at the
+ * difference of both speeds, and it is at most as thick as the gap that was there. The outlet
+ * reaches 2 sqrt(2 R h) of that film beyond the contact, as for a film that leaves.
  */
 static void reach_swelling(ehl_grid *g, const ehl_history *h, size_t row, const ehl_oil *oil)
 {
@@ -151,15 +152,15 @@ static void reach_swelling(ehl_grid *g, const ehl_history *h, size_t row, const 
     g->drawn = fmax(g->drawn, a + 2 * sqrt(square));
 }
 
-/* Extends the inlet for a gap that is squeezed at rest: ten lengths sqrt(2 R gap) hold 99.9 % of
- * the force of a cylinder. */
+/* Extends the inlet for a gap that is squeezed at rest: ten lengths sqrt(2 R gap) contain 99.9 % of
+   the force on a cylinder. */
 static void fit_squeezed_gap(ehl_grid *g, const ehl_instant *at, double half_width)
 {
     g->inlet = fmax(g->inlet, half_width + 10 * sqrt(2 * at->radius * at->gap));
 }
 
 /* Extends the domain for rough flanks: at its ends the gap of the rigid bodies has grown by 4 Rq, a
- * height that asperities hardly reach. */
+   height that asperities rarely reach. */
 static void fit_roughness(ehl_grid *g, const ehl_instant *at, double modulus, double rq)
 {
     double end = ehl_hertz_half_width(at->load, at->radius, modulus) + sqrt(8 * at->radius * rq);
@@ -191,7 +192,7 @@ void ehl_grid_fit(ehl_grid *g, size_t cells, double inlet, double outlet, const 
         g->inlet = inlet * g->half_width;
     if (outlet > 0)
         g->outlet = outlet * g->half_width;
-    if (h->turns) /* each end is the inlet in its turn */
+    if (h->turns) /* if the entrainment reverses, each end is an inlet at some time */
         g->inlet = g->outlet = fmax(g->inlet, g->outlet);
     g->dx = (g->inlet + g->outlet) / (double)cells;
     g->first = -g->inlet;

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-/* Bound on numbers, so that powers of them in the film formulas stay finite. */
+/* Returns whether a number is within bounds that keep its powers in the film formulas finite. */
 static int is_usable(double value)
 {
     return fabs(value) <= 1e30;
@@ -49,8 +49,8 @@ static double entrainment(const ehl_history *h, size_t i)
     return (h->speed_1[i] + h->speed_2[i]) / 2;
 }
 
-/* Finds the first row that moves, its direction and, from rest, the time at which the creep speed
- * is reached. */
+/* Finds the first row with motion and its direction, and for a start from rest the time at which
+   the creep speed is reached. */
 static size_t find_start(ehl_history *h)
 {
     double least = EHL_CREEP * h->speed_max;
@@ -68,8 +68,8 @@ static size_t find_start(ehl_history *h)
     return i;
 }
 
-/* Returns whether the film may begin in the first row: it has a speed, or it moves later, or a gap
- * is given without load. */
+/* Checks that a film can begin in the first row: the flanks move there, or they move later, or a
+   gap without load is given. */
 static ff_status check_motion(ehl_history *h, const ff_host *host)
 {
     int apart = h->count > 1 && ehl_is_lost(h, h->load[0]) && h->gap && h->gap[0] > 0;
@@ -77,8 +77,9 @@ static ff_status check_motion(ehl_history *h, const ff_host *host)
         h->speed_max = fmax(h->speed_max, fabs(entrainment(h, i)));
     if (!(h->speed_max > 0) && !apart)
         return ff_failf(host, FF_INVALID, "contact.speed_1",
-                        "the entrainment speed (u1 + u2)/2 is zero all the time, and there is no "
-                        "steady film at rest: a squeeze film begins with a gap and without load");
+                        "the entrainment speed (u1 + u2)/2 is always zero, and there is no "
+                        "steady film at rest: a squeeze film must begin with a gap and without "
+                        "load");
     size_t first = h->speed_max > 0 ? find_start(h) : 0;
     h->turns = apart && !(fabs(entrainment(h, 0)) > 0);
     h->at_rest = h->at_rest && !apart;
@@ -92,9 +93,9 @@ ff_status ehl_history_one_way(const ehl_history *h, const ff_host *host, const c
     for (size_t i = 0; i < h->count; i++)
         if ((h->mirrored ? -1 : 1) * entrainment(h, i) < 0 || (i == 0 && h->at_rest))
             return ff_failf(host, FF_UNSUPPORTED, "contact.speed_1",
-                            "the entrainment speed (u1 + u2)/2 is %g m/s at time %g s: %s needs it "
-                            "from the start on and in one direction; ehl/finite-volume with smooth "
-                            "flanks does not",
+                            "the entrainment speed (u1 + u2)/2 is %g m/s at time %g s, but %s "
+                            "needs entrainment from the start, always in the same direction; "
+                            "ehl/finite-volume with smooth flanks does not",
                             entrainment(h, i), h->time[i], what);
     return FF_OK;
 }
@@ -123,7 +124,7 @@ size_t ehl_history_engagement(const ehl_history *h, size_t row, ehl_history *one
     return end;
 }
 
-/* Checks that each engagement takes time, and so does the stretch after a jump. */
+/* Checks that the duration of each engagement, and of the part after a jump, is above 0. */
 static ff_status check_durations(const ehl_history *h, const ff_host *host)
 {
     ehl_history one;
@@ -132,12 +133,12 @@ static ff_status check_durations(const ehl_history *h, const ff_host *host)
         size_t n = one.count;
         if (n > 1 && !(one.time[n - 1] > one.time[0]))
             return ff_failf(host, FF_INVALID, "contact.time",
-                            "the contact history lasts no time: all %zu times are %g s", n,
+                            "the duration of the contact history is 0: all %zu times are %g s", n,
                             one.time[0]);
         if (n > 1 && !(one.time[n - 1] > one.time[n - 2]))
             return ff_failf(host, FF_INVALID, "contact.time",
-                            "the contact jumps at the last time, %g s: leave the last row out, or "
-                            "say what follows it",
+                            "the contact jumps at the last time, %g s: remove the last row, or "
+                            "add what follows it",
                             one.time[n - 1]);
     }
     return FF_OK;
@@ -166,7 +167,8 @@ ff_status ehl_history_check(ehl_history *h, const ff_host *host)
     if (!(h->load_max > 0) && !apart)
         return ff_failf(host, FF_INVALID, "contact.load_per_width",
                         "the contact is never loaded: at least one load per width must be "
-                        "positive, or all gaps, of flanks that never touch");
+                        "positive, or a gap must be given at all times for flanks that never "
+                        "touch");
     return check_motion(h, host);
 }
 
@@ -206,7 +208,7 @@ ehl_instant ehl_history_row(const ehl_history *h, size_t row)
     return instant(h, (between){row, row, 0});
 }
 
-/* Returns the number of rows with a time below `time`, or not above it if `upto`. */
+/* Returns the number of rows with a time below `time`; if `upto`, also those at `time`. */
 static size_t rows_before(const ehl_history *h, double time, int upto)
 {
     size_t low = 0, high = h->count;
@@ -246,13 +248,13 @@ ehl_instant ehl_history_before(const ehl_history *h, double time)
     return interpolate(h, rows_before(h, time, 0), time);
 }
 
-/* Returns the deviation of `at` from the line from a to b at that time, over the allowed deviation.
- */
+/* Returns the deviation of `at` from the straight line between a and b at that time, over the
+   allowed deviation. */
 static double deviation_from_line(const ehl_history *h, const ehl_instant *a, const ehl_instant *b,
                                   const ehl_instant *at, double within, double film)
 {
-    const double none =
-        1e-2; /* of the largest value: smaller loads and speeds are judged against this */
+    const double none = 1e-2; /* share of the largest value below which loads and speeds are
+                                 compared with that share instead of with themselves */
     double share = (at->time - a->time) / (b->time - a->time), rest = 1 - share;
     double load = fabs(at->load - rest * a->load - share * b->load),
            speed = fabs(at->entrainment - rest * a->entrainment - share * b->entrainment),

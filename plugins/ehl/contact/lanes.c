@@ -70,7 +70,7 @@ double ehl_greatest_size(size_t n, const double *restrict x)
     size_t i = 0;
     for (; i + EHL_LANES <= n; i += EHL_LANES) {
         memcpy(&here, x + i, sizeof here);
-        here = (ehl_lanes)((ehl_lanes_bits)here & INT64_MAX); /* clears the sign */
+        here = (ehl_lanes)((ehl_lanes_bits)here & INT64_MAX); /* clears the sign bit */
         ehl_lanes_keep_greatest(&most, &here);
     }
     double highest = ehl_lanes_greatest(&most);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Four numbers at a time in one vector. Compilers take sums and extremes of an array in its order
- * and therefore one by one. */
+/* Sums and extremes with four numbers in one SIMD vector. Compilers must keep the order of an array
+   and would take its numbers one by one. */
 #ifndef EHL_LANES_H
 #define EHL_LANES_H
 
@@ -10,13 +10,13 @@ enum { EHL_LANES = 4 };
 typedef double ehl_lanes __attribute__((vector_size(EHL_LANES * sizeof(double))));
 typedef int64_t ehl_lanes_bits __attribute__((vector_size(EHL_LANES * sizeof(double))));
 
-/* Passed by pointer: a vector passed by value has another ABI without AVX. */
+/* The vector is passed by pointer: passed by value it has another ABI without AVX. */
 FF_SIMD_INLINE double ehl_lanes_sum(const ehl_lanes *values)
 {
     return (*values)[0] + (*values)[1] + ((*values)[2] + (*values)[3]);
 }
 
-/* Return the lesser and the greater of a and b; b if one of them is NaN. */
+/* Return the smaller and the larger of a and b; b if one of them is NaN. */
 FF_SIMD_INLINE double ehl_lesser(double a, double b)
 {
     return a < b ? a : b;
@@ -43,10 +43,10 @@ FF_SIMD_INLINE double ehl_lanes_greatest(const ehl_lanes *x)
     return found;
 }
 
-/* Keep the lesser and the greater of both in each lane; NaN is skipped. */
+/* Keep the smaller and the larger of both in each lane; NaN is skipped. */
 FF_SIMD_INLINE void ehl_lanes_keep_least(ehl_lanes *least, const ehl_lanes *x)
 {
-#pragma GCC unroll 1 /* unrolled, gcc would take the lanes one by one */
+#pragma GCC unroll 1 /* if it unrolled the loop, gcc would process the lanes one by one */
     for (size_t k = 0; k < EHL_LANES; k++)
         (*least)[k] = ehl_lesser((*x)[k], (*least)[k]);
 }
@@ -61,10 +61,10 @@ FF_SIMD_INLINE void ehl_lanes_keep_greatest(ehl_lanes *most, const ehl_lanes *x)
 double ehl_sum(size_t n, const double *x);
 double ehl_dot(size_t n, const double *x, const double *y);
 
-/* Returns the least of all x: infinite if there are none, NaN if the first is NaN. */
+/* Returns the smallest of all x: infinite if there are none, NaN if the first is NaN. */
 double ehl_least(size_t n, const double *x);
 
-/* Return the greatest of `least` and all x, and of all |x|. */
+/* Return the largest of `least` and all x, or of `least` and all |x|. */
 double ehl_greatest(size_t n, const double *x, double least);
 double ehl_greatest_size(size_t n, const double *x);
 

@@ -22,7 +22,7 @@ void ehl_law_report(const ff_host *host, ehl_law_answer worst)
 {
     if (worst == EHL_LAW_CONTINUED)
         host->quality(host->ctx, "law_range", 1, 0, FF_RANGE,
-                      "an oil law was continued outside its range");
+                      "an oil law was extrapolated outside its range");
 }
 
 static int are_numbers(size_t n, const double *ln_eta, const double *h, double u_s)
@@ -33,7 +33,7 @@ static int are_numbers(size_t n, const double *ln_eta, const double *h, double u
     return good;
 }
 
-/* Notes an answer that is not finite although the points were. */
+/* Records a result that is not finite although the arguments were. */
 static ff_status hold_flow(const ehl_rheology_at *at, ff_status status, size_t n,
                            const double *ln_eta, const double *h, double u_s,
                            const double *const value[4])
@@ -180,7 +180,7 @@ ff_status ehl_fluid_evaluate(const ehl_laws *laws, size_t n, const double *p, co
     if (laws->rheology)
         return worse(status, laws->rheology->flow(laws->rheology->self, n, p, NULL, q->ln_eta, h,
                                                   sliding, q->psi, q->psi_p, q->psi_l, q->psi_h));
-    for (size_t i = 0; i < n; i++) { /* underflows to 0 where eta overflows */
+    for (size_t i = 0; i < n; i++) { /* becomes 0 where eta overflows */
         q->psi[i] = exp(-q->ln_eta[i]);
         q->psi_l[i] = -q->psi[i];
         q->psi_h[i] = q->psi_p[i] = 0;
@@ -207,8 +207,8 @@ double ehl_fluidity_integral(double step, double left, double right)
     return step * exp(-left) * mean;
 }
 
-/* Bound on the steps of an integration, each a twentieth in ln(eta), up to a rise of 40. It would
- * never end for a law whose values do not follow its slopes. */
+/* Bound on the steps of the integration. Each is a twentieth in ln(eta), up to a rise of 40.
+   Without the bound it would never end for a law whose values do not agree with its slopes. */
 enum { MOST_STEPS = 100000 };
 
 static void blame_slope(numerics_answers *answers, const char *wire, const char *value,
@@ -219,11 +219,11 @@ static void blame_slope(numerics_answers *answers, const char *wire, const char 
     answers->status = FF_BUG;
     answers->wire = wire;
     snprintf(answers->text, sizeof answers->text,
-             "%s does not follow its slope, which is %.4g %s/GPa at %.4g GPa", value, 1e9 * slope,
-             unit, 1e-9 * p);
+             "%s does not agree with its slope, which is %.4g %s/GPa at %.4g GPa", value,
+             1e9 * slope, unit, 1e-9 * p);
 }
 
-/* Returns false after too many steps and notes that as a fault of the law. */
+/* Returns false after too many steps, and records that as a fault of the law. */
 static bool is_bounded(const ehl_laws *laws, size_t steps, double p, double slope)
 {
     if (steps < MOST_STEPS)
@@ -232,13 +232,13 @@ static bool is_bounded(const ehl_laws *laws, size_t steps, double p, double slop
     return false;
 }
 
-/* A law as it is called: ln_eta or rho over pressure. */
+/* Signature of a law: ln_eta or rho over pressure. */
 typedef ff_status over_pressure(const void *self, size_t n, const double *p, const double *T,
                                 double *value, double *by_p, double *by_T);
 
-/* Returns a pressure up to `highest` at which the stated slope is ten times that of the values, or
- * less than a tenth of it, and gives that slope. 0: there is none. Differences too small for a film
- * to feel are ignored. */
+/* Returns a pressure up to `highest` at which the stated slope differs by a factor of ten or more
+   from that of the values, and sets that slope. Returns 0 if there is none. Differences too small
+   to affect a film are ignored. */
 static double find_false_slope(over_pressure *eval, const void *self, double highest, double *slope)
 {
     enum { PLACES = 64 };
@@ -269,17 +269,17 @@ void ehl_laws_hold_slopes(const ehl_laws *laws, double highest)
         blame_slope(laws->answers, "density", "rho", slope, "kg/m3", p);
 }
 
-/* The integral of eta0/eta, by whole steps and by half steps. */
+/* The integral of eta0/eta, with whole steps and with half steps. */
 typedef struct fluidity {
-    double p, slope; /* where the integration has got to: Pa, and the slope there, 1/Pa */
-    double rise;     /* of ln(eta) up to there */
+    double p, slope; /* end of the integration so far, Pa, and the slope of ln(eta) there, 1/Pa */
+    double rise;     /* rise of ln(eta) up to there */
     double coarse, fine;
 } fluidity;
 
-enum { BLOCK = 8 }; /* steps per call of the law */
+enum { BLOCK = 8 }; /* steps per evaluation of the law */
 
-/* Adds a block of equal steps, each a twentieth in ln(eta) by the slope at the beginning of the
- * block. */
+/* Adds a block of equal steps. Each is a twentieth in ln(eta) by the slope at the start of the
+   block. */
 static void integrate_block(fluidity *sum, const ff_viscosity *v, double ln_eta0, double highest)
 {
     double at[2 * BLOCK], ln_eta[2 * BLOCK], slopes[2 * BLOCK];
@@ -301,9 +301,9 @@ static void integrate_block(fluidity *sum, const ff_viscosity *v, double ln_eta0
     sum->slope = slopes[2 * BLOCK - 1];
 }
 
-/* Integrates eta0/eta to alpha*. Steps are exact where ln(eta) is linear. The error of the half
- * steps, a third of the difference between whole and half steps, is subtracted. Beyond a rise of 40
- * less than 1e-17 is left. */
+/* Integrates eta0/eta for alpha*. Steps are exact where ln(eta) is linear. The error of the half
+   steps, a third of the difference between whole and half steps, is subtracted. Beyond a rise of 40
+   less than 1e-17 remains. */
 ehl_film_coefficient ehl_alpha_star(const ehl_laws *laws)
 {
     const ff_viscosity *v = laws->viscosity;
@@ -326,6 +326,7 @@ ff_status ehl_put_alpha_star(const ff_host *host, uint32_t output, ehl_film_coef
     const double limit = 1e-3;
     host->quality(host->ctx, "alpha_star_error", alpha.error, limit,
                   alpha.error <= limit ? FF_GOOD : FF_DOUBTFUL,
-                  "of alpha_star, relative: quadrature by whole steps against halves");
+                  "relative error of alpha_star: quadrature with whole steps compared with half "
+                  "steps");
     return ff_put_scalar(host, output, alpha.value);
 }

@@ -79,7 +79,7 @@ static double value_of(int rule, const ehl_history *h, size_t row, double roughn
     }
 }
 
-/* Returns the first row at which the flanks are nearest to each other. */
+/* Returns the first row at which the gap is smallest. */
 static size_t nearest_row(const ehl_history *h)
 {
     size_t nearest = 0;
@@ -88,8 +88,8 @@ static size_t nearest_row(const ehl_history *h)
     return nearest;
 }
 
-/* Asks for the array of an output. A contact without load has no width, so that a field has one
- * place, x = 0. */
+/* Allocates the array of an output. A contact without load has no width, so a field has a single
+   place, x = 0. */
 static double *claim(const ff_host *host, uint32_t row, const char *dims, const ehl_history *h,
                      size_t *rows)
 {
@@ -127,6 +127,6 @@ ff_status ehl_put_parted(const ff_host *host, int estimate, uint64_t wanted, con
     }
     host->quality(host->ctx, "parted", h->gap[nearest], 0, FF_GOOD,
                   "the contact is never loaded: the film is the gap between the flanks, without "
-                  "pressure and without a loss; the value is the least of it");
+                  "pressure and loss; the value is its smallest thickness");
     return FF_OK;
 }

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The film of flanks that never touch, as those of gears that float: the gap, without pressure. */
+/* The film of flanks that never touch, such as those of floating gears: the gap, without
+   pressure. */
 #ifndef EHL_PARTED_H
 #define EHL_PARTED_H
 
 #include "history.h"
 
-/* 1: the contact is never loaded. */
+/* Returns 1 if the contact is never loaded. */
 int ehl_is_parted(const ehl_history *history);
 
 /* Gives each output that is wanted: the gap for a film, 0 for a pressure and a loss. `temperature`:

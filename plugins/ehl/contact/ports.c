@@ -5,16 +5,17 @@
 
 #include <math.h>
 
-/* The rows of contact and oil, which all models have. `another` says what another engagement begins
- * with. */
+/* The rows of contact and oil, which all models share. `another` completes the doc text of
+   contact.engagement. */
 #define CONTACT_AND_OIL(another)                                                                   \
     [EHL_IN_TIME] = {.name = "contact.time",                                                       \
                      .unit = "s",                                                                  \
-                     .doc = "times of the history, not decreasing; one: a steady contact",         \
+                     .doc = "times of the history, not decreasing; a single time is a steady "     \
+                            "contact",                                                             \
                      .dims = "t"},                                                                 \
     [EHL_IN_RADIUS] = {.name = "contact.equivalent_radius",                                        \
                        .unit = "m",                                                                \
-                       .doc = "R: 1/R = 1/r1 + 1/r2",                                              \
+                       .doc = "equivalent radius R: 1/R = 1/r1 + 1/r2",                            \
                        .dims = "t"},                                                               \
     [EHL_IN_SPEED_1] = {.name = "contact.speed_1",                                                 \
                         .unit = "m/s",                                                             \
@@ -26,11 +27,11 @@
                         .dims = "t"},                                                              \
     [EHL_IN_LOAD] = {.name = "contact.load_per_width",                                             \
                      .unit = "N/m",                                                                \
-                     .doc = "normal load; 0: contact lost",                                        \
+                     .doc = "normal load per width; 0: contact lost",                              \
                      .dims = "t"},                                                                 \
     [EHL_IN_MODULUS] = {.name = "contact.reduced_modulus",                                         \
                         .unit = "Pa",                                                              \
-                        .doc = "E': 2/E' = sum (1 - nu^2)/E",                                      \
+                        .doc = "reduced modulus E': 2/E' = sum (1 - nu^2)/E",                      \
                         .dims = ""},                                                               \
     [EHL_IN_ROLL] = {.name = "contact.roll_angle",                                                 \
                      .unit = "rad",                                                                \
@@ -39,13 +40,13 @@
                      .flags = FF_OPTIONAL},                                                        \
     [EHL_IN_GAP] = {.name = "contact.gap",                                                         \
                     .unit = "m",                                                                   \
-                    .doc = "separation of the flanks where the contact is lost",                   \
+                    .doc = "separation of the flanks while contact is lost",                       \
                     .dims = "t",                                                                   \
                     .flags = FF_OPTIONAL},                                                         \
     [EHL_IN_ENGAGEMENT] =                                                                          \
         {.name = "contact.engagement",                                                             \
          .unit = "1",                                                                              \
-         .doc = "engagement that each time belongs to; another one begins " another,               \
+         .doc = "number of the engagement of each time; another engagement begins " another,       \
          .dims = "t",                                                                              \
          .flags = FF_OPTIONAL},                                                                    \
     [EHL_IN_VISCOSITY] = {.name = "viscosity",                                                     \
@@ -60,50 +61,50 @@
                         .service = FF_DENSITY_ID},                                                 \
     [EHL_IN_RHEOLOGY] = {.name = "rheology",                                                       \
                          .unit = "",                                                               \
-                         .doc = "flow under shear; none: Newtonian",                               \
+                         .doc = "shear law of the oil; default: Newtonian",                        \
                          .dims = "",                                                               \
                          .service = FF_RHEOLOGY_ID,                                                \
                          .flags = FF_OPTIONAL},                                                    \
     [EHL_IN_RHEOLOGY_AT_PRESSURE] = {.name = "rheology.at_pressure",                               \
                                      .unit = "",                                                   \
-                                     .doc = "the same where pressure and temperature change its "  \
-                                            "stresses",                                            \
+                                     .doc = "shear law of the oil with stresses that depend on "   \
+                                            "pressure and temperature",                            \
                                      .dims = "",                                                   \
                                      .service = FF_RHEOLOGY_3_ID,                                  \
                                      .flags = FF_OPTIONAL},                                        \
     [EHL_IN_OIL] = NUMERICS_OIL_ROWS, NUMERICS_OIL_DENSITY_ROW,                                    \
     [EHL_IN_LIQUID] = {.name = "oil",                                                              \
                        .unit = "",                                                                 \
-                       .doc = "the oil over temperature; thermal asks for it",                     \
+                       .doc = "properties of the oil over temperature, for thermal",               \
                        .dims = "",                                                                 \
                        .service = FF_LIQUID_ID,                                                    \
                        .flags = FF_OPTIONAL,                                                       \
                        .from = "lubricant"}
 
-/* Rows of the flanks, for films of both sorts: hardness, load of the asperities, and temperature
- * with `thermal`. */
+/* Rows of the flanks that both kinds of film models share: hardness, load on asperities, and
+   temperature with `thermal`. */
 #define HARDNESS_ROW                                                                               \
     {                                                                                              \
         .name = "gear.hardness", .unit = "Pa",                                                     \
-        .doc = "hardness of both flanks, 0: not known; for rough flanks", .dims = "gear",          \
+        .doc = "hardness of both gears, for rough flanks; 0: not known", .dims = "gear",           \
         .flags = FF_OPTIONAL                                                                       \
     }
 #define ASPERITIES_ROW                                                                             \
     {                                                                                              \
         .name = "surface.asperities", .unit = "",                                                  \
-        .doc = "pressure of asperities that are known by their statistics", .dims = "",            \
+        .doc = "pressure of asperities that are given by their statistics", .dims = "",            \
         .service = FF_ASPERITY_ID, .flags = FF_OPTIONAL                                            \
     }
 #define BULK_ROW(thermal)                                                                          \
     {                                                                                              \
         .name = "bulk.bulk_temperature", .unit = "K",                                              \
-        .doc = "temperature of the teeth by the loss that this film has, for thermal: " thermal    \
+        .doc = "temperature of the teeth from the loss of this film, for thermal: " thermal        \
                ", in place of the parameter bulk_temperature",                                     \
         .dims = "", .flags = FF_OPTIONAL | FF_FEEDBACK, .from = "losses"                           \
     }
 
 const ff_port ehl_inputs[EHL_INPUTS] = {
-    CONTACT_AND_OIL("with a steady film of its own"),
+    CONTACT_AND_OIL("with its own steady film"),
     [EHL_IN_POSITION] = {.name = "surface.position",
                          .unit = "m",
                          .doc =
@@ -112,12 +113,12 @@ const ff_port ehl_inputs[EHL_INPUTS] = {
                          .flags = FF_OPTIONAL},
     [EHL_IN_HEIGHT_1] = {.name = "surface.height_1",
                          .unit = "m",
-                         .doc = "flank 1, positive out of the metal",
+                         .doc = "height of flank 1, positive out of the metal",
                          .dims = "arc",
                          .flags = FF_OPTIONAL},
     [EHL_IN_HEIGHT_2] = {.name = "surface.height_2",
                          .unit = "m",
-                         .doc = "flank 2, positive out of the metal",
+                         .doc = "height of flank 2, positive out of the metal",
                          .dims = "arc",
                          .flags = FF_OPTIONAL},
     [EHL_IN_RQ_1] = {.name = "surface.rq_1",
@@ -132,18 +133,19 @@ const ff_port ehl_inputs[EHL_INPUTS] = {
                      .flags = FF_OPTIONAL},
     [EHL_IN_PERIOD] = {.name = "surface.period",
                        .unit = "m",
-                       .doc = "length after which the record repeats; 0: flat outside",
+                       .doc = "length after which the record repeats; 0: flanks are flat outside "
+                              "of it",
                        .dims = "",
                        .flags = FF_OPTIONAL},
     [EHL_IN_ORIGIN] = {.name = "surface.origin",
                        .unit = "m",
-                       .doc = "arc coordinate of both flanks at x = 0 at the first time",
+                       .doc = "arc coordinate of both flanks that is at x = 0 at the first time",
                        .dims = "",
                        .flags = FF_OPTIONAL},
     [EHL_IN_ROUGHNESS] = {.name = "gear.roughness",
                           .unit = "m",
-                          .doc = "root mean square roughness of both flanks, 0: unknown; for the "
-                                 "lambda ratio alone, and only without a surface",
+                          .doc = "root mean square roughness of both gears, 0: not known; used "
+                                 "only for the lambda ratio, and only without a surface",
                           .dims = "gear",
                           .flags = FF_OPTIONAL},
     [EHL_IN_HEAT] = NUMERICS_HEAT_ROWS(NULL),
@@ -157,29 +159,31 @@ const ff_port ehl_inputs[EHL_INPUTS] = {
     [EHL_IN_ASPERITIES] = ASPERITIES_ROW,
     [EHL_IN_CUTOFF] = {.name = "surface.cutoff",
                        .unit = "m",
-                       .doc = "longest waves of that roughness; 0: those of the contact",
+                       .doc = "longest waves in the roughness of the flanks; 0: those of the "
+                              "contact",
                        .dims = "",
                        .flags = FF_OPTIONAL},
     [EHL_IN_BULK] = BULK_ROW("full"),
     [EHL_IN_DISCRETISATION] = {.name = "discretisation",
                                .unit = "",
-                               .doc =
-                                   "solves the film of each instant in place of this model's own "
-                                   "solver; smooth flanks",
+                               .doc = "discretisation of another stage; it computes the film of "
+                                      "each instant in place of this model's own solver; smooth "
+                                      "flanks only",
                                .dims = "",
                                .service = FF_FILM_ID,
                                .flags = FF_OPTIONAL},
 };
 
-/* The outputs that all models give alike; `k` is the prefix of their ranks. */
+/* The outputs that all models share; `k` is the prefix of their indices. */
 #define COMMON_OUTPUTS(k)                                                                          \
     [k##_ROLL_ANGLE] = {.name = "roll_angle",                                                      \
                         .unit = "rad",                                                             \
-                        .doc = "roll angle of gear 1; needs a contact that has one",               \
+                        .doc = "roll angle of gear 1; needs a contact with a roll angle",          \
                         .dims = "t"},                                                              \
     [k##_ENGAGEMENT] = {.name = "engagement",                                                      \
                         .unit = "1",                                                               \
-                        .doc = "mesh cycle of the motion in which the pair begins; 0 without one", \
+                        .doc = "mesh cycle of the motion in which the pair begins; 0 for a "       \
+                               "contact without engagements",                                      \
                         .dims = "t"},                                                              \
     [k##_H_CENTRAL] = {.name = "h_central",                                                        \
                        .label = "central film thickness",                                          \
@@ -189,7 +193,7 @@ const ff_port ehl_inputs[EHL_INPUTS] = {
                        .max = INFINITY},                                                           \
     [k##_LOAD_PER_WIDTH] = {.name = "load_per_width",                                              \
                             .unit = "N/m",                                                         \
-                            .doc = "load that the film and its asperities carry",                  \
+                            .doc = "load per width that the film and its asperities carry",        \
                             .dims = "t"},                                                          \
     [k##_BULK_TEMPERATURE] = {.name = "bulk_temperature",                                          \
                               .unit = "K",                                                         \
@@ -204,7 +208,8 @@ const ff_port ehl_inputs[EHL_INPUTS] = {
                           .max = INFINITY},                                                        \
     [k##_H_MIN_LOWEST_AT] = {.name = "h_min_lowest_at",                                            \
                              .unit = "rad",                                                        \
-                             .doc = "roll angle of it; needs a contact that has one",              \
+                             .doc = "roll angle at which h_min is lowest; needs a contact with a " \
+                                    "roll angle",                                                  \
                              .dims = ""},                                                          \
     [k##_P_MAX_HIGHEST] = {.name = "p_max_highest",                                                \
                            .unit = "Pa",                                                           \
@@ -218,35 +223,37 @@ const ff_port ehl_inputs[EHL_INPUTS] = {
                                  .max = INFINITY},                                                 \
     [k##_H_MIN_LOWEST_MEAN] = {.name = "h_min_lowest_mean",                                        \
                                .unit = "m",                                                        \
-                               .doc = "mean over the engagements of the lowest h_min of each",     \
+                               .doc = "mean over the engagements of the lowest h_min of each "     \
+                                      "engagement",                                                \
                                .dims = "",                                                         \
                                .max = INFINITY},                                                   \
     [k##_H_MIN_LOWEST_SPREAD] = {.name = "h_min_lowest_spread",                                    \
                                  .unit = "m",                                                      \
-                                 .doc = "highest less lowest of them; 0 with one engagement",      \
+                                 .doc = "largest minus smallest of the lowest h_min of the "       \
+                                        "engagements; 0 with one engagement",                      \
                                  .dims = "",                                                       \
                                  .max = INFINITY},                                                 \
     [k##_ENGAGEMENTS_JUDGED] = {.name = "engagements_judged",                                      \
                                 .unit = "1",                                                       \
-                                .doc = "engagements that the results are of",                      \
+                                .doc = "number of engagements in the results",                     \
                                 .dims = "",                                                        \
                                 .max = INFINITY},                                                  \
     [k##_ALPHA_STAR] = {                                                                           \
         .name = "alpha_star",                                                                      \
         .unit = "1/Pa",                                                                            \
-        .doc = "film-forming pressure coefficient of the law with its oil, 1/int eta0/eta "        \
-               "dp; 0: the viscosity does not rise",                                               \
+        .doc = "film-forming pressure coefficient of the law with its oil, 1/int eta0/eta dp; 0: " \
+               "the viscosity does not increase with pressure",                                    \
         .dims = ""}
 
 const ff_port ehl_outputs[EHL_OUTPUTS] = {
     COMMON_OUTPUTS(EHL),
     [EHL_TIME] = {.name = "time",
                   .unit = "s",
-                  .doc = "times of the results: those of the steps",
+                  .doc = "times of the results, one per step",
                   .dims = "t"},
     [EHL_H_MIN] = {.name = "h_min",
                    .unit = "m",
-                   .doc = "least film thickness (parabola through the lowest nodes)",
+                   .doc = "smallest film thickness (parabola through the lowest nodes)",
                    .dims = "t",
                    .max = INFINITY},
     [EHL_P_MAX] =
@@ -255,38 +262,37 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
         {.name = "friction_coefficient",
          .label = "friction coefficient",
          .unit = "1",
-         .doc = "traction over load, sign of u1 - u2; 0 without load; rolling "
-                "is not in it",
+         .doc = "friction coefficient: traction over load, sign of u1 - u2; 0 without load; "
+                "rolling resistance is not included",
          .dims = "t",
          .origin = "contact.load_per_width"},
     [EHL_TRACTION] = {.name = "traction",
                       .unit = "N/m",
-                      .doc = "shear stress at mid-film over the pressurised film, and boundary "
-                             "friction; sign of u1 - u2",
+                      .doc = "friction force per width: shear stress at mid-film over the "
+                             "pressurised film, plus boundary friction; sign of u1 - u2",
                       .dims = "t"},
     [EHL_POWER_LOSS] =
         {.name = "power_loss",
          .label = "power loss per width",
          .unit = "W/m",
-         .doc = "all that the film dissipates, per width: sliding, rolling, squeeze and "
+         .doc = "total power dissipated by the film, per width: sliding, rolling, squeeze and "
                 "asperities",
          .dims = "t"},
     [EHL_SLIDING_LOSS] = {.name = "sliding_loss",
                           .unit = "W/m",
-                          .doc =
-                              "shear stress at mid-film times sliding speed over the pressurised "
-                              "film",
+                          .doc = "sliding loss: shear stress at mid-film times sliding speed over "
+                                 "the pressurised film",
                           .dims = "t"},
     [EHL_ROLLING_LOSS] = {.name = "rolling_loss",
                           .unit = "W/m",
-                          .doc = "entrainment speed times the integral of h dp/dx, to the end of a "
-                                 "flooded inlet",
+                          .doc = "rolling loss: entrainment speed times the integral of h dp/dx, "
+                                 "up to the end of a flooded inlet",
                           .dims = "t"},
     [EHL_SQUEEZE_LOSS] = {.name = "squeeze_loss",
                           .unit = "W/m",
-                          .doc =
-                              "what the pressure flow dissipates beyond rolling_loss, as the film "
-                              "changes with time; negative where it gives back",
+                          .doc = "squeeze loss: dissipation of the pressure flow beyond "
+                                 "rolling_loss, since the film changes with time; negative while "
+                                 "stored energy is released",
                           .dims = "t"},
     [EHL_ASPERITY_LOSS] = {.name = "asperity_loss",
                            .unit = "W/m",
@@ -295,20 +301,19 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
     [EHL_LOAD_ERROR] =
         {.name = "load_error",
          .unit = "1",
-         .doc = "|integral of p - load| over the largest load; without load this is the "
-                "force of the film, up to 1 % while it lands",
+         .doc = "|integral of p - load| over the largest load; without load the force of the "
+                "film, up to 1 % while it lands",
          .dims = "t"},
     [EHL_LOAD_AHEAD] =
         {.name = "load_ahead",
          .unit = "N/m",
-         .doc = "what the oil in front of the domain carries of the load, where a short inlet "
+         .doc = "share of the load carried by the oil in front of the domain, if a short inlet "
                 "begins with the pressure of a longer one",
          .dims = "t"},
     [EHL_MASS_ERROR] = {.name = "mass_error",
                         .unit = "1",
-                        .doc =
-                            "inflow - outflow - storage between the highest pressure and any other "
-                            "place, over the flow there",
+                        .doc = "mass balance: inflow - outflow - storage between the place of the "
+                               "highest pressure and any other place, over the flow there",
                         .dims = "t"},
     [EHL_H_MIN_ERROR] =
         {.name = "h_min_error",
@@ -326,27 +331,26 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
     [EHL_H_CENTRAL_ERROR] =
         {.name = "h_central_error",
          .unit = "m",
-         .doc =
-             "estimate of the error of h_central: by the transport of errors as h_min_error; else "
-             "(0.2 + 0.05 L)/n^2 of it (first-order wedge: (0.4 + 0.02 L)/n), n and L as for "
-             "h_min_error, plus the truncation that the film at x = 0 has gathered; above 2 % by "
-             "the cells as h_min_error",
+         .doc = "estimated error of h_central. Transported as for h_min_error, or otherwise the "
+                "relative error (0.2 + 0.05 L)/n^2 (first-order wedge: (0.4 + 0.02 L)/n), with n "
+                "and L as for h_min_error, plus the truncation errors that the film at x = 0 has "
+                "accumulated; above 2 % from more cells as for h_min_error",
          .dims = "t",
          .max = INFINITY},
     [EHL_P_MAX_ERROR] =
         {.name = "p_max_error",
          .unit = "Pa",
-         .doc = "estimate of the error of p_max, of smooth flanks: what the cells may cut off the "
-                "spike, "
-                "from 100 instants on by its film on more cells where that is above 5 %, plus the "
-                "pressure of what the time steps leave out of the film",
+         .doc = "estimated error of p_max between smooth flanks: the part of the pressure spike "
+                "that the cells may cut off (with 100 instants or more, and if it is above 5 %, "
+                "from the film on more cells), plus the pressure that corresponds to the film's "
+                "error due to the time steps",
          .dims = "t",
          .max = INFINITY},
     [EHL_ONE_WAY_GAP_ERROR] = {.name = "one_way_gap_error",
                                .unit = "m",
                                .doc = "without load: how much further than contact.gap the force "
-                                      "of the film keeps the flanks "
-                                      "apart, which the dynamics does not know",
+                                      "of the film keeps the flanks apart; the dynamics does not "
+                                      "include this",
                                .dims = "t"},
     [EHL_ASPERITY_LOAD_SHARE] = {.name = "asperity_load_share",
                                  .unit = "1",
@@ -355,20 +359,20 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
                                  .max = 1},
     [EHL_CONTACT_RATIO] = {.name = "contact_ratio",
                            .unit = "1",
-                           .doc = "length in contact over the Hertz width 2 a of the load",
+                           .doc = "length of asperity contact over the Hertz width 2 a of the "
+                                  "load",
                            .dims = "t",
                            .max = INFINITY},
     [EHL_TRAPPED_SHARE] = {.name = "trapped_share",
                            .unit = "1",
-                           .doc =
-                               "share of the load that oil between two contacts carries, which has "
-                               "no way out of a line contact",
+                           .doc = "share of the load carried by oil between two asperity contacts, "
+                                  "from which it cannot leave in a line contact",
                            .dims = "t",
                            .max = 1},
     [EHL_YIELD_SHARE] = {.name = "yield_share",
                          .unit = "1",
-                         .doc =
-                             "share of the load where p is asperity_hardness and the metal yields",
+                         .doc = "share of the load where p equals asperity_hardness and the metal "
+                                "yields",
                          .dims = "t",
                          .max = 1},
     [EHL_PLASTIC_DEPTH_MAX] = {.name = "plastic_depth_max",
@@ -379,9 +383,9 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
         {.name = "lambda_ratio",
          .label = "film over roughness",
          .unit = "1",
-         .doc = "film over the roughness sqrt(Rq1^2 + Rq2^2) of both flanks: h_central, with "
-                "rough flanks the mean over the middle half of the Hertz width; needs a "
-                "surface, or a gear with its roughness",
+         .doc = "film over the combined roughness sqrt(Rq1^2 + Rq2^2) of both flanks. The film "
+                "is h_central, or with rough flanks the mean over the middle half of the Hertz "
+                "width; needs a surface, or a gear with its roughness",
          .dims = "t",
          .max = INFINITY},
     [EHL_TEMPERATURE_MAX] = {.name = "temperature_max",
@@ -391,32 +395,32 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
     [EHL_FLASH_TEMPERATURE] =
         {.name = "flash_temperature",
          .unit = "K",
-         .doc = "highest rise of a flank over its bulk temperature, under the film; "
-                "needs thermal: full",
+         .doc = "highest rise of a flank's temperature over its bulk temperature, under the "
+                "film; needs thermal: full",
          .dims = "t",
          .flags = FF_DIFFERENCE,
          .max = INFINITY},
     [EHL_SEPARATION] =
         {.name = "separation",
          .unit = "m",
-         .doc = "how much further apart the film keeps the bodies than their gap and a "
-                "dry contact under the force of the film would: its thickness as a spring "
-                "in series sees it, near h_central under load, 0 without pressure",
+         .doc = "thickness of the film as a spring in series with the teeth: how much further "
+                "apart it keeps the bodies than their gap and a dry contact under the same "
+                "force; near h_central under load, 0 without pressure",
          .dims = "t"},
     [EHL_X] =
         {.name = "x",
          .unit = "m",
          .doc =
              "position along the surface, 0 at the line of contact; with rough flanks the fields "
-             "are those of the nodes nearest to it, half a cell away at most",
+             "are those of the nearest nodes, at most half a cell away",
          .dims = "x"},
     [EHL_FILM] =
         {.name = "film", .unit = "m", .doc = "film thickness h", .dims = "t x", .max = INFINITY},
     [EHL_PRESSURE] = {.name = "pressure", .unit = "Pa", .doc = "film pressure p", .dims = "t x"},
     [EHL_FILM_FRACTION] = {.name = "film_fraction",
                            .unit = "1",
-                           .doc = "share of the gap that is filled; below 1 only with "
-                                  "cavitation: mass-conserving",
+                           .doc = "fraction of the gap that is filled with oil; below 1 only "
+                                  "with cavitation: mass-conserving",
                            .dims = "t x",
                            .max = 1},
     [EHL_ASPERITY_PRESSURE] = {.name = "asperity_pressure",
@@ -425,40 +429,39 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
                                .dims = "t x"},
     [EHL_PLASTIC_DEPTH] = {.name = "plastic_depth",
                            .unit = "m",
-                           .doc = "plastic part of the gap of rough flanks where p is "
-                                  "asperity_hardness; of the instant: no dent stays on a flank",
+                           .doc = "plastic part of the gap of rough flanks where p equals "
+                                  "asperity_hardness, at that instant: no dent remains on a flank",
                            .dims = "t x"},
     [EHL_ROUGHNESS] = {.name = "roughness",
                        .unit = "m",
-                       .doc = "heights of both flanks together, on their way through the contact",
+                       .doc = "sum of the heights of both flanks as they pass through the contact",
                        .dims = "t x"},
     [EHL_TEMPERATURE] = {.name = "temperature",
                          .unit = "K",
-                         .doc = "temperature, mean across the film; needs thermal: full",
+                         .doc = "film temperature, averaged across the film; needs thermal: full",
                          .dims = "t x"},
     [EHL_RQ_LEFT_OUT] = {.name = "rq_left_out",
                          .unit = "m",
                          .doc = "root mean square height, of both flanks together, of the waves "
-                                "that roughness_cutoff takes off",
+                                "that roughness_cutoff removes",
                          .dims = "",
                          .max = INFINITY},
     [EHL_NEWTON_STEPS] = {.name = "newton_steps",
                           .unit = "1",
-                          .doc = "Newton steps in all",
+                          .doc = "total number of Newton steps",
                           .dims = ""},
     [EHL_CONVOLUTIONS] = {.name = "convolutions",
                           .unit = "1",
-                          .doc = "deflections of a pressure in all",
+                          .doc = "total number of deflections computed from a pressure",
                           .dims = ""},
     [EHL_STEPS_CUT] = {.name = "steps_cut",
                        .unit = "1",
-                       .doc = "time steps that had to be cut",
+                       .doc = "number of time steps that had to be cut",
                        .dims = ""},
     [EHL_FILM_AT_LANDING] =
         {.name = "film_at_landing",
          .unit = "m",
-         .doc =
-             "h_min where flanks meet that have been apart, for each such landing of the contact",
+         .doc = "h_min where flanks meet after they were separated, one value per landing",
          .dims = "landing",
          .max = INFINITY},
     [EHL_FILM_AT_LANDING_ERROR] = {.name = "film_at_landing_error",
@@ -468,7 +471,8 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
                                    .max = INFINITY},
     [EHL_P_MAX_AT_LANDING] = {.name = "p_max_at_landing",
                               .unit = "Pa",
-                              .doc = "largest p_max from there to the first maximum of the load",
+                              .doc = "largest p_max from the landing to the first maximum of the "
+                                     "load",
                               .dims = "landing",
                               .max = INFINITY},
     [EHL_P_MAX_AT_LANDING_ERROR] = {.name = "p_max_at_landing_error",
@@ -483,20 +487,19 @@ const ff_port ehl_estimate_inputs[EHL_ESTIMATE_INPUTS] = {
     [EHL_ESTIMATE_IN_RQ_1] =
         {.name = "surface.rq_1",
          .unit = "m",
-         .doc = "roughness of flank 1; the film stays smooth, but where the program "
-                "chooses the model it knows of it",
+         .doc = "roughness of flank 1; the film stays smooth, but the choice of the model uses it",
          .dims = "",
          .flags = FF_OPTIONAL},
     [EHL_ESTIMATE_IN_RQ_2] = {.name = "surface.rq_2",
                               .unit = "m",
-                              .doc = "the same of flank 2",
+                              .doc = "roughness of flank 2; used like heights_1",
                               .dims = "",
                               .flags = FF_OPTIONAL},
     [EHL_ESTIMATE_IN_ROUGHNESS] =
         {.name = "gear.roughness",
          .unit = "m",
-         .doc = "root mean square roughness of both flanks, 0: unknown; for the "
-                "lambda ratio alone, and only without a surface",
+         .doc = "root mean square roughness of both gears, 0: not known; used only for the "
+                "lambda ratio, and only without a surface",
          .dims = "gear",
          .flags = FF_OPTIONAL},
     [EHL_ESTIMATE_IN_HEAT] = NUMERICS_HEAT_ROWS(NULL),
@@ -508,8 +511,11 @@ const ff_port ehl_estimate_inputs[EHL_ESTIMATE_INPUTS] = {
 const ff_port ehl_estimate_outputs[EHL_ESTIMATE_OUTPUTS] = {
     COMMON_OUTPUTS(EHL_ESTIMATE),
     [EHL_ESTIMATE_TIME] = {.name = "time", .unit = "s", .doc = "times of the results", .dims = "t"},
-    [EHL_ESTIMATE_H_MIN] =
-        {.name = "h_min", .unit = "m", .doc = "least film thickness", .dims = "t", .max = INFINITY},
+    [EHL_ESTIMATE_H_MIN] = {.name = "h_min",
+                            .unit = "m",
+                            .doc = "smallest film thickness",
+                            .dims = "t",
+                            .max = INFINITY},
     [EHL_ESTIMATE_P_MAX] = {.name = "p_max",
                             .unit = "Pa",
                             .doc = "Hertz pressure of the load",
@@ -519,18 +525,20 @@ const ff_port ehl_estimate_outputs[EHL_ESTIMATE_OUTPUTS] = {
         {.name = "friction_coefficient",
          .label = "friction coefficient",
          .unit = "1",
-         .doc = "traction over load, sign of u1 - u2; 0 without load",
+         .doc = "friction coefficient: traction over load, sign of u1 - u2; 0 without load",
          .dims = "t",
          .origin = "contact.load_per_width"},
     [EHL_ESTIMATE_TRACTION] =
         {.name = "traction",
          .unit = "N/m",
-         .doc = "viscous shear stress over the Hertzian contact, sign of u1 - u2",
+         .doc = "friction force per width: viscous shear stress over the Hertzian contact, sign "
+                "of u1 - u2",
          .dims = "t"},
     [EHL_ESTIMATE_POWER_LOSS] = {.name = "power_loss",
                                  .label = "power loss per width",
                                  .unit = "W/m",
-                                 .doc = "sliding and rolling loss, per width",
+                                 .doc = "power dissipated by the film, per width: sliding and "
+                                        "rolling",
                                  .dims = "t"},
     [EHL_ESTIMATE_SLIDING_LOSS] = {.name = "sliding_loss",
                                    .unit = "W/m",
@@ -539,11 +547,11 @@ const ff_port ehl_estimate_outputs[EHL_ESTIMATE_OUTPUTS] = {
     [EHL_ESTIMATE_ROLLING_LOSS] =
         {.name = "rolling_loss",
          .unit = "W/m",
-         .doc = "of a flooded inlet, by the formula of Biboulet & Houpert 2010",
+         .doc = "rolling loss of a flooded inlet, by the formula of Biboulet & Houpert 2010",
          .dims = "t"},
     [EHL_ESTIMATE_SQUEEZE_LOSS] = {.name = "squeeze_loss",
                                    .unit = "W/m",
-                                   .doc = "0: each film is steady",
+                                   .doc = "squeeze loss; always 0, since each film is steady",
                                    .dims = "t"},
     [EHL_ESTIMATE_ASPERITY_LOSS] = {.name = "asperity_loss",
                                     .unit = "W/m",
@@ -553,16 +561,16 @@ const ff_port ehl_estimate_outputs[EHL_ESTIMATE_OUTPUTS] = {
     [EHL_ESTIMATE_H_MIN_ERROR] =
         {.name = "h_min_error",
          .unit = "m",
-         .doc = "scatter of h_min against full steady solutions; the whole of it "
-                "outside the range of the model",
+         .doc = "scatter of h_min compared with full steady solutions; as large as h_min outside "
+                "the range of the model",
          .dims = "t",
          .max = INFINITY},
     [EHL_ESTIMATE_LAMBDA_RATIO] =
         {.name = "lambda_ratio",
          .label = "film over roughness",
          .unit = "1",
-         .doc = "film over the roughness sqrt(Rq1^2 + Rq2^2) of both flanks: "
-                "h_central; needs a surface, or a gear with its roughness",
+         .doc = "film h_central over the combined roughness sqrt(Rq1^2 + Rq2^2) of both flanks; "
+                "needs a surface, or a gear with its roughness",
          .dims = "t",
          .max = INFINITY},
     [EHL_ESTIMATE_ASPERITY_LOAD_SHARE] = {.name = "asperity_load_share",
@@ -578,8 +586,8 @@ const ff_port ehl_estimate_outputs[EHL_ESTIMATE_OUTPUTS] = {
     [EHL_ESTIMATE_FILM] =
         {.name = "film",
          .unit = "m",
-         .doc = "film thickness: in the contact as estimated, outside it with the gap of "
-                "the dry contact added; without the constriction of the exit",
+         .doc = "film thickness: as estimated in the contact, and outside it with the gap of the "
+                "dry contact added; without the constriction at the exit",
          .dims = "t x",
          .max = INFINITY},
     [EHL_ESTIMATE_PRESSURE] = {.name = "pressure",

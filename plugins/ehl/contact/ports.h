@@ -9,8 +9,8 @@
 
 #include <flankfilm/plugin.h>
 
-/* Inputs of every model up to the rows of the oil, then those of the models that solve for the
- * pressure. */
+/* Inputs: first those of every model, up to the rows of the oil, then those of the models that
+   solve for the pressure. */
 enum {
     EHL_IN_TIME,
     EHL_IN_RADIUS,
@@ -35,29 +35,29 @@ enum {
     EHL_IN_PERIOD,
     EHL_IN_ORIGIN,
     EHL_IN_ROUGHNESS,
-    EHL_IN_HEAT, /* three rows: thermal data of the gears */
+    EHL_IN_HEAT, /* first of three rows: thermal data of the gears */
     EHL_IN_HARDNESS = EHL_IN_HEAT + NUMERICS_HEAT_INPUTS,
     EHL_IN_SHEAR_RATE,
-    EHL_IN_ASPERITIES, /* if the flanks have a statistical roughness */
+    EHL_IN_ASPERITIES, /* for flanks with a statistical roughness */
     EHL_IN_CUTOFF,
     EHL_IN_BULK,
-    EHL_IN_DISCRETISATION, /* ehl/finite-volume only */
+    EHL_IN_DISCRETISATION, /* for ehl/finite-volume only */
     EHL_INPUTS
 };
 
-/* Inputs of the estimates after the oil. */
+/* Inputs of the estimates, after those of the oil. */
 enum {
     EHL_ESTIMATE_IN_RQ_1 = EHL_IN_LIQUID + 1,
     EHL_ESTIMATE_IN_RQ_2,
     EHL_ESTIMATE_IN_ROUGHNESS,
-    EHL_ESTIMATE_IN_HEAT, /* three rows: thermal data of the gears */
+    EHL_ESTIMATE_IN_HEAT, /* first of three rows: thermal data of the gears */
     EHL_ESTIMATE_IN_HARDNESS = EHL_ESTIMATE_IN_HEAT + NUMERICS_HEAT_INPUTS,
     EHL_ESTIMATE_IN_ASPERITIES,
     EHL_ESTIMATE_IN_BULK,
     EHL_ESTIMATE_INPUTS
 };
 
-/* Outputs of the models that solve for the pressure; the series over time come first. */
+/* Outputs of the models that solve for the pressure. The time series come first. */
 enum {
     EHL_TIME,
     EHL_ROLL_ANGLE,
@@ -121,7 +121,7 @@ enum {
     EHL_OUTPUTS
 };
 
-/* Outputs of the estimates; the series over time come first. */
+/* Outputs of the estimates. The time series come first. */
 enum {
     EHL_ESTIMATE_TIME,
     EHL_ESTIMATE_ROLL_ANGLE,
@@ -162,11 +162,11 @@ extern const ff_port ehl_outputs[EHL_OUTPUTS];
 extern const ff_port ehl_estimate_inputs[EHL_ESTIMATE_INPUTS];
 extern const ff_port ehl_estimate_outputs[EHL_ESTIMATE_OUTPUTS];
 
-/* Reads and checks the contact. Loads below `light_load` count as that load; NaN: no such bound. */
+/* Reads and checks the contact. Loads below `light_load` are replaced by it; NaN: no such bound. */
 ff_status ehl_read_history(const ff_host *host, const ff_array *in, double light_load,
                            ehl_history *h);
 
-/* Sets the law that an input serves; inputs that serve no law are ignored. */
+/* Sets the law that belongs to an input. Inputs that are no law are ignored. */
 void ehl_wire_law(ehl_laws *laws, uint32_t input, const void *service);
 
 #endif

@@ -25,7 +25,7 @@ static ff_status check(const ehl_roughness *r, const double *position, const ff_
         for (size_t i = 0; i < r->count; i++)
             if (!(fabs(r->height[g][i]) < 1e-2))
                 return ff_failf(host, FF_INVALID, g ? "surface.height_2" : "surface.height_1",
-                                "height %zu is %g m, not below 1 cm", i, r->height[g][i]);
+                                "height %zu is %g m, but must be below 1 cm", i, r->height[g][i]);
     double whole = (double)r->count * spacing;
     if (!(fabs(r->period) <= 0) && !(fabs(r->period - whole) <= 1e-3 * spacing))
         return ff_failf(host, FF_INVALID, "surface.period",
@@ -42,7 +42,8 @@ static void integrate(ehl_roughness *r)
     const ehl_history *h = r->history;
     for (int g = 0; g < 2; g++) {
         const double *z = r->height[g], *u = g ? h->speed_2 : h->speed_1;
-        for (size_t i = 0; i < r->count; i++) /* the point after the last is the first again */
+        for (size_t i = 0; i < r->count; i++) /* the record repeats: its first point follows the
+                                                 last one */
             r->sum[g][i + 1] =
                 r->sum[g][i] + r->spacing * (z[i] + z[i + 1 < r->count ? i + 1 : 0]) / 2;
         for (size_t i = 1; i < h->count; i++)
@@ -91,7 +92,7 @@ void ehl_roughness_destroy(ehl_roughness *r)
     r->memory = r->smooth = NULL;
 }
 
-/* Returns the root mean square about the mean. */
+/* Returns the root mean square deviation from the mean. */
 static double rms(size_t n, const double *z)
 {
     double mean = 0, square = 0;
@@ -102,8 +103,8 @@ static double rms(size_t n, const double *z)
     return sqrt(square);
 }
 
-/* Copies both flanks, with `beyond` points of height 0 on either side of a record with flat ends.
- * The filter spreads heights near the ends into these points. */
+/* Copies both flanks. A record with flat ends gets `beyond` points of height 0 on either side, into
+   which the filter spreads heights near the ends. */
 static ff_status make_smooth(ehl_roughness *r, size_t beyond)
 {
     size_t n = r->count + 2 * beyond, each = n + 1;
@@ -128,9 +129,9 @@ ff_status ehl_roughness_cut(ehl_roughness *r, double cutoff, const ff_host *host
     double square = 0, whole = 0;
     if (beyond > most)
         return ff_failf(host, FF_INVALID, "surface.position",
-                        "the points of the surface are %.3g um apart, too close for waves of %.3g "
-                        "um to be taken off: roughness_cutoff must be at most %.3g um, or the "
-                        "spacing of the surface larger",
+                        "the points of the surface are %.3g um apart, too close to remove waves "
+                        "of %.3g um: roughness_cutoff must be at most %.3g um, or the spacing of "
+                        "the surface larger",
                         1e6 * r->spacing, 1e6 * cutoff, 1e6 * most * r->spacing);
     for (size_t g = 0; g < 2; g++)
         whole += pow(rms(r->count, r->height[g]), 2);
@@ -221,7 +222,7 @@ double ehl_roughness_rq(const ehl_roughness *r)
     return hypot(r->rq[0], r->rq[1]);
 }
 
-/* Integrates u_i from the first time; exact for speeds that are linear between rows. */
+/* Integrates u_i from the first time. Exact for speeds that are linear between rows. */
 static double travelled(const ehl_roughness *r, int g, double time)
 {
     const ehl_history *h = r->history;
@@ -239,8 +240,8 @@ double ehl_roughness_travel(const ehl_roughness *r, double time)
            (time < r->history->time[0] ? -1 : 1);
 }
 
-/* Integrates the height of the record alone from 0 to `place` (in spacings); the height is linear
- * between samples. */
+/* Integrates the height of the record itself from 0 to `place` (in spacings). The height is linear
+   between samples. */
 static inline double integral(const ehl_roughness *r, int g, double place)
 {
     const double *z = r->height[g], *sum = r->sum[g];
@@ -254,8 +255,8 @@ static inline double integral(const ehl_roughness *r, int g, double place)
     return sum[i] + r->spacing * part * (z[i] + part * (next - z[i]) / 2);
 }
 
-/* Adds the mean heights of a flank over consecutive cells from the arc coordinate s on. A negative
- * width runs towards smaller coordinates. */
+/* Adds the mean heights of a flank over consecutive cells, starting at the arc coordinate s. With a
+   negative width the coordinate decreases. */
 static void add_flank(const ehl_roughness *r, int g, double s, double width, size_t nodes,
                       double *sum)
 {
@@ -276,7 +277,8 @@ static void add_flank(const ehl_roughness *r, int g, double s, double width, siz
     }
 }
 
-/* Returns the share of the height that has run in at `beyond` the front: 1 to 0 for level ends. */
+/* Returns the fraction of the height, 1 to 0, that is applied at the distance `beyond` from the
+   start of the transition, which is level at both ends. */
 static double run_in(const ehl_roughness *r, double beyond)
 {
     double share = fmin(fmax(1 - beyond / r->ramp, 0), 1);
@@ -337,8 +339,8 @@ ff_status ehl_read_hardness(const ff_host *host, const ff_array *gears, double o
     for (size_t i = 0; gears->data && i < gears->shape[0]; i++) {
         if (!(gears->data[i] > 0))
             return ff_failf(host, FF_INVALID, "gear.hardness",
-                            "the hardness of gear %zu is not known, and rough flanks need it; give "
-                            "the gear its hardness, or the name of its material",
+                            "the hardness of gear %zu is not known, but rough flanks need it; "
+                            "give the gear its hardness, or the name of its material",
                             i + 1);
         *hardness = fmin(*hardness, gears->data[i]);
     }
@@ -348,15 +350,15 @@ ff_status ehl_read_hardness(const ff_host *host, const ff_array *gears, double o
 void ehl_lambda_carried(const ff_host *host, double lowest)
 {
     host->quality(host->ctx, "lambda", lowest, 0, FF_GOOD,
-                  "lowest film over the roughness of the flanks, whose asperities carry their "
-                  "share of the load");
+                  "lowest film over the roughness of the flanks; their asperities carry a share "
+                  "of the load");
 }
 
 void ehl_lambda_report(const ff_host *host, double lowest)
 {
     host->quality(host->ctx, "lambda", lowest, EHL_MIXED_BELOW,
                   lowest < EHL_MIXED_BELOW ? FF_RANGE : FF_GOOD,
-                  "lowest film over the roughness of the flanks, which this smooth film does not "
-                  "feel; below 3 asperities touch, and the friction of what they carry is missing: "
-                  "add surface/statistical, or another stage of the kind surface");
+                  "lowest film over the roughness of the flanks, which this smooth film "
+                  "neglects; below 3 asperities touch, and their share of the friction is "
+                  "missing: add surface/statistical, or another stage of the kind surface");
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The heights of both flanks as they pass through the contact. At time t the point s of flank i is
- * at x = s - origin + integral of u_i dt. A cell takes the mean height over its width, as a
- * difference of integrals of the height, so that no metal is lost while a flank moves by parts of a
- * cell. */
+   at x = s - origin + integral of u_i dt. The height of a cell is the mean over its width, computed
+   as a difference of integrals. The volume of metal is therefore conserved while a flank moves by
+   fractions of a cell. */
 #ifndef EHL_SURFACE_H
 #define EHL_SURFACE_H
 
@@ -10,81 +10,83 @@
 
 #include <flankfilm/plugin.h>
 
-/* Cells per shortest wave of the flanks, which keeps half of its amplitude. */
+/* Number of cells per shortest wave of the flanks; that wave keeps half of its amplitude. */
 #define EHL_CELLS_PER_WAVE 16.
 
 typedef struct ehl_roughness {
-    size_t count; /* of samples; 0: smooth */
+    size_t count; /* number of samples; 0: smooth */
     double spacing, period, origin, rq[2];
     const double *height[2];
-    double cutoff; /* m, shorter waves are removed; 0: none */
-    double given,
-        left_out;   /* m, root mean square heights of both flanks: as given, and the removed part */
-    double *sum[2]; /* integral of the height up to each sample */
+    double cutoff;           /* m, shorter waves are removed; 0: none */
+    double given, left_out;  /* m, root mean square height of both flanks: as given, and of the
+                                removed  part */
+    double *sum[2];          /* integral of the height up to each sample */
     double *travel[2];       /* integral of u_i up to each row of the history */
-    double curvature;        /* root mean square of the gap between the flanks, 1/m */
+    double curvature;        /* root mean square curvature of the gap between the flanks, 1/m */
     double *memory, *smooth; /* `smooth`: heights without the removed waves */
     const ehl_history *history;
     /* m. In the first row of the history the flanks are rough up to x = `front` and smooth from
-     * `front` + `ramp` on, and this transition moves with the oil. With ramp 0 they are rough
-     * everywhere. */
+       `front` + `ramp` on. This transition moves with the oil. With ramp 0 they are rough
+       everywhere. */
     double ramp, front;
 } ehl_roughness;
 
-/* Checks position[0 .. count-1], heights, rq, period and origin, which are set. Returns FF_NOMEM if
- * memory runs out. */
+/* Checks position[0 .. count-1], heights, rq, period and origin, which are already set. Returns
+   FF_NOMEM if out of memory. */
 ff_status ehl_roughness_create(ehl_roughness *r, const double *position, const ehl_history *h,
                                const ff_host *host);
 void ehl_roughness_destroy(ehl_roughness *r);
 
 /* Removes waves shorter than `cutoff` (m, above 0) from both flanks by the Gaussian filter of ISO
- * 16610-21. FF_NOMEM; FF_INVALID: flat ends with points too close for it. */
+   16610-21. Returns FF_NOMEM, or FF_INVALID if the points of a record with flat ends are too close
+   for the filter. */
 ff_status ehl_roughness_cut(ehl_roughness *r, double cutoff, const ff_host *host);
 
-/* Gives R1 + R2 at the nodes of the grid. */
+/* Computes R1 + R2 at the nodes of the grid. */
 void ehl_roughness_heights(const ehl_roughness *r, const ehl_grid *g, double time, double *sum);
 
-/* Returns the way of the oil from the first time to `time`, in the direction of the entrainment, m.
- */
+/* Returns the distance that the oil has moved from the first time to `time`, in the direction of
+   the entrainment, m. */
 double ehl_roughness_travel(const ehl_roughness *r, double time);
 
 /* Returns the mean distance of the peaks of the finer flank. */
 double ehl_roughness_wavelength(const ehl_roughness *r);
 
-/* Returns the length over which an asperity draws in oil in a film of that thickness. */
+/* Returns the length over which an asperity draws oil into a film of that thickness. */
 double ehl_roughness_inlet(const ehl_roughness *r, double film);
 
-/* Returns the share of the variance of both flanks in waves longer than that, by the harmonics of
- * the record. */
+/* Returns the share of both flanks' variance in waves longer than `length`, from the harmonics of
+   the record. */
 double ehl_roughness_longer(const ehl_roughness *r, double length);
 
-/* Returns the share of the flanks' way in which the heights at x = 0 lie beyond a record that does
- * not repeat; 0 for flanks without Rq, such as a dent. */
+/* Returns the share of the flanks' travel in which the heights at x = 0 are beyond a record that
+   does not repeat. Returns 0 for flanks without Rq, such as a dent. */
 double ehl_roughness_beyond(const ehl_roughness *r);
 
 /* Returns sqrt(Rq1^2 + Rq2^2). */
 double ehl_roughness_rq(const ehl_roughness *r);
 
 /* Friction coefficient of ground and run-in steel, 0.065 +- 0.015. 0.065 is the largest mean
- * friction of FZG gears at 0.5 m/s (Ziegltrum 2017, quoted by Arana, Larranaga & Ulacia 2019).
- * Rollers and pins have 0.08 to 0.135. */
+   friction of FZG gears at 0.5 m/s (Ziegltrum 2017, quoted by Arana, Larranaga & Ulacia 2019).
+   Measured values of rollers and pins are 0.08 to 0.135. */
 #define EHL_BOUNDARY_FRICTION "0.065"
 
-/* Below this film parameter lambda, film over the combined roughness of both flanks, asperities are
- * in contact (mixed lubrication). */
+/* Film parameter lambda (film over the combined roughness of both flanks) below which asperities
+   are in contact (mixed lubrication). */
 #define EHL_MIXED_BELOW 3.
 
-/* Gives sqrt(Rq1^2 + Rq2^2), m, of the surface if there is one, else of the gears; 0: unknown. The
- * arrays are gear.roughness, surface.rq_1 and surface.rq_2. FF_INVALID. */
+/* Computes sqrt(Rq1^2 + Rq2^2), m, of the surface if there is one, else of the gears; 0: not known.
+   The arrays are gear.roughness, surface.rq_1 and surface.rq_2. Returns FF_INVALID if a value is
+   wrong. */
 ff_status ehl_combined_roughness(const ff_host *host, const ff_array *gear, const ff_array *rq_1,
                                  const ff_array *rq_2, double *rq);
 
-/* Returns FF_UNSUPPORTED if this output is wanted without a roughness. */
+/* Returns FF_UNSUPPORTED if this output is requested without a roughness. */
 ff_status ehl_lambda_check(const ff_host *host, uint64_t wanted, uint32_t output, const char *name,
                            double rq);
 
-/* Gives the hardness of the softer gear, or `otherwise` if no gear is wired. A gear that states
- * none is refused. */
+/* Reads the hardness of the softer gear, or takes `otherwise` if no gear is wired. A gear without
+   hardness is refused. */
 ff_status ehl_read_hardness(const ff_host *host, const ff_array *gears, double otherwise,
                             double *hardness);
 

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The solver takes differences of the integral of the height, and of sums over the rows of the
- * history (surface.c). Here the samples in a cell are added one by one, and the way of a flank is
- * summed from the first row on. */
+/* The solver computes heights as differences of the integral of the height, and the travel of a
+   flank from sums over the rows of the history (surface.c). Here the samples in a cell are added
+   one by one, and the travel is summed from the first row on. */
 #include "traces.h"
 
 #include <math.h>
 
-/* Returns the way of a flank since the first row. Its speed is constant before the first row and
- * after the last. */
+/* Returns the travel of a flank since the first row. Its speed is constant before the first row and
+   after the last. */
 static double way_of(const ehl_history *h, const double *speed, double time)
 {
     size_t last = h->count - 1;
@@ -21,7 +21,7 @@ static double way_of(const ehl_history *h, const double *speed, double time)
     return way;
 }
 
-/* Returns a height of a trace; 0 beyond the ends of a trace that does not repeat. */
+/* Returns a height of a record; 0 beyond the ends of a record that does not repeat. */
 static double sample(const ehl_roughness *r, const double *z, double number)
 {
     double count = (double)r->count;
@@ -46,7 +46,7 @@ double ehl_traces_height(const ehl_roughness *r, double x, double width, double 
 {
     const ehl_history *h = r->history;
     int mirrored =
-        h->speed_1[0] + h->speed_2[0] < 0; /* a rough film never turns or begins at rest */
+        h->speed_1[0] + h->speed_2[0] < 0; /* a rough film never reverses or begins at rest */
     double height = 0, place = mirrored ? -x : x, carried = 0;
     for (int g = 0; g < 2; g++) {
         double way = way_of(h, g ? h->speed_2 : h->speed_1, time), s = r->origin - way + place;

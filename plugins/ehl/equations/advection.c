@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Moves pressure, state and mass of a rough film along with the oil. */
+/* Moves pressure, state and mass of a rough film with the oil. */
 #include "advection.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Shortest way of the oil in a step, in cells. The cells do not resolve what shorter steps would
- * gain. */
+/* Smallest distance that the oil moves in a step, in cells. The cells do not resolve what shorter
+   steps would gain. */
 static const double SHORTEST_ADVECTION = 0.25;
 
-/* Share of the load below which the asperities' part may be known less well than a fixed fraction
- * of itself. */
+/* Share of the load below which the error of the asperities' load is judged relative to this
+   share. */
 static const double LITTLE = 0.01;
 
-/* Returns the node `cells` upstream of node i, where its oil comes from. Oil from outside the
- * domain is that of the first node. */
+/* Returns the node `cells` upstream of node i, from which its oil comes. Oil from outside the
+   domain is that of the first node. */
 static size_t upstream_node(size_t i, size_t cells)
 {
     return i > cells ? i - cells : 0;
@@ -38,9 +38,10 @@ void ehl_advect_values(const ehl_march *m, const ehl_state *s, size_t each, cons
         memcpy(to + i * each, from + upstream_node(i, cells) * each, each * sizeof *to);
 }
 
-/* Moves the masses of the last two films with the oil. The nodes move with the oil and are shifted
- * back by a whole cell whenever they have moved by one. So what is only transported stays unchanged
- * in any number of steps, and the change of mass along the path of the oil replaces the wedge. */
+/* Moves the masses of the last two films with the oil. The nodes move with the oil, and are shifted
+   back by a whole cell whenever they have moved by one. A film that is only transported therefore
+   stays unchanged in any number of steps, and the change of mass along the path of the oil replaces
+   the wedge. */
 void ehl_advect_mass(ehl_march *m, const double **one, const double **two)
 {
     double *moved[2] = {m->change, m->deflection};
@@ -50,9 +51,9 @@ void ehl_advect_mass(ehl_march *m, const double **one, const double **two)
     *two = m->deflection;
 }
 
-/* Sets the trial film from the last one, shifted with the nodes. The roughness carries its pressure
- * along at about the mean speed. Pressure and thickness are extrapolated from the last step. h00
- * keeps the pressure-weighted mean of the extrapolated thickness. */
+/* Sets the trial film from the last one, shifted with the nodes. The pressure of the roughness
+   moves at about the mean speed. Pressure and thickness are extrapolated from the last step. h00 is
+   chosen so that the pressure-weighted mean of the extrapolated thickness is kept. */
 void ehl_advect_film(ehl_march *m, const ehl_instant *at)
 {
     ehl_reynolds *r = m->solver->reynolds;
@@ -101,10 +102,10 @@ static double asperity_share(const ehl_march *m)
     return m->step.load > 0 ? sum * m->solver->grid->dx / m->step.load : 0;
 }
 
-/* Returns the largest way of the oil in a step, in cells. Steps of half the inlet of an asperity
- * lose 1.3 % of the asperities' load, and the loss grows with the square of the way
- * (docs/validation/mixed.md). If asperities carry less than LITTLE of the load, the loss may be as
- * large a part of the load as at LITTLE. */
+/* Returns the largest distance that the oil may move in a step, in cells. Steps of half the inlet
+   of an asperity lose 1.3 % of the asperities' load, and the loss is proportional to the square of
+   the distance (docs/validation/mixed.md). If asperities carry less than LITTLE of the load, the
+   absolute loss may be as large as at LITTLE. */
 double ehl_largest_advection(const ehl_march *m)
 {
     const double dx = m->solver->grid->dx, contact = m->solver->reynolds->contact;

@@ -1,30 +1,32 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Contact of rough flanks. A node with pressure is in one of two states. It is full and its balance
- * of mass holds; or its asperities touch, h is the contact film, and they carry its pressure:
- * min(F, c (h - contact film)) = 0. F is the mass that the cell loses, and c the derivative of F by
- * h for oil that is only carried along. In contact F >= 0: without contact the film would fall
- * further. This is the reduced Reynolds equation (Hu & Zhu 2000; Li & Kahraman 2011) with contact
- * as a complementarity. The oil between asperities in contact is what the balance leaves, less than
- * the contact film holds, and the lack travels on with it. If it were filled up, a node downstream
- * would be neither in contact nor apart, and rounding would decide the asperities' load. */
+/* Contact of rough flanks. A node with pressure is in one of two states. Either it is full, and its
+   balance of mass holds; or its asperities touch, h is the contact film, and the asperities carry
+   its pressure: min(F, c (h - contact film)) = 0. F is the mass that the cell loses, and c the
+   derivative of F with respect to h for oil that is only transported. In contact F >= 0: without
+   contact the film would become thinner. This is the reduced Reynolds equation (Hu & Zhu 2000; Li &
+   Kahraman 2011) with contact as a complementarity. Between asperities in contact there is less oil
+   than the contact film holds: only what the balance of mass leaves. The deficit is transported
+   with the oil. If it were filled up, a node downstream would be neither in contact nor separated,
+   and round-off would decide the asperities' load. */
 #ifndef EHL_ASPERITIES_H
 #define EHL_ASPERITIES_H
 
 #include "reynolds.h"
 
-/* Gives each node with pressure the equation with the smaller residual, as last evaluated, and puts
- * cavitated nodes closer than the contact film in contact. 1: some nodes changed. */
+/* Chooses for each node with pressure the equation with the smaller residual, as last evaluated.
+   Puts cavitated nodes closer than the contact film in contact. Returns 1 if some nodes changed. */
 int ehl_contact_choose(const ehl_reynolds *r, const ehl_step *step, ehl_film *film);
 
 /* Replaces the balance by c (h - contact film) at the nodes in contact, after the derivatives. */
 void ehl_contact_rows(ehl_reynolds *r, const ehl_step *step, const ehl_film *film);
 
-/* Sets `mass` after a time step at the nodes in contact: the oil that the balance leaves there, at
- * most what the contact film holds. */
+/* Sets `mass` at the nodes in contact after a time step: the oil that the balance leaves there, at
+   most what the contact film holds. */
 void ehl_contact_mass(ehl_reynolds *r, const ehl_step *step, const ehl_film *film, double *mass);
 
-/* Statistical flanks, after the derivatives: adds the derivative of p_a by h to by_h, since the
- * derivatives are by p_f, and gives a cavitated node p = p_a(h) in place of p = 0. */
+/* Statistical flanks, after the derivatives: adds the derivative of p_a with respect to h to by_h,
+   since the derivatives are with respect to p_f. Gives a cavitated node p = p_a(h) in place of p =
+   0. */
 void ehl_statistical_rows(ehl_reynolds *r, const ehl_film *film);
 
 /* Yield of rough flanks: no pressure exceeds the hardness H. Where p reaches H, the metal yields
@@ -35,25 +37,26 @@ void ehl_statistical_rows(ehl_reynolds *r, const ehl_film *film);
  * p falls below H the gap is elastic again, and no dent stays on a flank. */
 
 /* Makes a given film admissible: p above H becomes H, and a plastic part where p is below H becomes
- * 0. 1: p has changed. */
+   0. Returns 1 if p has changed. */
 int ehl_yield_begin(const ehl_reynolds *r, ehl_film *film);
 
-/* Sets by_p of the nodes that yield: derivatives by the plastic part, in units of give. */
+/* Sets by_p of the nodes that yield: derivatives with respect to the plastic part, in units of
+   `give`. */
 void ehl_yield_columns(ehl_reynolds *r, const ehl_film *film);
 
 /* Adds `share` of the step to the plastic parts. */
 void ehl_yield_step(const ehl_reynolds *r, ehl_film *film, double share, const double *step);
 
-/* Lets nodes with p > H yield and ends the yielding of nodes with a negative plastic part. Returns
- * the largest pressure that was cut off, or plastic part, in its unit; the change of p is added to
- * `change`. */
+/* Lets nodes with p > H yield, and ends the yielding of nodes with a negative plastic part. Returns
+   the larger of the largest pressure that was cut off and the largest negative plastic part, in
+   pressure units. The change of p is added to `change`. */
 double ehl_yield_turn(const ehl_reynolds *r, ehl_film *film, double *change);
 
 /* Returns the load per width on the nodes that yield. */
 double ehl_yield_load(const ehl_reynolds *r, const ehl_film *film);
 
-/* Scales the pressures below H to the remaining load; `change` is the change of them. 0: the load
- * error is too large for that. */
+/* Scales the pressures below H to the remaining load. `change` receives their change. Returns 0 if
+   the load error is too large for that. */
 int ehl_yield_balance(const ehl_reynolds *r, ehl_film *film, double load, double *change);
 
 #endif

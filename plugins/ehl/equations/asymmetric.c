@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Balances over volumes on one side of their node, for control-volume (reynolds.h). */
+/* Balances over volumes on one side of their node, for ehl/control-volume (reynolds.h). */
 #include "reynolds.h"
 
-/* Weights of the flow at a face. The first order is used downstream of a cavitated node, where the
- * film begins sharply. The order must not depend on the state of the nodes i and i + 1, which share
- * a face there: they could then be neither full nor cavitated. */
+/* Returns whether the flow at a face is of second order. The first order is used downstream of a
+   cavitated node, where the film begins sharply. The order must not depend on the state of the
+   nodes i and i + 1, which share a face there: a node could then be neither full nor cavitated. */
 static int is_second_order(const ehl_reynolds *r, const ehl_film *film, size_t i)
 {
     return r->wedge == 2 && !(i > 0 && ehl_is_cavitated(r, film, i - 1));
@@ -21,10 +21,10 @@ static face face_weights(const ehl_reynolds *r, const ehl_film *film, size_t i)
     return second ? (face){1.5, -0.5} : (face){1, 0};
 }
 
-/* Returns the part of the mass between the midpoints around node i that lies in its own volume; the
- * rest lies in the next one. If a node may be cavitated, all of its mass is its own. Otherwise the
- * trapezoidal rule would, in short steps, require a negative mass in one volume for an excess in
- * the next. */
+/* Returns the fraction of the mass between the midpoints around node i that belongs to its own
+   volume; the rest belongs to the next one. If a node may be cavitated, all of its mass belongs to
+   its own volume. Otherwise, in short steps, the trapezoidal rule would require a negative mass in
+   one volume to balance an excess in the next. */
 static double own_part(const ehl_reynolds *r)
 {
     return r->wedge == 2 && !r->conserving ? 0.5 : 1;
@@ -56,7 +56,7 @@ void ehl_asymmetric_balance(ehl_reynolds *r, const ehl_step *step, const ehl_fil
     }
 }
 
-/* Adds weight Q(k) to row i. */
+/* Adds weight times Q(k) to row i. */
 static void add_flow(ehl_reynolds *r, const ehl_film *film, size_t i, size_t k, double weight)
 {
     if (k >= r->last)
@@ -73,7 +73,7 @@ static void add_flow(ehl_reynolds *r, const ehl_film *film, size_t i, size_t k, 
     r->by_h[s + 1][i] += right * r->f_h[k + 1];
 }
 
-/* Adds `stored` m(k) plus `flows` times the mass that the flanks carry along to row i. */
+/* Adds `stored` times m(k), plus `flows` times the mass transported with the flanks, to row i. */
 static void add_mass(ehl_reynolds *r, const ehl_film *film, size_t i, size_t k, double stored,
                      double flows)
 {

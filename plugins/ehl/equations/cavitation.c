@@ -9,22 +9,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Largest change of the pressure in a Newton step, over the largest pressure: of smooth and of
- * rough flanks. */
+/* Largest change of the pressure in a Newton step, relative to the largest pressure: for smooth and
+   for rough flanks. */
 static const double PRESSURE_CHANGE = 0.3, ROUGH_PRESSURE_CHANGE = 0.1;
 
-/* Largest share of its thickness that a film may lose in a Newton step. */
+/* Largest share of its thickness by which a film may become thinner in a Newton step. */
 static const double THINNING = 0.9;
 
 /* An error of the load below this share is removed by scaling the pressure. */
 static const double SMALL_LOAD_ERROR = 0.05;
 
-/* Least scale of pressure, over the largest Hertz pressure. */
+/* Smallest scale of pressure, relative to the largest Hertz pressure. */
 static const double LEAST_SCALE = 1e-6;
 
-/* FULL and FILLING are states of a node while the film grows. A node filled QUICK_FILLINGS times in
- * one solution is no longer filled together with its neighbour. After MOST_FILLINGS (ROUGH_FILLINGS
- * with rough flanks) it is not filled any more. */
+/* FULL and FILLING are states of a node while the film grows. A node that was filled QUICK_FILLINGS
+   times in one solution is no longer filled together with its neighbour. After MOST_FILLINGS
+   (ROUGH_FILLINGS with rough flanks) it is not filled again. */
 enum { FULL = 1, FILLING = 2, QUICK_FILLINGS = 2, MOST_FILLINGS = 8, ROUGH_FILLINGS = 24 };
 
 ff_status ehl_cavitation_create(ehl_cavitation *w, size_t nodes)
@@ -48,7 +48,7 @@ void ehl_cavitation_begin(ehl_cavitation *w, size_t nodes)
 }
 
 /* Return whether a node of 1 to n - 2 gains mass without being full, and whether a full node has
- * oil at a pressure below 0. */
+   oil at a pressure below 0. */
 FF_SIMD
 static int64_t any_gains(size_t n, const unsigned char *restrict full,
                          const double *restrict residual)
@@ -93,7 +93,8 @@ int ehl_cavitation_grow_film(ehl_cavitation *w, const ehl_reynolds *r, ehl_film 
 int ehl_cavitation_fill(ehl_cavitation *w, const ehl_reynolds *r, ehl_film *film, int steps)
 {
     int most =
-        r->rough ? ROUGH_FILLINGS : MOST_FILLINGS; /* at that limit a rough step fails and is cut */
+        /* with rough flanks a step that reaches the limit fails and is cut */
+        r->rough ? ROUGH_FILLINGS : MOST_FILLINGS;
     int filled = 0, beside = 0; /* beside: the node upstream has just been filled */
     for (size_t i = 1; i + 1 < r->nodes; i++) {
         int over =
@@ -111,16 +112,16 @@ int ehl_cavitation_fill(ehl_cavitation *w, const ehl_reynolds *r, ehl_film *film
     return filled;
 }
 
-/* Returns 1 if pressure is left at a node where neither asperities nor oil carry any more. */
+/* Returns 1 if there is pressure at a node where neither asperities nor oil carry load any more. */
 static int is_left_over(const ehl_reynolds *r, const ehl_film *film, size_t i)
 {
     return r->statistical.law && !film->full[i] && !(r->p_a[i] > 0) && fabs(film->p[i]) > 0;
 }
 
-/* Returns whether the film ends between its last node and the next one. The pressure falls with the
- * square of the distance from the film's end. If the end is one cell downstream of the last node,
- * the pressure there is a quarter of that one cell upstream; if it is farther, the ratio is larger.
- */
+/* Returns whether the film ends between its last node and the next one. The pressure is
+   proportional to the square of the distance from the film's end. If the end is one cell downstream
+   of the last node, the pressure there is a quarter of that one cell upstream. If the end is
+   farther away, the ratio is larger. */
 static int ends_in_node(const ehl_reynolds *r, const ehl_film *film)
 {
     const double quarter = 0.25;
@@ -185,7 +186,7 @@ double ehl_step_share(const ehl_grid *g, const ehl_reynolds *r, const ehl_film *
     double most = PRESSURE_CHANGE * fmax(g->pressure, ehl_pressure_scale(g, film, r->nodes)),
            fall = 1;
     double share = dp > most ? most / dp : 1;
-    if (r->rough) /* a film that falls too far comes into contact and needs no limit */
+    if (r->rough) /* a film that becomes too thin comes into contact and needs no limit */
         return dp > ROUGH_PRESSURE_CHANGE * most / PRESSURE_CHANGE
                    ? ROUGH_PRESSURE_CHANGE * most / (PRESSURE_CHANGE * dp)
                    : 1;
@@ -204,12 +205,12 @@ static void scale(size_t n, double factor, double *x)
         x[i] *= factor;
 }
 
-/* Sets the effect of the oil before the domain on the film. */
+/* Sets the effect of the oil in front of the domain on the film. */
 static void feed(const ehl_solver *s, const ehl_step *step, ehl_film *film)
 {
     double rise = step->feed - film->p[0];
-    film->ahead = step->ahead -
-                  step->feed * s->grid->dx / 2; /* half of the first node lies before the domain */
+    film->ahead = step->ahead - step->feed * s->grid->dx / 2; /* half of the first node's cell is in
+                                                                 front of the domain */
     film->p[0] = step->feed;
     for (size_t i = 0; fabs(rise) > 0 && i < s->grid->nodes; i++)
         film->v[i] += rise * s->kernel[i];

@@ -25,7 +25,7 @@ void ehl_kernel_fill(size_t count, double dx, double modulus, double unit, doubl
         double s = (double)k, ln;
         if (k < 1000)
             ln = log_integral(s + 0.5) - log_integral(s - 0.5);
-        else /* expansion of the above, whose difference would cancel */
+        else /* expansion of the integral, since its difference would suffer from cancellation */
             ln = log(s) - 1 / (24 * s * s) - 1 / (320 * s * s * s * s);
         d[k] = scale * dx * (ln + log(dx / unit));
     }
@@ -54,7 +54,7 @@ struct ehl_fft {
     size_t nodes, length;
     fftw_plan forward, backward;
     double *line, *spectrum; /* spectrum of the kernel: real, because the kernel is even */
-    double *bent;            /* output of the transform; `line` keeps the zeros at its end */
+    double *bent;            /* output of the transform; the zeros at the end of `line` are kept */
     fftw_complex *image;
 };
 
@@ -73,9 +73,9 @@ ehl_fft *ehl_fft_create(size_t nodes, const double *d)
     f->image = numerics_fftw_array(half, sizeof *f->image);
     if (f->line && f->bent && f->spectrum && f->image &&
         numerics_has_room(numerics_fftw_room(f->length))) {
-        fftw_make_planner_thread_safe(); /* the planner is shared by the process, and other plugins
-                                            plan, too */
-        /* an estimated plan depends on the length alone, so that results repeat to the last bit */
+        fftw_make_planner_thread_safe(); /* all plugins of the process share FFTW's planner */
+        /* an estimated plan depends only on the length, so that results are reproducible to the
+           last bit */
         f->forward = fftw_plan_dft_r2c_1d((int)f->length, f->line, f->image,
                                           FFTW_ESTIMATE | FFTW_PRESERVE_INPUT);
         f->backward = fftw_plan_dft_c2r_1d((int)f->length, f->image, f->bent, FFTW_ESTIMATE);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A march of films through time: its states, and the difference formula between them. */
+/* A march of films through time: its states, and the finite-difference formula in time. */
 #ifndef EHL_MARCH_H
 #define EHL_MARCH_H
 
@@ -8,9 +8,10 @@
 #include "solver.h"
 
 enum { EHL_EULER = 0, EHL_BDF2 = 1, EHL_STATES = 3 };
-/* Multiple of the contact film below which asperities nearly touch and slow the film's fall. */
+/* Asperities are nearly in contact, and slow the thinning of the film, below this multiple of the
+   contact film. */
 enum { EHL_NEAR_CONTACT = 2 };
-/* Force of the film, over the largest load, that the dynamics may neglect during contact loss. */
+/* Force of the film during contact loss, over the largest load, that the dynamics may neglect. */
 #define EHL_LOST_FORCE 0.01
 
 typedef struct ehl_state {
@@ -19,23 +20,24 @@ typedef struct ehl_state {
     double *gap;  /* h */
     double *heat; /* temperatures (thermal.h); NULL: the oil's temperature everywhere */
     double time;
-    double moved;    /* rough flanks: whole cells by which the nodes had moved with the oil */
-    double thinnest; /* least h of all nodes, m */
+    double moved;    /* rough flanks: whole number of cells by which the nodes had moved with the
+                        oil */
+    double thinnest; /* smallest h of all nodes, m */
     double highest;  /* largest p of all nodes, Pa */
     int loaded;
-    int recursion; /* number of steps since its deflection was last computed from scratch */
+    int recursion; /* number of steps since the deflection was last computed from scratch */
 } ehl_state;
 
 typedef struct ehl_march {
     const ehl_history *history;
     ehl_roughness *rough;            /* NULL: smooth flanks */
     struct ehl_heat *heat;           /* NULL: the film has the temperature of the oil */
-    struct ehl_transport *transport; /* NULL: errors are not asked for */
-    struct ehl_thermal *thermal;     /* NULL: no temperatures across the film */
+    struct ehl_transport *transport; /* NULL: errors are not requested */
+    struct ehl_thermal *thermal;     /* NULL: no temperature across the film */
     ehl_solver *solver;
     int scheme;                  /* EHL_EULER or EHL_BDF2 */
     ehl_state state[EHL_STATES]; /* newest first */
-    size_t known;                /* number of states that hold a film */
+    size_t known;                /* number of states that contain a film */
     size_t smooth; /* number of newest states without a breakpoint of the history between them */
     ehl_state trial, spare;
     ehl_step trial_step;
@@ -43,16 +45,17 @@ typedef struct ehl_march {
     int evaluated; /* 1: the equations have the values and slopes of the trial's last Newton step */
     double *memory, *past, *change, *deflection, *heights;
     double *local; /* truncation error of the last step over rho h; 0 outside the contact */
-    double *accumulated_error; /* sum of `local`, carried along with the film */
-    double distance_of_jump; /* way that the film must still move until a jump of the load has left
-                                it, m */
+    double *accumulated_error; /* sum of `local`, transported with the film */
+    double distance_of_jump;   /* distance that the film must still move until a jump of the load
+                                  has left it, m */
     unsigned char *flags_memory;
     ehl_step step;         /* the last accepted step */
-    ehl_instant at;        /* its instant */
-    int mirrored;          /* 1: the nodes run against x, since oil always runs along the nodes */
+    ehl_instant at;        /* instant of that step */
+    int mirrored;          /* 1: the nodes are numbered against x, since the oil always moves
+                              along the nodes */
     int contact_lost;      /* 1: contact was lost at that instant */
-    double moved;          /* `moved` at the present instant */
-    double last_good_step; /* last length of step that rough flanks allowed, s */
+    double moved;          /* `moved` at the current instant */
+    double last_good_step; /* last step length that rough flanks allowed, s */
     int good_steps;        /* number of such steps since */
     double exactness;      /* what the solver and the rounds of heat may leave, over the usual */
     double steps_cut, steps_refused; /* steps_refused: repeated for their truncation error */
@@ -67,39 +70,39 @@ ff_status ehl_march_create(ehl_march *m, const ehl_history *h, ehl_solver *s, in
 void ehl_march_destroy(ehl_march *m);
 
 ehl_step ehl_instant_step(const ehl_march *m, const ehl_instant *at);
-/* Adds the effect of the oil before the domain at that instant. */
+/* Adds the effect of the oil in front of the domain at that instant. */
 void ehl_feed_step(const ehl_solver *s, const ehl_instant *at, ehl_step *step);
 void ehl_copy_film(ehl_film *to, const ehl_film *from, size_t nodes);
 double ehl_thinnest(ehl_march *m, double radius, const ehl_film *film);
 
-/* Returns 1 without load, or if the load is still too small to end contact loss. The dynamics
- * prescribes the gap then (contact-loss.c). */
+/* Returns 1 without load, or if the load is still too small to end the contact loss. The dynamics
+   then prescribes the gap (contact-loss.c). */
 int ehl_contact_is_lost(const ehl_march *m, const ehl_instant *at);
 
-/* Returns the time in which the film passes the widest contact of the history at that speed, s, at
- * most the whole history. */
+/* Returns the time in which the film passes through the widest contact of the history at that
+   speed, s, at most the duration of the history. */
 double ehl_march_passage(const ehl_march *m, double speed);
 
 /* Returns 1 if the newest film carries at least 2 % of the largest load. Below that the grid is too
- * coarse for the film, and its errors do not count. */
+   coarse for the film, and its errors are ignored. */
 int ehl_march_is_loaded(const ehl_march *m);
 
 /* Restarts the difference formula, because the history has a breakpoint at the newest state. */
 void ehl_march_breakpoint(ehl_march *m);
 
-/* Gives the coefficients of the time derivative at `time`: c[0] y + c[1] y(state 0) + c[2] y(state
- * 1). */
+/* Computes the coefficients of the time derivative at `time`: c[0] y + c[1] y(state 0) + c[2]
+   y(state 1). */
 void ehl_march_factors(const ehl_march *m, double time, double c[3]);
 
-/* Gives Lagrange's factors that extrapolate the `count` newest states to `time`; 0 for older
- * states. */
+/* Computes Lagrange's factors that extrapolate the `count` newest states to `time`; 0 for older
+   states. */
 void ehl_lagrange_factors(const ehl_march *m, double time, size_t count, double *c);
 
-/* Counts the newest states that one polynomial in time may pass through: all loaded or all
- * unloaded. */
+/* Counts the newest states that one polynomial in time may interpolate: all loaded or all
+   unloaded. */
 size_t ehl_run_of_states(const ehl_march *m, int loaded, size_t most);
 
-/* Removes the pressure and leaves the oil where it is. */
+/* Removes the pressure and leaves the oil in place. */
 void ehl_remove_pressure(ehl_film *film, const double *mass, size_t nodes);
 
 #endif

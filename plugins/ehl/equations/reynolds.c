@@ -91,7 +91,7 @@ void ehl_reynolds_gap(ehl_reynolds *r, double radius, const ehl_film *film)
         r->h[i] -= r->rough[i];
     for (size_t i = 0; film->plastic && i < r->nodes; i++)
         r->h[i] += film->plastic[i];
-    size_t end = r->nodes - 1; /* the domain ends where no asperity reaches the other flank */
+    size_t end = r->nodes - 1; /* the domain ends where asperities do not reach the other flank */
     r->h[0] = fmax(r->h[0], r->contact);
     r->h[end] = fmax(r->h[end], r->contact);
 }
@@ -107,7 +107,7 @@ const double *ehl_fluid_of(const ehl_reynolds *r, const ehl_film *film, const do
 }
 
 /* Returns the last node that pressure can reach: one downstream of the last node that is full or
- * whose asperities touch. */
+   whose asperities touch. */
 static size_t last_node(const ehl_reynolds *r, const ehl_film *film)
 {
     size_t i = r->nodes - 1;
@@ -153,7 +153,7 @@ void ehl_reynolds_mass(ehl_reynolds *r, const ehl_film *film)
     masses(r, film, count);
 }
 
-/* Applies the factors of the heated film, which do not depend on p and h here. */
+/* Applies the factors of the heated film. They do not depend on p and h here. */
 static void ease_flow(ehl_reynolds *r, size_t count)
 {
     const ehl_liquid *q = &r->liquid;
@@ -187,10 +187,10 @@ static void mobility(ehl_reynolds *r, size_t count)
     }
 }
 
-/* Mobility of the face after node i. f falls exponentially with p. The geometric mean G suits a
- * resolved inlet. The arithmetic mean A keeps a face open where f drops by decades, at a spike.
- * With s = (G/A)^2 the mean A (1 - s (1 - s)/2) is G to second order for s near 1, and A for s near
- * 0. */
+/* Mobility of the face after node i. f decreases exponentially with p. The geometric mean G is
+   suitable for a resolved inlet. The arithmetic mean A keeps a face open where f drops by decades,
+   at a pressure spike. With s = (G/A)^2 the mean A (1 - s (1 - s)/2) equals G to second order for s
+   near 1, and A for s near 0. */
 FF_SIMD
 static void face_mobilities(ehl_reynolds *r)
 {
@@ -208,13 +208,13 @@ static void face_mobilities(ehl_reynolds *r)
     }
 }
 
-/* Rough flanks: mobility of a face, h^3 times rho psi/12. The mean of rho psi is logarithmic: it is
- * the mean over the pressures in between, where psi falls exponentially with p. The flow then grows
- * with the difference of pressure, however steep. The mean of h^3 is M^(1/3) N^(2/3). M = 2/(h^-3 +
- * h'^-3) belongs to two stretches in series, and N = 2 (h h')^2/(h + h') to a gap that widens
- * linearly. Beside a wide gap the mean is 2 h^3 (h'/h)^(2/3). That is within 8 % of a gap that
- * opens with x^(3/2) upstream of an elastic contact, so that the flow out of inlets is right even
- * if the cells do not resolve them. */
+/* Rough flanks: mobility of a face, h^3 times rho psi/12. The mean of rho psi is logarithmic: this
+   is the mean over the pressures between both nodes if psi decreases exponentially with p. The flow
+   then increases with the difference of pressure, however large. The mean of h^3 is M^(1/3)
+   N^(2/3). M = 2/(h^-3 + h'^-3) is that of two channels in series, and N = 2 (h h')^2/(h + h') that
+   of a gap that widens linearly. Next to a wide gap the mean is 2 h^3 (h'/h)^(2/3). That is within
+   8 % of a gap that opens like x^(3/2) upstream of an elastic contact, so that the flow out of
+   inlets is correct even if the cells do not resolve them. */
 FF_SIMD
 static void rough_face_mobilities(ehl_reynolds *r)
 {
@@ -228,7 +228,8 @@ static void rough_face_mobilities(ehl_reynolds *r)
         double ea = f[i] / a, eb = f[i + 1] / b;
         ea = ea > 1e-200 ? ea : 1e-200;
         eb = eb > 1e-200 ? eb : 1e-200;
-        /* if both are nearly alike the difference would cancel, and a series replaces it */
+        /* if both are nearly equal the difference would suffer from cancellation, and a series
+           replaces it */
         double t = ff_log(ea / eb), size = fabs(t), grown = 1 + t * t / 24;
         double alike = eb * (1 + t / 2 * (1 + t / 3 * (1 + t / 4 * (1 + t / 5 * (1 + t / 6)))));
         double root = alike / grown, alike_a = root * (grown / 2 + t / 12) / ea;
@@ -252,8 +253,8 @@ static void rough_face_mobilities(ehl_reynolds *r)
     }
 }
 
-/* Adds u times the mass carried through each face, near m(i) + far m(i-1), with the same weights
- * for all faces. */
+/* Adds u times the mass transported through each face, near m(i) + far m(i-1), with the same
+   weights for all faces. */
 FF_SIMD
 static void add_wedge(size_t from, size_t faces, double u, double near, double far,
                       const double *restrict m, double *restrict flux)
@@ -291,7 +292,7 @@ static void fluxes(ehl_reynolds *r, const ehl_step *step, const ehl_film *film)
     add_pressure_flow(r->last, 1 / r->dx, r->mean, ehl_fluid(r, film), r->flux);
 }
 
-/* Balances nodes 1 to n - 2: inflow less outflow less storage. */
+/* Balances nodes 1 to n - 2: inflow minus outflow minus storage. */
 FF_SIMD
 static void balance(size_t n, double dx, double rate, const double *restrict flux,
                     const double *restrict mass, const double *restrict past,
@@ -356,7 +357,7 @@ void ehl_reynolds_turned(ehl_reynolds *r, const ehl_step *step, const ehl_film *
     balances(r, step, film);
 }
 
-/* Gives the stencil of the wedge and of the change in time, in rho h. */
+/* Computes the stencil of the wedge and of the change in time, in rho h. */
 static void transport_stencil(const ehl_reynolds *r, const ehl_step *step, const ehl_film *film,
                               size_t i, double *c)
 {
@@ -401,8 +402,8 @@ static void add_pinched_flow(ehl_reynolds *r, const ehl_film *film)
     }
 }
 
-/* Adds to the columns of the wedge the mass that the flanks carry along beyond u_r rho h. Where the
- * nodes move with the oil it passes a face as the mean of both nodes. */
+/* Adds to the columns of the wedge the mass that the flanks transport beyond u_r rho h. Where the
+   nodes move with the oil, the mass through a face is the mean of both nodes. */
 static void add_carried(ehl_reynolds *r, const ehl_step *step, const ehl_film *film)
 {
     for (size_t i = 1; i < r->last; i++) {
@@ -425,7 +426,7 @@ static void add_carried(ehl_reynolds *r, const ehl_step *step, const ehl_film *f
 }
 
 /* Fills rows from ... to - 1, which share the transport stencil c. `back` is the distance of its
- * first node upstream; in row 1, which has nothing there, it is 1. */
+   first node upstream. In row 1, where there is no such node, it is 1. */
 FF_SIMD
 static void slopes_of_rows(ehl_reynolds *r, const ehl_film *film, const double c[3], size_t back,
                            size_t from, size_t to)
@@ -468,14 +469,14 @@ static void cavitated_columns(ehl_reynolds *r, const ehl_step *step, const ehl_f
             cavitated_column(r, i, s, c[s], r->liquid.rho[i + s - 2]);
 }
 
-/* Returns the end of the rows from `from` on that share its transport stencil. */
+/* Returns the end of the rows, starting at `from`, that share its transport stencil. */
 static size_t end_of_alike(const ehl_reynolds *r, const ehl_film *film, size_t from)
 {
-    enum { OWN = 3 }; /* the rows before it have stencils of their own */
+    enum { OWN = 3 }; /* the rows before it have individual stencils */
     size_t to = from + 1;
     if (from < OWN)
         return to;
-    if (!r->conserving || r->wedge == 1) /* ehl_upwind depends on no node then */
+    if (!r->conserving || r->wedge == 1) /* ehl_upwind does not depend on the node then */
         return r->last;
     int here = ehl_is_cavitated(r, film, from - 1), before = ehl_is_cavitated(r, film, from - 2);
     while (to < r->last && ehl_is_cavitated(r, film, to - 1) == here &&

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The interface of a solver of one instant, as the time marching uses it. */
+/* The interface of a solver of one instant, as used by the time marching. */
 #ifndef EHL_SOLVER_H
 #define EHL_SOLVER_H
 
@@ -7,7 +7,8 @@
 
 #include <flankfilm/film.h>
 
-/* Most Newton steps from an extrapolated film, a carried film, the last film, and a first guess. */
+/* Largest numbers of Newton steps: from an extrapolated film, a transported film, the last film,
+   and a first guess. */
 enum {
     EHL_LIMIT_GUESSED = 12,
     EHL_LIMIT_REPEATED = 30,
@@ -17,32 +18,32 @@ enum {
 
 typedef struct ehl_counters {
     double newton, krylov, convolutions, factorisations;
-    double
-        undecided; /* films whose boundary lies at a node that can be neither full nor cavitated */
+    double undecided; /* films whose boundary is at a node that can be neither full nor cavitated */
 } ehl_counters;
 
 typedef struct ehl_solver {
     const ehl_grid *grid;
     ehl_reynolds *reynolds;
-    const double *kernel;   /* ehl_kernel_fill, one value per node distance */
+    const double *kernel;   /* from ehl_kernel_fill, one value per node distance */
     double modulus;         /* E', Pa */
-    double tolerance;       /* relative error of the film that the equations may leave */
-    int no_film;            /* what came from outside was no film: not a number, or p at the ends */
-    int gave_up;            /* outside found no film too often */
+    double tolerance;       /* relative error of the film that the solution may leave */
+    int no_film;            /* whether the discretisation of another stage returned an invalid
+                               film: values that are not finite, or a pressure at the ends */
+    int gave_up;            /* whether the discretisation of another stage failed too often */
     const ff_film *outside; /* the discretisation of another stage, for ehl_outside; NULL: none */
     ehl_counters counters;
-    double rescaling; /* of the pressure to its load, at the end of the last solution */
+    double rescaling; /* scaling factor of the pressure at the end of the last solution */
     void *self;
-    /* Solves from the film given, whose v must be the deflection of its p; at most `limit` Newton
-       steps. FF_OK, or FF_NOCONV with the film in no useful state. */
+    /* Solves, starting from the given film, whose v must be the deflection of its p, with at most
+       `limit` Newton steps. Returns FF_OK, or FF_NOCONV with an unusable film. */
     ff_status (*solve)(struct ehl_solver *s, const ehl_step *step, ehl_film *film, int limit);
     void (*deflect)(struct ehl_solver *s, const double *p, double *v);
     void (*destroy)(struct ehl_solver *s);
-    ff_status (*maker)(struct ehl_solver *s); /* of this one */
+    ff_status (*maker)(struct ehl_solver *s); /* function that made this solver */
 } ehl_solver;
 
-/* A solver on grid, reynolds, kernel, modulus and tolerance, which are set; FF_NOMEM, or
-   FF_UNSUPPORTED. */
+/* Makes a solver. grid, reynolds, kernel, modulus and tolerance are already set. Returns FF_NOMEM
+   or FF_UNSUPPORTED on failure. */
 typedef ff_status ehl_solver_maker(ehl_solver *s);
 
 ehl_solver_maker ehl_newton_krylov;

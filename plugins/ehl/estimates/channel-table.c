@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Writes the table of the heated channel (channel.h), which the ehl models interpolate, as a
- * header. */
+/* Writes the table of the heated channel (channel.h) as a header. The ehl models interpolate in
+   this table. */
 #include "channel.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 int main(void)
 {
     const double coldest =
-        1e-6; /* replaces 0, which has no flow to divide by; R - 1 is 4e-7 there */
+        1e-6; /* replaces F = 0, where R = b/(12 sqrt(F)) is not defined; R - 1 is 4e-7 there */
     ehl_channel first = {.b = 0};
     puts("/* ln R over ln(1 + F), rows, and ln(1 + S), written by channel-table.c. */");
     printf("static const double ln_R[%d][%d] = {\n", EHL_HEAT_TABLE, EHL_HEAT_TABLE);

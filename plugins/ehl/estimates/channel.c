@@ -6,13 +6,14 @@
 
 enum { N = EHL_CHANNEL_CELLS };
 
-/* The change of theta for each right-hand side: the residual, and the columns of a and b. */
+/* Changes of theta for each right-hand side: the residual, and the derivatives with respect to a
+   and b. */
 typedef struct columns {
     double by[3][N + 1];
 } columns;
 
-/* The source g = (a + b y)^2 exp(theta) at node i, which is its own derivative over theta, and its
- * derivatives over a and b. */
+/* The source g = (a + b y)^2 exp(theta) at node i, which equals its derivative with respect to
+   theta, and its derivatives with respect to a and b. */
 typedef struct source {
     double g, by_a, by_b;
 } source;
@@ -24,7 +25,7 @@ static source source_at(const ehl_channel *c, int i)
 }
 
 /* Solves the linear equations of the inner nodes by elimination: theta(i-1) - 2 theta(i) +
- * theta(i+1) + (g(i-1) + 10 g(i) + g(i+1))/(12 N^2) = 0. */
+   theta(i+1) + (g(i-1) + 10 g(i) + g(i+1))/(12 N^2) = 0. */
 static void sweep(const ehl_channel *c, columns *d)
 {
     const double w = 1. / (12. * N * N);
@@ -49,8 +50,8 @@ static void sweep(const ehl_channel *c, columns *d)
             d->by[k][i] -= upper[i] * d->by[k][i + 1];
 }
 
-/* The integrals flow and speed, and their derivatives along each column; those over a and b include
- * the direct dependence on a and b. */
+/* The integrals of flow and speed, and their derivatives along each column. Those with respect to a
+   and b include the explicit dependence on a and b. */
 typedef struct integrals {
     double flow, flow_by[3], speed, speed_by[3];
 } integrals;
@@ -77,7 +78,7 @@ static integrals integrate(const ehl_channel *c, const columns *d)
 double ehl_channel_solve(ehl_channel *c, double F, double S)
 {
     enum { LIMIT = 40 };
-    const double within = 1e-8; /* of the last Newton step; rounding leaves 1e-9 at F = 1e-6 */
+    const double within = 1e-8; /* bound on the last Newton step; round-off is 1e-9 at F = 1e-6 */
     const double flow = sqrt(F), speed = sqrt(S);
     if (!(c->b > 0)) {
         c->b = 12 * flow;

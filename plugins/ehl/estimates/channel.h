@@ -1,17 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * The heated channel: a parallel film in which conduction to walls at one temperature alone takes
- * the heat of shear away, with the viscosity eta exp(-beta (T - T_wall)). Across it, y = z/h - 1/2
- * and theta = beta (T - T_wall), the equations are
- *
+ * The heated channel: a parallel film with the viscosity eta exp(-beta (T - T_wall)). The heat of
+ * shear leaves only by conduction to walls of equal temperature. Across it, y = z/h - 1/2 and theta
+ * = beta (T - T_wall), the equations are
  *   theta'' = -(a + b y)^2 exp(theta),   theta(-1/2) = theta(1/2) = 0,
  *   int y (a + b y) exp(theta) dy = sqrt(F),   int (a + b y) exp(theta) dy = sqrt(S),
  *   F = eta beta U^2/k,   S = eta beta u_s^2/k,   R = b/(12 sqrt(F)),
- *
- * with the stress sqrt(beta h^2/(eta k)) tau = a + b y and the mean speed U by which the flow
- * departs from u_r h. R is the pressure gradient over that of the isothermal film with the same
- * flow. Held are the flow and the speeds, for which there is one solution; for a gradient and a
- * stress there may be two or none.
+ * Here sqrt(beta h^2/(eta k)) tau = a + b y is the dimensionless stress, and U is the difference
+ * between the mean speed of the flow and u_r. R is the pressure gradient over that of the
+ * isothermal film with the same flow. Flow and speeds are given, since then there is exactly one
+ * solution. For a given gradient and stress there may be two or none.
  */
 #ifndef EHL_CHANNEL_H
 #define EHL_CHANNEL_H
@@ -23,7 +21,8 @@ enum { EHL_HEAT_TABLE = 93 };
 /* Number of intervals across the film. */
 enum { EHL_CHANNEL_CELLS = 128, EHL_CHANNEL_NODES = EHL_CHANNEL_CELLS + 1 };
 
-/* A solution, from which the next one starts. All 0: the cold channel, F = S = 0. */
+/* A solution, used as the start for the next one. All members 0: the channel without heat, F = S =
+   0. */
 typedef struct ehl_channel {
     double theta[EHL_CHANNEL_NODES], a, b;
 } ehl_channel;

@@ -11,7 +11,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Smaller loads count as this share of the largest one for the film (estimate.h). */
+/* Loads below this share of the largest one are replaced by it for the film (estimate.h). */
 static const double light = 0.01;
 
 static const uint64_t fields =
@@ -91,8 +91,8 @@ static int own_times(const ehl_estimate *e, const ehl_history *one)
     return e->steps < 0 || one->count == 1;
 }
 
-/* Lists the moments of one engagement and returns their number. If `to` is NULL it only counts
- * them. */
+/* Lists the instants of one engagement and returns their number. If `to` is NULL it only counts
+   them. */
 static size_t list_moments(const ehl_estimate *e, const ehl_history *one, ehl_moment *to)
 {
     const int own = own_times(e, one);
@@ -134,7 +134,7 @@ static ff_status fill_moments(ehl_estimate *e)
     return FF_OK;
 }
 
-/* Sets the heat of the film and moves its laws to the temperature of the teeth. */
+/* Sets the heat of the film, and sets its laws to the temperature of the teeth. */
 static ff_status read_heat(ehl_estimate *e, const ff_array *in)
 {
     const double said[] = {e->flank_conductivity, e->flank_density, e->flank_heat_capacity};
@@ -144,8 +144,8 @@ static ff_status read_heat(ehl_estimate *e, const ff_array *in)
     e->local = (ehl_local){.laws = &e->laws};
     if (bulk->data && e->thermal != EHL_THERMAL_LOCAL)
         return ff_failf(e->host, FF_INVALID, "bulk",
-                        "the teeth are warmer than the oil, which this film does not see: bulk "
-                        "needs thermal: local");
+                        "the teeth are warmer than the oil, which this film model does not "
+                        "include: bulk needs thermal: local");
     if (e->thermal == EHL_THERMAL_NONE)
         return FF_OK;
     if (e->thermal == EHL_THERMAL_LOCAL && in[EHL_IN_OIL].data) {
@@ -193,7 +193,7 @@ static ff_status read_roughness(ehl_estimate *e, uint64_t wanted, const ff_array
     return status;
 }
 
-/* Sets the load that the asperities of statistical flanks carry. */
+/* Computes the load that the asperities of statistical flanks carry. */
 static ff_status read_asperities(ehl_estimate *e, const ff_array *in)
 {
     ehl_local *l = &e->local;
@@ -231,7 +231,7 @@ static ff_status begin(ehl_estimate *e, uint64_t wanted, const ff_array *in)
 typedef struct results {
     const ff_host *host;
     uint64_t wanted;
-    double *series[EHL_ESTIMATE_SERIES]; /* NULL: not wanted */
+    double *series[EHL_ESTIMATE_SERIES]; /* NULL: not requested */
     double *film, *pressure, *x;
     double lowest, lowest_at, highest, least_lambda;
     ehl_lowest engagements;
@@ -276,8 +276,9 @@ static uint64_t of_friction(void)
 }
 
 /* Returns u_r int h dp/dx dx, which is 2 u_r times the rolling force. The force over E' R is 1.4 (U
- * W)^(1/2) under light loads and 1.45 U^(3/4) under heavy ones, with U = 2 eta0 u_r/(E' R), W =
- * w/(E' R), M = W U^-1/2, joined as in Biboulet & Houpert (2010, Proc. IMechE J 224), (7.15). */
+   W)^(1/2) under light loads and 1.45 U^(3/4) under heavy ones, with U = 2 eta0 u_r/(E' R), W =
+   w/(E' R), M = W U^-1/2. Both are joined as in Biboulet & Houpert (2010, Proc. IMechE J 224),
+   (7.15). */
 static double rolling_loss(const ehl_estimate *e, size_t k)
 {
     const ehl_moment *m = &e->moment[k];
@@ -289,7 +290,7 @@ static double rolling_loss(const ehl_estimate *e, size_t k)
     return 2 * u * scale * pow(U, 0.75) * rigid / pow(1 + pow(rigid / 1.45, 10), 0.1);
 }
 
-/* Sets the friction over the contact of the actual load; 0 without load. */
+/* Computes the friction in the contact for the actual load; 0 without load. */
 static void set_friction(const results *r, ehl_estimate *e, size_t k, double h_central)
 {
     const ehl_moment *m = &e->moment[k];
@@ -400,18 +401,19 @@ static void report(const ehl_estimate *e, double lowest, double least_lambda)
                              &e->oil);
     if (light_count > 0)
         host->quality(host->ctx, "light_instants", light_count, 0, FF_RANGE,
-                      "instants with less than 1 % of the largest load, or none: the film of 1 % "
-                      "stands in, and the gap of lost contact is added");
+                      "number of instants with less than 1 % of the largest load, or none: the "
+                      "film of 1 % is used there, plus the gap while contact is lost");
     if (e->local.bulk > 0)
         host->quality(host->ctx, "contact_heating", e->worst_rise, 0, FF_GOOD,
-                      "largest rise of the oil in the contact over the teeth, K, by its friction; "
-                      "0: no friction was asked for");
+                      "largest temperature rise of the oil in the contact over the teeth, K, due "
+                      "to its friction; 0: friction was not requested");
     if (e->outside > 0)
         host->quality(host->ctx, "asperity_range", e->outside, 0, FF_RANGE,
                       e->share == EHL_MASJEDI_KHONSARI
-                          ? "instants with sigma/R above 5e-5, beyond the films of the share's fit"
-                          : "instants whose mean planes cross, or come closer than their table: "
-                            "what asperities carry is extrapolated");
+                          ? "number of instants with sigma/R above 5e-5, outside the range of "
+                            "films to which the share was fitted"
+                          : "number of instants whose mean planes cross, or are closer than "
+                            "their table: the load on asperities is extrapolated");
     if (e->roughness > 0 && e->asperities)
         ehl_lambda_carried(host, least_lambda);
     else if (e->roughness > 0)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Common part of the models that estimate the film without solving for the pressure: parameters,
- * times, and results on the Hertzian contact. A model adds only the film. */
+   times, and results on the Hertzian contact. Each model adds only its formula for the film. */
 #ifndef EHL_ESTIMATE_H
 #define EHL_ESTIMATE_H
 
@@ -16,8 +16,8 @@
 /* Parameter rows of every such model. */
 #define EHL_ESTIMATE_PARAMS                                                                        \
     FF_COUNT("cells", ehl_estimate, cells, 0, "512", NULL, 4, 65536, 0, 0,                         \
-             "cells from inlet to outlet of the fields film and pressure; nothing else depends "   \
-             "on them"),                                                                           \
+             "number of cells from inlet to outlet for the fields film and pressure; they affect " \
+             "nothing else"),                                                                      \
         FF_QUANTITY_OR("auto", "inlet", "1", ehl_estimate, inlet, FF_MIN_OPEN, "auto", NULL, 0,    \
                        1e6, 0, 0,                                                                  \
                        "start of the fields in front of the contact, in largest Hertz "            \
@@ -27,45 +27,47 @@
                        "end of the fields behind the contact, in largest Hertz half-widths; "      \
                        "auto: a + 2 sqrt(2 R h) of every load"),                                   \
         FF_COUNT_OR("auto", "steps", ehl_estimate, steps, FF_TUNABLE, "auto", NULL, 1, 1e6, 0, 0,  \
-                    "equal time steps of the results; auto: the times of the contact"),            \
+                    "number of equal time steps of the results; auto: the times of the contact"),  \
         FF_QUANTITY_OR("none", "light_load", "N/m", ehl_estimate, light_load, FF_MIN_OPEN, "none", \
                        NULL, 0, 1e9, 0, 0,                                                         \
-                       "a load per width that stands in for smaller ones; none: the film of 1 % "  \
-                       "of the largest load stands in, and the gap of lost contact is added"),     \
+                       "least load per width: smaller loads are replaced by it; none: loads "      \
+                       "below 1 % of the largest have the film of 1 %, plus the gap while "        \
+                       "contact is lost"),                                                         \
         FF_ONE_OF("none|inlet|local", "thermal", ehl_estimate, thermal, 0, "none",                 \
                   "heat of shear in the film. none: the film has the temperature of the oil. "     \
-                  "inlet: thinner oil in the inlet, as if conduction alone took its heat away. "   \
+                  "inlet: thinner oil in the inlet, as if only conduction removed the heat. "      \
                   "local: the film of inlet at the temperature of the teeth, and friction at the " \
-                  "one temperature that it gives the oil in the contact. Both need an oil with "   \
-                  "its conductivity"),                                                             \
+                  "single temperature to which it heats the oil in the contact. inlet and local "  \
+                  "need an oil with its conductivity"),                                            \
         FF_QUANTITY_OR("auto", "bulk_temperature", "degC", ehl_estimate, bulk_temperature, 0,      \
                        "auto", NULL, -150, 1000, 0, 0,                                             \
                        "thermal: local: temperature of the teeth; auto: that of the oil, which "   \
-                       "is the least it can be"),                                                  \
+                       "is a lower bound"),                                                        \
         NUMERICS_HEAT_PARAMS("thermal: local", ehl_estimate),                                      \
         FF_ONE_OF("greenwood-tripp|masjedi-khonsari|clarke", "share", ehl_estimate, share, 0,      \
                   "greenwood-tripp",                                                               \
-                  "statistical flanks: the share of the load on asperities. greenwood-tripp: "     \
-                  "what they carry at the film that the oil makes of the rest of the load; "       \
-                  "masjedi-khonsari: by a fit to films of their own model; clarke: 1 - "           \
-                  "erf(lambda). They differ by a factor, which is how well it is known"),          \
+                  "statistical flanks: how the share of the load on asperities is computed. "      \
+                  "greenwood-tripp: their load at the film that the oil forms under the rest of "  \
+                  "the load; masjedi-khonsari: a fit to films of that model; clarke: 1 - "         \
+                  "erf(lambda). The results differ by a factor, which shows how well the share "   \
+                  "is known"),                                                                     \
         FF_QUANTITY("boundary_friction", "1", ehl_estimate, boundary_friction, 0,                  \
                     EHL_BOUNDARY_FRICTION, NULL, 0, 2, 0.05, 0.2,                                  \
                     "friction coefficient of the asperities in contact"),                          \
         FF_QUANTITY_UNLESS("gear.hardness", "asperity_hardness", "GPa", ehl_estimate,              \
                            asperity_hardness, 0, "7 GPa", NULL, 0, 1e3, 0, 0,                      \
-                           "statistical flanks: highest pressure of asperities, where no gear "    \
-                           "tells its hardness; 0: elastic at every pressure"),                    \
+                           "statistical flanks: highest pressure of asperities, if no gear gives " \
+                           "its hardness; 0: elastic at every pressure"),                          \
         EHL_HEATING_PARAMS(ehl_estimate)
 
 extern const ff_model ehl_film_formula_model; /* ehl/film-formula */
 
-/* One instant of the results. Loads below 1 % of the largest count as 1 % for the film, which would
- * otherwise grow beyond all bounds. The pressure uses the load as it is. */
+/* One instant of the results. Loads below 1 % of the largest are replaced by 1 % for the film,
+   which would otherwise grow without bound. The pressure uses the actual load. */
 typedef struct ehl_moment {
-    ehl_instant at;  /* its load is that for the film */
-    double load;     /* the load as it is */
-    double a, p_max; /* of Hertz: half-width for at.load, pressure for the load as it is */
+    ehl_instant at;  /* at.load is the load used for the film */
+    double load;     /* actual load */
+    double a, p_max; /* Hertz: half-width for at.load, pressure for the actual load */
     double moes_M, moes_L;
     double engagement; /* number of the engagement */
     int begins;        /* 1: first instant of an engagement */
@@ -78,18 +80,18 @@ typedef struct ehl_estimate_film {
 
 typedef struct ehl_estimate ehl_estimate;
 
-/* First member of a model's instance. */
+/* First member of the instance of each model. */
 struct ehl_estimate {
     const ff_host *host;
-    /* Gives the films of the moments in their order, after one call of `begin`. */
+    /* Computes the films of the instants, in their order, after one call of `begin`. */
     ff_status (*begin)(ehl_estimate *e);
     void (*film)(ehl_estimate *e, size_t k, ehl_estimate_film *film);
-    /* Gives h at n places with |x| <= a, of the moment whose film was asked for last. */
+    /* Computes h at n places with |x| <= a, for the instant whose film was computed last. */
     void (*profile)(const ehl_estimate *e, size_t k, size_t n, const double *x, double *h);
     void (*report)(const ehl_estimate *e); /* writes the model's quality lines */
     void (*end)(ehl_estimate *e);
 
-    int64_t cells, steps; /* steps -1: at the times of the history */
+    int64_t cells, steps; /* steps -1: the times of the history */
     double inlet, outlet, light_load;
     int rough; /* 1: a surface is wired */
     int32_t thermal, share;
@@ -102,19 +104,19 @@ struct ehl_estimate {
     ehl_laws laws;
     ehl_isothermal isothermal;
 
-    /* of one run */
+    /* history of one run */
     ehl_history history;
     ehl_oil oil;
     ehl_film_coefficient alpha_star;
-    double alpha;        /* its value, 1/Pa */
-    double conductivity; /* of the oil, W/(m K), with heat; else 0 */
+    double alpha;        /* film-forming coefficient alpha*, 1/Pa */
+    double conductivity; /* conductivity of the oil, W/(m K), if heat is included; else 0 */
     ehl_local local;
-    double worst_rise; /* largest rise of the oil over the teeth, K */
-    double outside;    /* instants outside the range of the closure for the share */
+    double worst_rise; /* largest temperature rise of the oil over the teeth, K */
+    double outside;    /* number of instants outside the range of the model for the share */
     ehl_grid grid;
     size_t count;
     ehl_moment *moment;
-    double roughness; /* of both flanks; 0: unknown */
+    double roughness; /* roughness of both flanks; 0: not known */
     ehl_law_answer answered;
 };
 
@@ -126,7 +128,7 @@ ff_status ehl_estimate_evaluate(void *self, uint64_t wanted, const ff_array *in)
  * ch. 4.2). */
 double ehl_hertz_gap(double s);
 
-/* Returns the central film of Moes 2000 for any coefficient alpha, incompressible. */
+/* Returns the central film thickness of Moes 2000 for any coefficient alpha, incompressible. */
 double ehl_estimate_moes(const ehl_estimate *e, const ehl_instant *at);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Computes the film by a formula for steady contacts, at every instant as if the contact were
- * steady. */
+/* Computes the film by a formula for steady contacts, at each instant as if the contact were
+   steady. */
 #include "formula.h"
 
 #include "estimate.h"
@@ -21,9 +21,9 @@ static double law(power_law c, ehl_contact_numbers n)
     return c.factor * pow(n.G, c.G) * pow(n.U, c.U) * pow(n.W, c.W);
 }
 
-/* Formulas: Dowson & Higginson 1977, Elasto-hydrodynamic Lubrication, from Dowson 1968, Proc.
- * IMechE 182 3A, for the least film; Dowson & Toyoda 1978, Proc. 5th Leeds-Lyon Symp., for the
- * central film; Pan & Hamrock 1989, J. Tribol. 111, for both. */
+/* Formulas. Smallest film: Dowson & Higginson 1977, Elasto-hydrodynamic Lubrication, from Dowson
+   1968, Proc. IMechE 182 3A. Central film: Dowson & Toyoda 1978, Proc. 5th Leeds-Lyon Symp. Both:
+   Pan & Hamrock 1989, J. Tribol. 111. */
 static const power_law dowson_higginson = {2.65, 0.54, 0.7, -0.13};
 static const power_law dowson_toyoda = {3.06, 0.56, 0.69, -0.10};
 static const power_law pan_hamrock_least = {1.714, 0.568, 0.694, -0.128};
@@ -57,14 +57,14 @@ ehl_film_numbers ehl_film_formula(int formula, ehl_contact_numbers n)
 
 typedef struct film_formula {
     ehl_estimate e;
-    int32_t formula, pressure_coefficient; /* ranks of the words */
-    double *density;  /* of every moment, at p_max, over that at ambient pressure */
-    double h_central; /* of the latest moment, m */
-    ehl_inlet *inlet; /* the heated inlet; NULL: thermal is none */
+    int32_t formula, pressure_coefficient; /* indices of the words */
+    double *density;  /* density at p_max of every instant, over that at ambient pressure */
+    double h_central; /* central film of the latest instant, m */
+    ehl_inlet *inlet; /* heated inlet; NULL: thermal is none */
 } film_formula;
 
-/* Range of the full solutions behind the scatter (Roelands' law with compression, Barus' without),
- * and the scatter of h_min and h_central. */
+/* Range of the full solutions that give the scatter (with Roelands' law and compression, with
+   Barus' law without), and the scatter of h_min and h_central. */
 typedef struct range {
     double M_low, M_high, L_low, L_high, least, central;
 } range;
@@ -102,7 +102,7 @@ static ff_status begin_heat(film_formula *f)
                       : FF_OK;
 }
 
-/* Returns the film with a heated inlet over that without heat, both by the inlet analysis. */
+/* Returns the film with a heated inlet over that without heat, both from the inlet analysis. */
 static double heat_factor(const film_formula *f, const ehl_instant *at)
 {
     const ehl_estimate *e = &f->e;
@@ -123,8 +123,8 @@ static ff_status begin(ehl_estimate *e)
     double alpha = f->pressure_coefficient ? e->oil.alpha : e->alpha;
     if (f->formula != EHL_MOES && !(alpha > 0))
         return ff_failf(e->host, FF_INVALID, "formula",
-                        "this formula is for a viscosity that rises with pressure, and this one "
-                        "does not: use formula: moes");
+                        "this formula needs a viscosity that increases with pressure, but this "
+                        "one does not: use formula: moes");
     f->density = malloc(2 * e->count * sizeof *f->density);
     if (!f->density)
         return FF_NOMEM;
@@ -195,22 +195,25 @@ static void report(const ehl_estimate *e)
     outside /= (double)e->count;
     host->quality(host->ctx, "outside_range", outside, 0, outside > 0 ? FF_RANGE : FF_GOOD,
                   f->formula == EHL_MOES
-                      ? "share of instants outside M 2 to 500, L 0 to 15"
-                      : "share of instants outside M 5 to 200, L 5 to 15, where the formula holds");
+                      ? "share of the instants outside M 2 to 500, L 0 to 15"
+                      : "share of the instants outside M 5 to 200, L 5 to 15, where the formula "
+                        "is valid");
     const range *r = &ranges[f->formula];
     host->quality(host->ctx, "h_min_scatter", r->least, 0, FF_GOOD,
-                  "largest distance of h_min from full solutions in that range, relative");
+                  "largest relative difference of h_min from full solutions in that range");
     host->quality(host->ctx, "h_central_scatter", r->central, 0, FF_GOOD,
                   f->formula == EHL_MOES
-                      ? "the same for h_central; with L > 0 it is 0.08, 0.16 where the viscosity "
-                        "does not rise and M is below 10"
-                      : "the same for h_central");
+                      ? "largest relative difference of h_central from full solutions in that "
+                        "range; with L > 0 it is 0.08, or 0.16 if the viscosity does not "
+                        "increase and M is below 10"
+                      : "largest relative difference of h_central from full solutions in that "
+                        "range");
     double change = unsteadiness(e);
     host->quality(host->ctx, "unsteadiness", change, 0.2, change > 0.2 ? FF_RANGE : FF_GOOD,
-                  "largest change of ln(load) in one passage 2 a/u; above 0.2 the film lags behind "
-                  "the formula: use ehl/inlet-analysis or ehl/finite-volume");
+                  "largest change of ln(load) in one passage 2 a/u; above 0.2 the real film lags "
+                  "behind the formula: use ehl/inlet-analysis or ehl/finite-volume");
     host->quality(host->ctx, "status", 0, 0, FF_GOOD,
-                  "a formula for the steady film at every instant; nothing is solved");
+                  "the formula for a steady film is used at every instant; nothing is solved");
 }
 
 static void end(ehl_estimate *e)
@@ -242,12 +245,13 @@ static const ff_param params[] = {
     FF_ONE_OF(
         "moes|dowson-higginson|dowson-toyoda|pan-hamrock", "formula", film_formula, formula, 0,
         "moes",
-        "moes: all regimes; the others: heavily loaded, elastic and piezoviscous. What a formula "
-        "lacks of h_min and h_central comes from its authors' other one or from a ratio"),
+        "moes: all regimes; the others: heavily loaded contacts, elastic and piezoviscous. If a "
+        "formula does not give both h_min and h_central, the other one comes from another "
+        "formula of its authors or from a ratio"),
     FF_ONE_OF("asymptotic|ambient", "pressure_coefficient", film_formula, pressure_coefficient, 0,
               "asymptotic",
-              "alpha in the formula: asymptotic, 1/int eta0/eta dp, which is the fairest between "
-              "laws; or ambient, the slope of ln(eta) at p = 0"),
+              "alpha in the formula: asymptotic (1/int eta0/eta dp, which compares different "
+              "laws best) or ambient (slope of ln(eta) at p = 0)"),
 };
 
 const ff_model ehl_film_formula_model = {
@@ -256,8 +260,8 @@ const ff_model ehl_film_formula_model = {
     .abi_minor = 3,
     .id = "ehl/film-formula",
     .version = "1.0.0",
-    .summary = "film thickness of a smooth line contact by a formula for steady films, at every "
-               "instant; costs nothing, knows no transients",
+    .summary = "film thickness of a smooth line contact from a formula for steady films, at "
+               "every instant; takes hardly any time, and neglects transients",
     .reference = "Moes 2000, Lubrication and Beyond, University of Twente; Dowson & Higginson "
                  "1977, Elasto-hydrodynamic Lubrication; Dowson & Toyoda 1978, Proc. 5th "
                  "Leeds-Lyon Symp., 60-65; Pan & Hamrock 1989, J. Tribol. 111, 246-251",

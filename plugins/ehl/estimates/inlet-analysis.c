@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Film by the analysis of the inlet alone. Pressure flow is negligible inside the contact, so that
- * oil that enters is carried through at the rolling speed: d(rho h)/dt + u d(rho h)/dx = 0, with
- * rho h = m at x = -a. m belongs to the steady inlet (inlet.h), seen from the moving boundary x =
- * -a, which the oil meets at about u + da/dt. */
+/* Film from an analysis of the inlet alone. Pressure flow is negligible inside the contact, so the
+   oil that enters moves through it at the rolling speed: d(rho h)/dt + u d(rho h)/dx = 0, with rho
+   h = m at x = -a. m is that of a steady inlet (inlet.h) in the frame of the moving boundary x =
+   -a, where the oil arrives with about u + da/dt. */
 #include "estimate.h"
 #include "inlet.h"
 #include "references.h"
@@ -14,18 +14,18 @@
 
 enum { DENSITIES = 65, PIECES = 8, SAMPLES = 16 };
 
-/* Share of da/dt at which the inlet boundary moves. It is below 1 because the inlet itself shortens
- * as the load grows. This constant and the next one are fitted to transient solutions. */
+/* Speed of the inlet boundary as a share of da/dt. It is below 1 because the inlet itself becomes
+   shorter as the load grows. This constant and the next one are fitted to transient solutions. */
 static const double BOUNDARY_SHARE = 0.85;
 
-/* Exponent of the exit constriction, which follows the film that would enter at the speed of the
- * oil relative to the exit x = a, u - da/dt. */
+/* Exponent of the exit constriction. The constriction depends on the film that would enter at the
+   speed of the oil relative to the exit x = a, u - da/dt. */
 static const double EXIT_EXPONENT = 0.3;
 
-/* Least speed of the oil relative to the boundary, as a share of the first speed. */
+/* Smallest speed of the oil relative to the boundary, as a share of the first speed. */
 static const double LEAST_SPEED = 1e-3;
 
-/* The oil now at x = place + travel, and its rho h. */
+/* Oil that is now at x = place + travel, and its rho h. */
 typedef struct mark {
     double place, mass;
 } mark;
@@ -34,15 +34,15 @@ typedef struct inlet_analysis {
     ehl_estimate e;
     ehl_inlet inlet;
     double density[DENSITIES], density_step; /* table over pressure */
-    double
-        *speed; /* speed of the oil relative to the inlet boundary, m/s; 0: the boundary recedes */
+    double *speed;  /* speed of the oil relative to the inlet boundary, m/s; 0: the boundary moves
+                       away from the oil */
     double *factor; /* ln(rho h of the inlet) - law() */
-    mark *mark;     /* from the oil that entered first to the last */
+    mark *mark;     /* marks, from the oil that entered first to the last */
     size_t marks;
-    double steady;         /* rho h of the steady inlet at the latest moment */
-    double travel;         /* way of the surfaces so far, m */
-    double solved, jumped; /* counts: inlets solved, jumps of the boundary */
-    double worst_off;      /* largest residual of the inlets */
+    double steady;         /* rho h of the steady inlet at the latest instant */
+    double travel;         /* distance moved by the surfaces so far, m */
+    double solved, jumped; /* numbers of solved inlets, and of jumps of the boundary */
+    double worst_off;      /* largest residual of the solved inlets */
 } inlet_analysis;
 
 static double density_at(const inlet_analysis *c, double p)
@@ -72,7 +72,8 @@ static ff_status fill_laws(inlet_analysis *c)
     return a < 0 ? a : b < 0 ? b : FF_OK;
 }
 
-/* Fills the speeds: the oil upstream of the contact meets its inlet at u + BOUNDARY_SHARE da/dt. */
+/* Fills the speeds with which the oil upstream of the contact arrives at its inlet: u +
+   BOUNDARY_SHARE da/dt. */
 static void fill_speeds(inlet_analysis *c)
 {
     const ehl_moment *m = c->e.moment;
@@ -86,8 +87,8 @@ static void fill_speeds(inlet_analysis *c)
     }
 }
 
-/* Returns ln of a power law close to those of Dowson & Toyoda 1978 and others: h ~ u^0.7 w^-0.1
- * R^0.4. */
+/* Returns the logarithm of a power law similar to those of Dowson & Toyoda 1978 and others: h ~
+   u^0.7 w^-0.1 R^0.4. */
 static const double SPEED_EXPONENT = 0.7;
 
 static double law(const ehl_instant *at, double speed)
@@ -100,7 +101,8 @@ static double entry_speed(const inlet_analysis *c, size_t k)
     return fmax(c->speed[k], LEAST_SPEED * c->speed[0]);
 }
 
-/* Solves the inlet for the factor of one moment; `guess` is the factor of another moment, or 0. */
+/* Solves the inlet for the factor of one instant. `guess` is the factor of another instant, or
+   0. */
 static double solve(inlet_analysis *c, size_t k, double guess)
 {
     ehl_instant at = c->e.moment[k].at;
@@ -115,8 +117,9 @@ static double solve(inlet_analysis *c, size_t k, double guess)
     return log(mass) - power;
 }
 
-/* Fills the factors of the moments between two. The factor varies slowly. It is solved at some
- * moments and linear in between; an interval is halved until its middle agrees. */
+/* Fills the factors of the instants between two. The factor varies slowly. It is solved at some
+   instants and interpolated linearly between them. An interval is halved until the interpolation
+   agrees at its middle. */
 static void fill_between(inlet_analysis *c, size_t first, size_t last)
 {
     const double close = 2e-3;
@@ -201,9 +204,9 @@ static void push(inlet_analysis *c, double x, double mass)
     c->mark[c->marks++] = (mark){x - c->travel, mass};
 }
 
-/* Returns the film that enters. It moves from the film that entered last to that of the steady
- * inlet, as the oil stored in the inlet is replaced. A boundary that jumps over more than its inlet
- * traps no more oil than the gap held there. */
+/* Returns the film that enters. It changes from the film that entered last to that of the steady
+   inlet while the oil stored in the inlet is replaced. A boundary that jumps by more than its inlet
+   traps at most the oil that the gap there contained. */
 static double entering(inlet_analysis *c, size_t k, double mass)
 {
     const ehl_moment *m = &c->e.moment[k], *b = m - 1;
@@ -239,7 +242,7 @@ static void enter(inlet_analysis *c, size_t k)
     push(c, -m->a, mass);
 }
 
-/* Returns the least film of the marks within the contact. */
+/* Returns the smallest film of the marks within the contact. */
 static double thinnest(const inlet_analysis *c, const ehl_moment *m)
 {
     double least = HUGE_VAL, last = c->mark[c->marks - 1].place;
@@ -306,24 +309,27 @@ static void report(const ehl_estimate *e)
     }
     outside /= (double)e->count;
     host->quality(host->ctx, "outside_range", outside, 0, outside > 0 ? FF_RANGE : FF_GOOD,
-                  "share of instants outside M 2 to 200, L 0 to 15, where h_central is within 10 % "
-                  "of full solutions");
+                  "share of the instants outside M 2 to 200, L 0 to 15, where h_central agrees "
+                  "with full solutions within 10 %");
     host->quality(host->ctx, "inlet_residual", c->worst_off, 1e-4,
                   c->worst_off > 1e-4 ? FF_DOUBTFUL : FF_GOOD,
-                  "reduced pressure at the edge against what it must be, relative");
+                  "relative difference of the reduced pressure at the edge from its required "
+                  "value");
     host->quality(
         host->ctx, "edge_speed", hastiest, 0.4, hastiest > 0.4 ? FF_RANGE : FF_GOOD,
-        "largest speed of the inlet's edge, 0.85 da/dt, over u; beyond 0.4 the film is off "
-        "by more than 10 % for a passage, at 0.7 by 20 %");
+        "largest speed of the inlet's edge, 0.85 da/dt, over u; above 0.4 the error of the film "
+        "exceeds 10 % for one passage, at 0.7 it is 20 %");
     if (e->count > 1)
         host->quality(host->ctx, "step_per_passage", longest, 0.1,
                       longest > 0.1 ? FF_DOUBTFUL : FF_GOOD,
                       "longest time step over the passage 2 a/u; above 0.1 use more steps");
     if (c->jumped > 0)
         host->quality(host->ctx, "edge_jumps", c->jumped, 0, FF_DOUBTFUL,
-                      "steps in which the edge of the contact leaps over its inlet, as at a sudden "
-                      "load: the film that is trapped there is a rough guess");
-    snprintf(text, sizeof text, "inlet solved at %.0f of %zu instants, interpolated between",
+                      "number of steps in which the edge of the contact jumps over its inlet, as "
+                      "at a sudden load: the film trapped there is a rough estimate");
+    snprintf(text, sizeof text,
+             "the inlet was solved at %.0f of %zu instants and interpolated "
+             "at the others",
              c->solved, e->count);
     host->quality(host->ctx, "status", 0, 0, FF_GOOD, text);
 }
@@ -360,8 +366,9 @@ static const ff_model inlet_analysis_model = {
     .abi_minor = 3,
     .id = "ehl/inlet-analysis",
     .version = "1.0.0",
-    .summary = "film of a smooth line contact from its inlet, with the laws of the oil, carried "
-               "through the contact in time; hundreds of times cheaper than ehl/finite-volume",
+    .summary = "film of a smooth line contact from its inlet, with the laws of the oil, "
+               "transported through the contact in time; hundreds of times faster than "
+               "ehl/finite-volume",
     .reference = "Ertel 1939, Akad. Nauk SSSR, Prikladnaya Matematika i Mekhanika 3; Grubin & "
                  "Vinogradova 1949, TsNIITMASh Book 30; Greenwood 1972, Wear 19, 109-119 (an "
                  "extension of the Grubin theory)",

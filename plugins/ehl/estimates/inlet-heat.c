@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-/* Gives Lagrange's factors of four equidistant points, the second of which is at t = 0. */
+/* Computes Lagrange's factors of four equidistant points, the second of which is at t = 0. */
 static void cubic(double t, double c[4])
 {
     double a = t + 1, b = t - 1, d = t - 2;
@@ -17,8 +17,8 @@ static void cubic(double t, double c[4])
     c[3] = a * t * b / 6;
 }
 
-/* Returns the first of the four points around `place`, and the distance of `place` from the second.
- */
+/* Returns the index of the first of the four points around `place`, and sets t to the distance of
+   `place` from the second. */
 static int first_of_four(double place, double *t)
 {
     double inside = fmin(place, EHL_HEAT_TABLE - 1);
@@ -53,8 +53,8 @@ static int is_newtonian(size_t n, const double *ln_eta, const double *psi)
     return plain;
 }
 
-/* Checks that the laws depend on temperature: a law that answers the same at T and T + 10 K gives a
- * film that no heat changes. */
+/* Checks that the laws depend on temperature. A law that gives the same viscosity at T and T + 10 K
+   would give a film without any effect of heat. */
 static void hold_temperature(const ff_host *host, const ehl_laws *laws)
 {
     const double T[] = {laws->temperature, laws->temperature + 10}, p[] = {0, 0};
@@ -62,8 +62,8 @@ static void hold_temperature(const ff_host *host, const ehl_laws *laws)
     if (laws->viscosity->eval(laws->viscosity->self, 2, p, T, ln_eta, NULL, NULL) >= 0 &&
         !(fabs(ln_eta[1] - ln_eta[0]) > 0))
         host->quality(host->ctx, "isothermal_law", 1, 0, FF_RANGE,
-                      "the viscosity law answers the same at every temperature: heat changes "
-                      "nothing");
+                      "the viscosity law gives the same value at every temperature: heat has no "
+                      "effect");
 }
 
 ff_status ehl_heat_conductivity(const ff_host *host, const ff_liquid *liquid, const ehl_laws *laws,
@@ -78,15 +78,15 @@ ff_status ehl_heat_conductivity(const ff_host *host, const ff_liquid *liquid, co
     liquid->eval(liquid->self, FF_LIQUID_LN_ETA0, 1, &T, &ln_eta, &slope);
     if (!isfinite(slope))
         return ff_failf(host, FF_INVALID, "thermal",
-                        "the oil does not tell how its viscosity changes with temperature: a "
-                        "heated film needs it at two temperatures or more, in the stage of the "
-                        "oil, or thermal: none");
+                        "the oil gives no change of its viscosity with temperature: a heated "
+                        "film needs its viscosity at two temperatures or more, in the stage of "
+                        "the oil; or use thermal: none");
     ff_status status =
         liquid->eval(liquid->self, FF_LIQUID_CONDUCTIVITY, 1, &T, conductivity, NULL);
     if (status < 0 || !(*conductivity > 0 && isfinite(*conductivity)))
         return ff_failf(host, FF_INVALID, "thermal",
-                        "the oil does not tell its conductivity at %g degC: give conductivity, or "
-                        "its base, to the stage of the oil",
+                        "the oil gives no conductivity at %g degC: give conductivity, or its "
+                        "base, to the stage of the oil",
                         T - 273.15);
     hold_temperature(host, laws);
     return FF_OK;

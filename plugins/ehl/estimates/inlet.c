@@ -12,10 +12,10 @@
 /* c and b of inlet.h, fitted to full solutions with M 5 to 200 and L 0 to 10. */
 static const double BOUNDARY_DEPTH = 0.72, BOUNDARY_LN_ETA = 2.75;
 
-/* Pressure counts up to this rise of ln(eta) over ambient pressure. */
+/* The integral over pressure ends at this rise of ln(eta) over its value at ambient pressure. */
 static const double MOST_LN_ETA = 20;
 
-/* Returns the pressure at which ln(eta) has risen by `rise`, at most `highest`, Pa. */
+/* Returns the pressure at which ln(eta) has increased by `rise`, but at most `highest`, Pa. */
 static double pressure_at(const ehl_laws *laws, const ehl_oil *oil, double rise, double highest)
 {
     double low = 0, high = highest;
@@ -71,8 +71,8 @@ static place at_pressure(const ehl_inlet *n, double p)
     return (place){row, rows - (double)row};
 }
 
-/* Finds the row with that q. q grows along the inlet, so that the search continues from the last
- * row. */
+/* Finds the row with that q. q increases along the inlet, so the search continues from the last
+   row. */
 static place at_reduced(const ehl_inlet *n, double q, size_t row)
 {
     while (row < EHL_INLET_TABLE - 2 && n->q[row + 1] <= q)
@@ -100,10 +100,11 @@ static double heated_share(const ehl_inlet *n, place at, double h, double mass, 
 
 typedef struct opening {
     double a, film, bend; /* bend: a^2/(2R) */
-    double scale;         /* of y = sqrt(s^2 - 1), at which the gap has grown by the film */
+    double scale;         /* value of y = sqrt(s^2 - 1) at which the gap has grown by the film
+                             thickness */
 } opening;
 
-/* Returns q at the inlet boundary x = -a, where the oil arrives in the state `boundary`. */
+/* Returns q at the inlet boundary x = -a, where the oil has the state `boundary`. */
 static double reduced_pressure_at_inlet(const ehl_inlet *n, const opening *g, place boundary,
                                         double speed, double sliding)
 {
@@ -156,10 +157,11 @@ double ehl_inlet_mass(const ehl_inlet *n, const ehl_instant *at, double speed, d
                       double guess, double *off)
 {
     enum { LIMIT = 40 };
-    const double within = 1e-5; /* relative error of q at x = -a, about that of the film */
+    const double within = 1e-5; /* relative error of q at x = -a; that of the film is about the
+                                   same */
     place boundary;
-    /* q at x = -a falls about as h^-11/8, and the q that it must reach grows at most as h^1/3. So
-     * there is one root; the secant method finds it within a bracket of known films. */
+    /* q at x = -a varies about like h^-11/8, and its required value at most like h^1/3, so there is
+       one root. The secant method finds it within a bracket of known films. */
     double low = -HUGE_VAL, high = HUGE_VAL, x = log(guess), slope = -1.7;
     double now = mismatch(n, at, speed, modulus, exp(x), &boundary);
     for (int k = 0; k < LIMIT && fabs(now) > within; k++) {
@@ -173,8 +175,8 @@ double ehl_inlet_mass(const ehl_inlet *n, const ehl_instant *at, double speed, d
         slope = fmin(fmax((now - last) / (x - from), -4), -0.2);
     }
     *off = now;
-    /* Where a vanishes, the film is that of a rigid cylinder, H = 3/M (Martin 1916), joined as in
-     * Moes. */
+    /* As a tends to 0, the film becomes that of a rigid cylinder, H = 3/M (Martin 1916). Both are
+       joined as by Moes. */
     double rigid = 6 * n->oil.viscosity * speed * at->radius / at->load;
     return n->oil.density *
            pow(pow(interpolate_column(n->rho, boundary) / n->oil.density * exp(x), 7. / 3) +
@@ -187,7 +189,8 @@ double ehl_exit_ratio(double alpha, double p_hertz)
     return 0.725 + 0.07 / (1 + alpha * p_hertz);
 }
 
-static const double usual_slope = 0.03; /* 1/K: gear oils 0.045 at 40 C, 0.02 at 100 C */
+static const double usual_slope = 0.03; /* 1/K: typical of gear oils, 0.045 at 40 C and 0.02 at
+                                           100 C */
 static const double most_lost = 0.1;
 
 /* Returns the factor of Gupta, Cheng, Zhu, Forster and Schrand 1992, a fit to thermal solutions. */
@@ -225,7 +228,8 @@ void ehl_inlet_heating_report(const ff_host *host, const ehl_inlet_heating *heat
         double Q = oil->viscosity * slope * at.entrainment * at.entrainment / heating->conductivity;
         double S = fabs(at.sliding) / at.entrainment;
         if (p_hertz <= p_worst && Q <= Q_worst && S <= S_worst)
-            continue; /* the lost share grows with each of these numbers */
+            continue; /* the share is certainly smaller than at another instant, since it
+                         increases with each of these numbers */
         double here = 1 - ehl_gupta_factor(p_hertz, h->modulus, Q, S);
         if (here > lost) {
             lost = here;
@@ -235,23 +239,24 @@ void ehl_inlet_heating_report(const ff_host *host, const ehl_inlet_heating *heat
         }
     }
     snprintf(text, sizeof text,
-             "largest share of the film that shear heating in the inlet would take off by Gupta's "
+             "largest share of the film that shear heating in the inlet would remove by Gupta's "
              "formula, %s (-d ln eta/dT %.3g 1/K, oil %.3g W/(m K))",
-             heated ? "beside what it takes off here" : "which is not in the results", slope,
-             heating->conductivity);
+             heated ? "for comparison with the effect computed here"
+                    : "which is not included in the results",
+             slope, heating->conductivity);
     host->quality(host->ctx, "inlet_heating", lost, most_lost,
                   heated || lost <= most_lost ? FF_GOOD : FF_DOUBTFUL, text);
 }
 
-/* Returns the share of a film without a load carried upstream, by what is missing from the reduced
- * pressure q = int eta0/eta dp at the edge of the contact (inlet.h); q falls as about film^-1.7. In
- * thickened oil all of the lost pressure is missing at the edge, since q only adds up. In oil that
- * has not thickened the elastic flanks give way over `length`, and the loss arrives as the root of
- * `length` over the distance. */
+/* Returns the share of the film that is lost without a load carried upstream, from the part of the
+   reduced pressure q = int eta0/eta dp that is missing at the edge of the contact (inlet.h); q is
+   about proportional to film^-1.7. In thickened oil all of the missing pressure is missing at the
+   edge, since q only adds up. In oil that has not thickened the elastic flanks yield over `length`,
+   and the loss at the edge is proportional to the root of `length` over the distance. */
 static double share_by_pressure(const ehl_oil *oil, double p_hertz, double a, double length,
                                 double distance, double lost_pressure, double *thickened)
 {
-    const double depth = 0.72, most = 2.75; /* of the edge, inlet.c */
+    const double depth = 0.72, most = 2.75; /* of the edge, as in inlet.c */
     double y = depth * depth * length / a, alpha = oil->alpha;
     double p = p_hertz * sqrt(2 * y / (1 + 2 * y));
     p /= 1 + alpha * p / most;
@@ -262,9 +267,9 @@ static double share_by_pressure(const ehl_oil *oil, double p_hertz, double a, do
 }
 
 /*
- * The contact must carry the load that the oil upstream of the domain does not: the film of a rigid
- * cylinder goes with 1/w, that of an elastic one with w^-1/5, and with w^-1/10 where the oil
- * thickens (Moes 2000). The rigid part of the film is 4.9 eta u R/w (Martin 1916), joined as by
+ * The contact carries the load that the oil upstream of the domain does not carry. The film of a
+ * rigid cylinder is proportional to 1/w, that of an elastic one to w^-1/5, and to w^-1/10 if the
+ * oil thickens (Moes 2000). The rigid part of the film is 4.9 eta u R/w (Martin 1916), joined as by
  * Moes.
  */
 double ehl_starvation(const ehl_oil *oil, const ehl_instant *at, double modulus, double h,
@@ -282,12 +287,14 @@ double ehl_starvation(const ehl_oil *oil, const ehl_instant *at, double modulus,
     double share = fmin(1, pow(rigid, 7. / 3));
     double elastic = pressed + (0.2 - 0.1 * thickened) * unloaded;
     double missing = share * unloaded + (1 - share) * elastic;
-    return missing / (1 + missing); /* of the endless inlet's film; missing: of the film left */
+    return missing / (1 + missing); /* result: relative to the film of the infinite inlet;
+                                       missing: relative to the remaining film */
 }
 
-/* Returns the share of the starvation that a domain with pressure `fed` at its end leaves. Squeezed
- * flanks drive int dh/dt dx through the inlet, in addition to the u (h - h_e) of a steady film; a
- * closing speed that grows with x^2 (`spreading`) counts a third. */
+/* Returns the share of the starvation that remains for a domain with the pressure `fed` at its
+   inlet end. Squeezed flanks drive int dh/dt dx through the inlet, in addition to the flow u (h -
+   h_e) of a steady film. A closing speed proportional to x^2 (`spreading`) has a third of the
+   effect. */
 double ehl_unfed(const ehl_oil *oil, const ehl_instant *at, double modulus, double h, double end,
                  double fed, double closing, double spreading)
 {
@@ -300,8 +307,8 @@ double ehl_unfed(const ehl_oil *oil, const ehl_instant *at, double modulus, doub
     return fmin(1, fabs(1 - fed / l.pressure) + squeezed / (fabs(at->entrainment) * opened));
 }
 
-/* Returns the largest share of the film that a domain from x = -end on leaves out, by the steady
- * films of every `stride`-th loaded instant, averaged over a passage of the contact. */
+/* Returns the largest share of the film that is lost in a domain from x = -end on, averaged over a
+   passage of the contact. The steady films of every `stride`-th loaded instant are used. */
 static double most_starved(const ehl_history *h, const ehl_oil *oil, double end, size_t stride)
 {
     double worst = 0, mean = 0;
@@ -322,7 +329,7 @@ static double most_starved(const ehl_history *h, const ehl_oil *oil, double end,
 double ehl_inlet_supplied(const ehl_history *h, const ehl_oil *oil)
 {
     enum { LIMIT = 30 };
-    const double most = EHL_STARVED_LIMIT / 1.5; /* the estimate is right within this factor */
+    const double most = EHL_STARVED_LIMIT / 1.5; /* the estimate is accurate within this factor */
     double widest = 0, end = 0, missing;
     for (size_t i = 0; i < h->count; i++) {
         ehl_instant at = ehl_history_row(h, i);
@@ -332,16 +339,17 @@ double ehl_inlet_supplied(const ehl_history *h, const ehl_oil *oil)
         if (at.load >= EHL_LIGHT_LOAD * h->load_max)
             end = fmax(end, a + 4 * s);
     }
-    /* the share falls with the square of the distance from the contact, or more slowly near it */
+    /* the share is inversely proportional to the square of the distance from the contact, and
+       decreases more slowly near it */
     for (int k = 0; k < LIMIT && (missing = most_starved(h, oil, end, 1)) > most; k++)
         end = widest + (end - widest) * fmin(2, fmax(1.02, sqrt(missing / most)));
     return end;
 }
 
-/* Returns the largest error of h_central by the cells at a loaded instant, over the square of their
- * width, 1/m2. With cells of width dx the error is (0.2 + 0.05 L (1 + (l/a)^2)) (dx/l)^2, where l
- * is the build-up length of the pressure in the inlet. Fitted to steady films of L 0 to 15 with
- * more than three cells over l. */
+/* Returns the largest relative error of h_central due to the cells at a loaded instant, over the
+   square of their width, 1/m2. With cells of width dx the error is (0.2 + 0.05 L (1 + (l/a)^2))
+   (dx/l)^2, where l is the build-up length of the pressure in the inlet. It was fitted to steady
+   films of L 0 to 15 with more than three cells over l. */
 static double most_by_cells(const ehl_history *h, const ehl_oil *oil, size_t stride)
 {
     double worst = 0;
@@ -360,8 +368,8 @@ static double most_by_cells(const ehl_history *h, const ehl_oil *oil, size_t str
     return worst;
 }
 
-/* Returns the least length of an inlet, m. Loads too light to count are replaced by the least load
- * that counts. */
+/* Returns the smallest length of an inlet, m. Loads that are too small are replaced by the smallest
+   load that counts. */
 static double shortest_inlet(const ehl_history *h, const ehl_oil *oil)
 {
     double end = 0;
@@ -374,16 +382,19 @@ static double shortest_inlet(const ehl_history *h, const ehl_oil *oil)
     return end;
 }
 
-/* The longest inlet is kept if its cells cost less than this share of the film: the domain then
- * does not depend on the number of cells, and the error falls as the square of their width. */
+/* The longest inlet is kept if the error due to its cells is below this share of the film. The
+   domain then does not depend on the number of cells, and the error is proportional to the square
+   of their width. */
 static const double ENOUGH = 0.02;
 
 double ehl_inlet_balanced(const ehl_history *h, const ehl_oil *oil, size_t cells, double outlet,
                           double longest)
 {
     enum { ROWS = 256, ROUNDS = 20 };
-    const double close = 0.01; /* of the length; it hardly changes the film's errors */
-    const double most = 0.05;  /* lost at most for instants that have too few cells at any length */
+    const double close = 0.01; /* tolerance of the length, relative; it hardly affects the film's
+                                  errors */
+    const double most = 0.05;  /* largest loss accepted at instants that have too few cells for
+                                  any length */
     size_t stride = h->count > ROWS ? h->count / ROWS : 1;
     double one = most_by_cells(h, oil, stride), end = longest, change = 1;
     double widest = (longest + outlet) / (double)cells;
@@ -392,10 +403,10 @@ double ehl_inlet_balanced(const ehl_history *h, const ehl_oil *oil, size_t cells
     for (int k = 0; k < ROUNDS && fabs(change) > close; k++) {
         double dx = (end + outlet) / (double)cells, off = fmin(one * dx * dx, most);
         double ratio = off > 0 ? most_starved(h, oil, end, stride) / off : 1;
-        if (!(ratio > 0)) /* no inlet starves the film: the shortest will do */
+        if (!(ratio > 0)) /* no inlet causes starvation: use the shortest */
             return fmin(longest, shortest_inlet(h, oil));
-        /* the starvation falls at least with the square of the length, the error by the cells grows
-         * with it */
+        /* the starvation decreases at least with the square of the length, and the error due to the
+           cells increases with it */
         double next = fmin(longest, end * sqrt(sqrt(ratio)));
         change = next / end - 1;
         end = next;

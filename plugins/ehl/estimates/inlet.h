@@ -1,22 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Computes the film that the inlet of a line contact lets in, after Ertel and Grubin: upstream of x
- * = -a the gap is that of the Hertzian contact, held apart by the film,
- *
+ * Computes the film that enters a line contact through its inlet, after Ertel and Grubin. Upstream
+ * of x = -a the gap is that of the Hertzian contact plus the film thickness:
  *   h = h_e + (a^2/(2R)) [s sqrt(s^2 - 1) - arcosh s],   s = -x/a,
- *
- * and the steady Reynolds equation dp/dx = 12 u (rho h - rho_e h_e)/(rho h^3 psi) is integrated up
- * to x = -a with the laws of the oil. Ertel and Grubin let the pressure there go to infinity. Here
- * it reaches what the Hertzian contact has at a depth of the order of the length l over which the
- * gap grows by h_e (Greenwood 1972 joins the two in a like way), but no more than what thickens the
- * oil so far that the film is set,
- *
+ * The steady Reynolds equation dp/dx = 12 u (rho h - rho_e h_e)/(rho h^3 psi) is integrated up to x
+ * = -a with the laws of the oil. In the theory of Ertel and Grubin the pressure tends to infinity
+ * there. Here it tends to p_e, which combines two bounds. The first, p_d, is the pressure of the
+ * Hertzian contact at a depth of the order of the length l over which the gap grows by h_e
+ * (Greenwood 1972 joins inlet and contact in a similar way). The second, b/alpha-star, is the
+ * pressure at which the oil is so thick that the film no longer changes:
  *   1/p_e = 1/p_d + alpha-star/b,   p_d = p_H sqrt(2 y/(1 + 2 y)),   y = c^2 l/a,
  *   l = a (3 h_e R/(2 sqrt(2) a^2))^(2/3).
- *
- * The first alone gives H ~ M^-1/5, the film without pressure dependence; the second Ertel and
- * Grubin's. c and b stand for the deformation of the inlet by its own pressure, which is left out;
- * they are fitted.
+ * The first bound alone gives H ~ M^-1/5, the film without pressure dependence; the second alone
+ * gives the film of Ertel and Grubin. The fitted constants c and b replace the deformation of the
+ * inlet by its own pressure, which is neglected.
  */
 #ifndef EHL_INLET_H
 #define EHL_INLET_H
@@ -26,84 +23,85 @@
 
 enum { EHL_INLET_TABLE = 257 };
 
-/* Tables of the oil over pressure, so that a film calls the laws for its shear only. */
+/* Tables of the oil over pressure. With them a film evaluates only the shear law. */
 typedef struct ehl_inlet {
     ehl_laws laws;
     ehl_oil oil;
-    double alpha;        /* 1/Pa, film-forming coefficient */
-    double conductivity; /* of the oil that heats itself, W/(m K); 0: it does not */
-    double step;         /* Pa, between the rows of the tables */
+    double alpha;        /* film-forming coefficient, 1/Pa */
+    double conductivity; /* conductivity of the oil if it is heated, W/(m K); else 0 */
+    double step;         /* pressure step between the rows of the tables, Pa */
     double p[EHL_INLET_TABLE];
     double q[EHL_INLET_TABLE]; /* reduced pressure, int eta0/eta dp, Pa */
     double rho[EHL_INLET_TABLE], ln_eta[EHL_INLET_TABLE];
-    double slope[EHL_INLET_TABLE]; /* d ln eta/dT, 1/K, where it does */
+    double slope[EHL_INLET_TABLE]; /* d ln eta/dT, 1/K, if the oil is heated */
 } ehl_inlet;
 
-/* Fills the tables for contacts with Hertz pressures up to `highest`; alpha: ehl_alpha_star.
-   FF_DOMAIN: a law was continued. conductivity: see above. */
+/* Fills the tables for contacts with Hertz pressures up to `highest`; alpha: ehl_alpha_star;
+   conductivity: see above. Returns FF_DOMAIN if a law was extrapolated. */
 ff_status ehl_inlet_fill(ehl_inlet *n, const ehl_laws *laws, const ehl_oil *oil, double alpha,
                          double conductivity, double highest);
 
-/* Returns rho h of the oil that enters at `speed`, kg/m2; load, radius and speed > 0. guess: h_e to
- * start from; *off: the remaining error of ln q at x = -a. */
+/* Returns rho h of the oil that enters with `speed`, kg/m2. load, radius and speed must be above 0.
+   guess: h_e to start from; *off: the remaining error of ln q at x = -a. */
 double ehl_inlet_mass(const ehl_inlet *n, const ehl_instant *at, double speed, double modulus,
                       double guess, double *off);
 
-/* Least film over rho h/rho0 inside the contact: 0.725 if the viscosity rises strongly with
- * pressure, 0.795 if not. Fitted to full solutions of M 5 to 200 and L 0 to 10, within 1 %. */
+/* Returns the smallest film over rho h/rho0 inside the contact: 0.725 if the viscosity increases
+   strongly with pressure, 0.795 if not. Fitted to full solutions of M 5 to 200 and L 0 to 10,
+   within 1 %. */
 double ehl_exit_ratio(double alpha, double p_hertz);
 
-/* Data for the film lost by shear heating of the oil in the inlet. */
+/* Data for the share of the film that is lost by shear heating of the oil in the inlet. */
 typedef struct ehl_inlet_heating {
-    double conductivity; /* of the oil, W/(m K) */
+    double conductivity; /* conductivity of the oil, W/(m K) */
     double slope;        /* -d ln eta/dT, 1/K; 0: that of the law, or 0.03 if it has none */
 } ehl_inlet_heating;
 
-/* Rows of these parameters for a model with a member `heating`. */
+/* Parameter rows for a model with a member `heating`. */
 #define EHL_HEATING_PARAMS(type)                                                                   \
     FF_QUANTITY("oil_conductivity", "W/(m K)", type, heating.conductivity, 0, "0.14 W/(m K)",      \
                 NULL, 1e-3, 1e3, 0, 0,                                                             \
-                "thermal conductivity of the oil, for the line inlet_heating of the quality "      \
-                "alone; oils have 0.1 to 0.17"),                                                   \
+                "thermal conductivity of the oil, used only for the quality line inlet_heating; "  \
+                "oils have 0.1 to 0.17"),                                                          \
         FF_QUANTITY_OR("auto", "temperature_slope", "1/K", type, heating.slope, FF_MIN_OPEN,       \
                        "auto", NULL, 0, 10, 0, 0,                                                  \
-                       "-d ln(eta)/dT of the oil, for inlet_heating alone; auto: that of the "     \
-                       "viscosity law, or 0.03 1/K where it knows no temperature")
+                       "-d ln(eta)/dT of the oil, used only for inlet_heating; auto: that of the " \
+                       "viscosity law, or 0.03 1/K if the law does not depend on temperature")
 
-/* Returns the film with heating over the film without: Q = eta0 beta u^2/k, S = |u1 - u2|/u. 0 if
- * the fit is so far out of its range that it is negative. */
+/* Returns the film with heating over the film without: Q = eta0 beta u^2/k, S = |u1 - u2|/u.
+   Returns 0 if the fit is so far outside its range that it is negative. */
 double ehl_gupta_factor(double p_hertz, double modulus, double Q, double S);
 
-/* Writes the quality line with the largest share of the film lost at any loaded instant; `heated`:
- * the film already includes the heat of its inlet. */
+/* Writes the quality line with the largest share of the film lost at any loaded instant. `heated`:
+   the film already includes the heat of its inlet. */
 void ehl_inlet_heating_report(const ff_host *host, const ehl_inlet_heating *heating, int heated,
                               const ehl_history *h, const ehl_laws *laws, const ehl_oil *oil);
 
-/* Returns the share of the film that a domain from x = -end on leaves out, compared with an endless
- * inlet, by Reynolds' equation upstream of the domain; h is the central film. 1 if the domain
- * begins in the contact. The load and the radius of `at` are > 0. */
+/* Returns the share of the film that is lost in a domain from x = -end on, compared with an
+   infinite inlet, from Reynolds' equation upstream of the domain. h is the central film. Returns 1
+   if the domain begins inside the contact. The load and the radius of `at` must be above 0. */
 double ehl_starvation(const ehl_oil *oil, const ehl_instant *at, double modulus, double h,
                       double end);
 
 /* Returns the share of that starvation that remains if the domain begins with the pressure `fed`.
- * The gap changes by `closing` at x = 0 and by `spreading` more at x = -end, m/s. */
+   The gap changes with the speed `closing` at x = 0, and with `spreading` more at x = -end, m/s. */
 double ehl_unfed(const ehl_oil *oil, const ehl_instant *at, double modulus, double h, double end,
                  double fed, double closing, double spreading);
 
-/* The shortest inlet that is fed, in S in front of every contact: half of the pressure of a rigid
-   cylinder is there. */
+/* Shortest inlet that may begin with the pressure of a longer one, in units of S in front of every
+   contact. Half of the pressure of a rigid cylinder arises within this length. */
 #define EHL_FED_LENGTHS 2
 
-/* Above this share of the film the quality line of starvation is doubtful. */
+/* The quality line of starvation is doubtful above this share of the film. */
 #define EHL_STARVED_LIMIT 0.01
 
-/* Returns the distance from x = 0 at which a domain must begin so that ehl_starvation stays below
- * that limit at every loaded instant, m. */
+/* Returns the distance from x = 0 at which a domain must begin so that ehl_starvation is below that
+   limit at every loaded instant, m. */
 double ehl_inlet_supplied(const ehl_history *h, const ehl_oil *oil);
 
-/* Returns the length of an inlet at which the film lost by starvation equals the error by the
- * cells, which fill the domain from there to `outlet` (m) behind x = 0; at most `longest`, m. A
- * shorter inlet loses more film, a longer one has coarser cells. */
+/* Returns the length of an inlet at which the film lost by starvation equals the error due to the
+   cells, m. The cells fill the domain from there to `outlet` (m) behind x = 0. The result is at
+   most `longest`. A shorter inlet loses more film, a longer one has coarser cells. */
 double ehl_inlet_balanced(const ehl_history *h, const ehl_oil *oil, size_t cells, double outlet,
                           double longest);
 

@@ -12,7 +12,7 @@ double ehl_local_place(int part)
     return -cos(M_PI * (part + 0.5) / N);
 }
 
-/* Data for a function of one unknown. */
+/* Data of a function of one unknown. */
 typedef struct scene {
     const ehl_local *l;
     const ehl_local_contact *c;
@@ -20,8 +20,8 @@ typedef struct scene {
     ehl_local_friction f;
 } scene;
 
-/* Returns the root of an increasing function between a and b, whose signs differ there, to
-   `within`. */
+/* Returns the root of an increasing function between a and b, where its signs differ, with the
+   accuracy `within`. */
 static double root_of(double (*f)(scene *, double), scene *s, double a, double b, double within)
 {
     numerics_bracket r = {a, f(s, a), b, f(s, b), 0};
@@ -35,8 +35,8 @@ static double root_of(double (*f)(scene *, double), scene *s, double a, double b
     return r.high;
 }
 
-/* Returns the share of the load on asperities whose mean planes are `apart`, which is below 0 if
- * they cross; at most 1. */
+/* Returns the share of the load on asperities, at most 1, if the distance of the mean planes is
+   `apart`. It is negative if they cross. */
 static double carried_at(scene *s, double apart)
 {
     const ff_asperity *law = s->l->asperities;
@@ -48,12 +48,12 @@ static double carried_at(scene *s, double apart)
     return fmin(p_a / mean, 1);
 }
 
-/* Returns the mean gap of mean planes at a distance H sigma, times (1 - s)^0.13, minus c->h. It is
- * 0 if the gap is the film h (1 - s)^-0.13 that the oil makes of its share 1 - s of the load
- * (Johnson, Greenwood & Poon 1972, with the exponent of the load in Dowson & Higginson's film). The
- * mean gap of Gaussian heights, cut off where they would cross, is sigma (H Phi(H) + phi(H)) (Patir
- * & Cheng 1978), H sigma beyond 3 sigma: flanks without oil come as close as their asperities let
- * them. */
+/* Returns the mean gap of mean planes at the distance H sigma, times (1 - s)^0.13, minus c->h. It
+   is 0 if the gap equals the film h (1 - s)^-0.13 that the oil forms under its share 1 - s of the
+   load (Johnson, Greenwood & Poon 1972, with the exponent of the load in Dowson & Higginson's
+   film). The mean gap of Gaussian heights, cut off where they would cross, is sigma (H Phi(H) +
+   phi(H)) (Patir & Cheng 1978), and H sigma above 3 sigma. Flanks without oil come as close as
+   their asperities allow. */
 static double unbalanced(scene *s, double H)
 {
     const double sigma = s->l->asperities->sigma;
@@ -65,11 +65,11 @@ static double unbalanced(scene *s, double H)
 /* Masjedi & Khonsari 2012, J. Tribol. 134, 011503, for line contacts. */
 static double masjedi_khonsari(const ehl_local *l, const ehl_local_contact *c, ff_status *closure)
 {
-    const double roughest = 5e-5; /* sigma/R of their films */
+    const double roughest = 5e-5; /* largest sigma/R of their films */
     double size = l->modulus * c->radius, s = l->asperities->sigma / c->radius;
     *closure = s > roughest ? FF_DOMAIN : FF_OK;
     double U = l->viscosity * c->entrainment / size, W = c->load / size, G = l->alpha * l->modulus;
-    /* summits without a hardness count as case-hardened steel, 7 of 230 GPa */
+    /* without a hardness the value of case-hardened steel is used, 7 GPa of 230 GPa */
     double V = l->hardness > 0 ? l->hardness / l->modulus : 0.03;
     double ln = 6.015 * log(s) + 1.168 * log(V) + 0.485 * log(W) - 3.741 * log(U) - 2.898 * log(G);
     double log_term = ln > 600 ? log(4470) + ln : log1p(4470 * exp(ln));
@@ -77,7 +77,7 @@ static double masjedi_khonsari(const ehl_local *l, const ehl_local_contact *c, f
     return fmin(fmax(percent / 100, 0), 1);
 }
 
-/* Returns the share of the load on asperities where the film is c->h. */
+/* Returns the share of the load on asperities if the film is c->h. */
 static double share_of(const ehl_local *l, const ehl_local_contact *c, ff_status *closure)
 {
     *closure = FF_OK;
@@ -88,7 +88,7 @@ static double share_of(const ehl_local *l, const ehl_local_contact *c, ff_status
         return masjedi_khonsari(l, c, closure);
     if (l->share == EHL_CLARKE) /* Clarke et al. 2015, Tribol. Int. 90 */
         return erfc(c->h / l->asperities->sigma);
-    /* at `far` times sigma no asperities are in contact */
+    /* at `far` times sigma asperities are not in contact */
     const double far = 8, sigma = l->asperities->sigma;
     double H = root_of(unbalanced, &s, -far, c->h / sigma + far, 1e-9);
     double share = carried_at(&s, H * sigma);
@@ -96,8 +96,8 @@ static double share_of(const ehl_local *l, const ehl_local_contact *c, ff_status
     return share;
 }
 
-/* Computes the friction at one temperature from the oil's share of p; NaN: the temperature of the
- * laws. */
+/* Computes the friction at one temperature from the oil's share of p. NaN: the temperature of the
+   laws. */
 static void rub(scene *s, double T)
 {
     const ehl_laws *laws = s->l->laws;
@@ -111,7 +111,7 @@ static void rub(scene *s, double T)
     s->f.oil = sum * M_PI / N * s->c->a;
 }
 
-/* Returns T minus the temperature that the friction at T causes. */
+/* Returns T minus the temperature caused by the friction at T. */
 static double too_warm(scene *s, double T)
 {
     const ehl_local *l = s->l;
@@ -130,7 +130,7 @@ static double too_warm(scene *s, double T)
 ehl_local_friction ehl_local_evaluate(const ehl_local *l, const ehl_local_contact *c,
                                       const double *h)
 {
-    const double within = 1e-4; /* K */
+    const double within = 1e-4; /* tolerance, K */
     scene s = {.l = l, .c = c};
     s.f.share = share_of(l, c, &s.f.closure);
     s.f.asperities = copysign(l->boundary_friction * s.f.share * c->load, c->sliding);

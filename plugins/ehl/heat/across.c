@@ -19,7 +19,7 @@ static double legendre(size_t n, double x, double *before)
     return now;
 }
 
-/* Returns the polynomial that is 1 at node l and 0 at the others. */
+/* Returns the polynomial that is 1 at node l and 0 at the other nodes, evaluated at z. */
 static double one_at(const ehl_across *a, size_t l, double z)
 {
     double product = 1;
@@ -29,8 +29,8 @@ static double one_at(const ehl_across *a, size_t l, double z)
     return product;
 }
 
-/* The roots of (1 - x^2) P'_n(x), by Newton's method from those of Chebyshev: with (1 - x^2) P'_n =
-   n (P_(n-1) - x P_n), whose derivative is -n (n + 1) P_n. */
+/* Computes the roots of (1 - x^2) P'_n(x) by Newton's method, starting from the Chebyshev points.
+   It uses (1 - x^2) P'_n = n (P_(n-1) - x P_n), whose derivative is -n (n + 1) P_n. */
 static void place(ehl_across *a)
 {
     size_t n = a->count - 1;
@@ -47,9 +47,9 @@ static void place(ehl_across *a)
     a->z[n] = 1;
 }
 
-/* The stiffness of a spectral vanishing viscosity (Tadmor 1989; Maday, Ould Kaber & Tadmor 1993):
- * it resists only the slopes of modes above sqrt(count), which a resolved temperature does not
- * have. */
+/* Sets the stiffness of a spectral vanishing viscosity (Tadmor 1989; Maday, Ould Kaber & Tadmor
+   1993). It resists only the slopes of modes above sqrt(count), which a resolved temperature does
+   not contain. */
 static void damp_highest(ehl_across *a)
 {
     size_t n = a->count, last = n - 2, first = (size_t)sqrt((double)n);

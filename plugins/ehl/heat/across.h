@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Nodes across a film, from 0 at flank 1 to 1 at flank 2: the nodes of Gauss, Legendre and Lobatto.
- */
+/* Gauss-Legendre-Lobatto nodes across a film, from 0 at flank 1 to 1 at flank 2, with matrices for
+   derivatives and integrals. */
 #ifndef EHL_ACROSS_H
 #define EHL_ACROSS_H
 
@@ -15,18 +15,22 @@ typedef double ehl_across_matrix[EHL_ACROSS_MOST][EHL_ACROSS_MOST];
 typedef struct ehl_across {
     size_t count;
     double z[EHL_ACROSS_MOST];
-    double weight[EHL_ACROSS_MOST]; /* of the integral, exact up to the degree 2 count - 3 */
-    /* [l][k]: of the polynomial that is 1 at node l and 0 at the others, at node k */
-    ehl_across_matrix slope;                       /* d/dz */
-    ehl_across_matrix integral;                    /* from 0 to node k */
+    double weight[EHL_ACROSS_MOST]; /* weights of the integral; exact up to the degree 2 count -
+                                       3 */
+    /* d/dz; row l, column k: derivative at node k of the polynomial that is 1 at node l and 0 at
+       the others */
+    /* d/dz; row l, column k: derivative at node k of the polynomial that is 1 at node l and 0 at
+       the others */
+    ehl_across_matrix slope;
+    ehl_across_matrix integral;                    /* integral from 0 to node k */
     ehl_across_matrix stiffness;                   /* int (dv/dz) (dT/dz) dz */
-    ehl_across_matrix damping;                     /* stiffness of the highest modes alone */
-    double fine[EHL_ACROSS_FINE][EHL_ACROSS_MOST]; /* values at equal distances */
-    double swing; /* largest of these values of a polynomial between -1 and 1 at the nodes */
+    ehl_across_matrix damping;                     /* stiffness of the highest modes only */
+    double fine[EHL_ACROSS_FINE][EHL_ACROSS_MOST]; /* values at equidistant places */
+    double swing; /* largest of these values for polynomials between -1 and 1 at the nodes */
 } ehl_across;
 
-/* Sets out[k] to the sum of m[l * stride + k] values[l] over l < n, for k < n. Rows of a matrix and
- * the output have room up to a multiple of EHL_LANES. */
+/* Sets out[k] to the sum of m[l * stride + k] values[l] over l < n, for k < n. The rows of the
+   matrix and the output are padded to a multiple of EHL_LANES. */
 FF_SIMD_INLINE void ehl_across_apply(const double *m, size_t stride, size_t n, const double *values,
                                      double *out)
 {
@@ -44,8 +48,8 @@ FF_SIMD_INLINE void ehl_across_apply(const double *m, size_t stride, size_t n, c
  * at the nodes. */
 double ehl_across_highest(const ehl_across *a, const double *values, double most);
 
-/* Evaluates the polynomials through `values`, one for each of the columns, at the nodes of another
- * across. */
+/* Evaluates the polynomials through `values`, one for each column, at the nodes of another set
+   `other`. */
 void ehl_across_move(const ehl_across *a, const ehl_across *other, size_t columns,
                      const double *values, double *to);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The flow across a film of given temperatures. */
+/* Computes the flow across a film with given temperatures. */
 #include "energy.h"
 
 #include "../../numerics/answers.h"
@@ -10,7 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Number of arrays with a value for each node and place across, and with one for each node. */
+/* FIELDS: number of arrays with a value for each node and each place across. OWN: number of arrays
+   with one value per node. */
 enum { FIELDS = 19, OWN = 10 };
 
 /* Numbers in e->memory. */
@@ -67,11 +68,11 @@ static void note(ehl_energy *e, ff_status status)
 }
 
 /*
- * Sets the curvature of n values, over their own first-order change, from two calls of the laws:
- * the last one gave `from` and slopes, which lead to `line` at the place where this one gives
- * `given`. The curvature stays as it was if the first-order change is below `least`, which tells
- * little, as at the first call. Its size is limited to `most`: up to a change of 1/most the
- * parabola adds at most half of what the slopes do.
+ * Sets the curvature of n values with respect to their first-order change, from two evaluations of
+ * the laws. The earlier one gave `from` and slopes, which predict `line` at the place where the new
+ * one gives `given`. If the first-order change is below `least`, it contains too little
+ * information, as at the first evaluation, and the curvature is kept. The curvature is limited to
+ * `most`: up to a change of 1/most the parabola then adds at most half of the first-order change.
  */
 FF_SIMD
 static void bend_by(size_t n, const double *restrict from, const double *restrict line,
@@ -85,7 +86,7 @@ static void bend_by(size_t n, const double *restrict from, const double *restric
     }
 }
 
-/* Extrapolates n values by their slopes over p and T from where the laws gave them. */
+/* Extrapolates n values linearly in p and T from the last evaluation of the laws. */
 FF_SIMD
 static void follow(size_t n, const double *restrict p, const double *restrict T,
                    const double *restrict from_p, const double *restrict from_T,
@@ -96,7 +97,7 @@ static void follow(size_t n, const double *restrict p, const double *restrict T,
         value[j] = given[j] + (by_p[j] * (p[j] - from_p[j]) + by_T[j] * (T[j] - from_T[j]));
 }
 
-/* Does the same along a parabola whose curvature is `bend`. */
+/* Extrapolates in the same way, along a parabola with the curvature `bend`. */
 FF_SIMD
 static void follow_bent(size_t n, const double *restrict p, const double *restrict T,
                         const double *restrict from_p, const double *restrict from_T,
@@ -110,8 +111,8 @@ static void follow_bent(size_t n, const double *restrict p, const double *restri
     }
 }
 
-/* Calls the laws at the nodes `from` to `end`, where e->ln_eta holds the values extrapolated from
- * the call before. */
+/* Evaluates the laws at the nodes `from` to `end`. e->ln_eta contains the values extrapolated from
+   the previous evaluation. */
 static void call_laws_at(ehl_energy *e, size_t from, size_t end, const double *T)
 {
     const ff_viscosity *v = e->laws.viscosity;
@@ -127,7 +128,7 @@ static void call_laws_at(ehl_energy *e, size_t from, size_t end, const double *T
     memcpy(e->called_T + at, T + at, count * sizeof *T);
 }
 
-/* Sets each of `nodes` values at all places across. */
+/* Sets all places across to the value of their node, for each of `nodes` values. */
 FF_SIMD_INLINE void spread_to(size_t nodes, size_t n, const double *restrict values,
                               double *restrict to)
 {
@@ -136,8 +137,8 @@ FF_SIMD_INLINE void spread_to(size_t nodes, size_t n, const double *restrict val
             to[i * n + k] = values[i];
 }
 
-/* Marks the nodes at which ln(eta), extrapolated by its slopes, has changed by more than the reach.
- * A parabola would not do, since it may come back. */
+/* Marks the nodes at which ln(eta), extrapolated linearly, has changed by more than the reach. A
+   parabola is not suitable for this test, since it may return to its start. */
 FF_SIMD_INLINE void mark_beyond(size_t nodes, size_t n, const double *restrict now,
                                 const double *restrict called, double reach,
                                 unsigned char *restrict mark)
@@ -150,8 +151,7 @@ FF_SIMD_INLINE void mark_beyond(size_t nodes, size_t n, const double *restrict n
     }
 }
 
-/* spread and find_beyond pass the preset number of nodes across as a constant, which the compiler
- * can use. */
+/* spread and find_beyond pass the preset number of nodes across as a compile-time constant. */
 FF_SIMD
 static void spread(size_t nodes, size_t across, const double *values, double *to)
 {
@@ -171,16 +171,16 @@ static void find_beyond(ehl_energy *e, size_t nodes)
         mark_beyond(nodes, n, e->ln_eta, e->called_ln_eta, e->reach, e->there);
 }
 
-/* Whether the laws must be called at node i: the film is steady, or ln(eta) has changed by more
- * than the reach, or they have not been called there yet. */
+/* Returns whether the laws must be evaluated at node i: if the film is steady, if ln(eta) has
+   changed by more than the reach, or if they were not evaluated there before. */
 static int is_due(const ehl_energy *e, const ehl_energy_film *film, size_t i)
 {
     return !(film->rate > 0) || e->there[i] || !(e->called_T[i * e->across.count] > 0);
 }
 
 /* Sets viscosity and density at all places. Where ln(eta) has changed by less than the reach since
- * the last call of the laws they are extrapolated from that call: the density linearly, ln(eta)
- * along a parabola. */
+   the last evaluation of the laws, they are extrapolated from that evaluation: the density
+   linearly, ln(eta) along a parabola. */
 static void call_laws(ehl_energy *e, const ehl_energy_film *film, const double *T)
 {
     size_t across = e->across.count, all = film->count * across;
@@ -204,7 +204,7 @@ static void call_laws(ehl_energy *e, const ehl_energy_film *film, const double *
     follow(all, e->p, T, e->called_p, e->called_T, e->called_rho, e->rho_p, e->rho_T, e->rho);
 }
 
-/* Shear rates of tau_m with their slopes at the nodes `from` to `end`. */
+/* Computes the shear rates at tau_m, and their derivatives, at the nodes `from` to `end`. */
 static void call_flow(ehl_energy *e, size_t from, size_t end, const double *T)
 {
     size_t n = e->across.count, at = from * n, count = (end - from) * n;
@@ -221,7 +221,8 @@ static void call_flow(ehl_energy *e, size_t from, size_t end, const double *T)
     }
 }
 
-/* Means across the film: of the shear rate, and of its slope times 1 and z - h/2 over h. */
+/* Means across the film: of the shear rate, and of its derivative with respect to stress times 1
+   and times z - h/2, over h. */
 typedef struct means {
     double gamma, slope, tilt;
 } means;
@@ -231,7 +232,7 @@ FF_SIMD_INLINE means means_of(const ehl_energy *e, size_t i, size_t n)
     const ehl_across *a = &e->across;
     const double *gamma = e->gamma + i * n, *slope = e->gamma_tau + i * n;
     ehl_lanes rate = {0}, ease = {0}, tilt = {0}, weight, z, here;
-    for (size_t k = 0; k < n; k += EHL_LANES) { /* beyond n the weights are 0 */
+    for (size_t k = 0; k < n; k += EHL_LANES) { /* the weights from n on are 0 */
         memcpy(&weight, a->weight + k, sizeof weight);
         memcpy(&z, a->z + k, sizeof z);
         memcpy(&here, gamma + k, sizeof here);
@@ -243,8 +244,8 @@ FF_SIMD_INLINE means means_of(const ehl_energy *e, size_t i, size_t n)
     return (means){ehl_lanes_sum(&rate), ehl_lanes_sum(&ease), ehl_lanes_sum(&tilt)};
 }
 
-/* Returns the step of tau_m towards the mean shear rate `target`, of Newton's method in the
-   inverse hyperbolic sine of the rate: rates grow exponentially with the stress. */
+/* Returns the Newton step of tau_m towards the mean shear rate `target`. The method is applied to
+   asinh of the rate, since rates grow exponentially with the stress. */
 static double stress_step(means m, double target, double scale)
 {
     const double close = 0.1;
@@ -256,7 +257,7 @@ static double stress_step(means m, double target, double scale)
     return (asinh(target / unit) - asinh(m.gamma / unit)) * hypot(unit, m.gamma) / m.slope;
 }
 
-/* Sets tau_m to the stress of a film with the viscosity at its middle. */
+/* Sets tau_m to the stress of a film that has everywhere the viscosity of its middle. */
 static void guess_stress(ehl_energy *e, const ehl_energy_film *film)
 {
     const ff_rheology_3 *law = e->laws.rheology;
@@ -271,9 +272,9 @@ static void guess_stress(ehl_energy *e, const ehl_energy_film *film)
     e->guessed = 1;
 }
 
-/* Corrects the stress at node i by a step towards the one that shears the film at the speeds of the
- * flanks. Returns 1 if the stress is within `enough` of that already, or if no stress shears the
- * film. */
+/* Corrects the stress at node i by a Newton step. The right stress shears the film at the
+   difference of the flanks' speeds. Returns 1 if the stress was within `enough` of that already, or
+   if there is no such stress. */
 FF_SIMD_INLINE int take_stress(ehl_energy *e, const ehl_energy_film *film, double enough, size_t i,
                                size_t n)
 {
@@ -290,8 +291,9 @@ FF_SIMD_INLINE int take_stress(ehl_energy *e, const ehl_energy_film *film, doubl
     return 0;
 }
 
-/* Predicts the stress at node i from the changes of ln(eta), gap and speeds since the last flow, by
- * the slopes of that flow. A prediction that changes the stress by more than half is dropped. */
+/* Predicts the stress at node i from the changes of ln(eta), gap and speeds since the last flow,
+   with the derivatives of that flow. A prediction that changes the stress by more than half is
+   dropped. */
 FF_SIMD_INLINE void expect_stress(ehl_energy *e, const ehl_energy_film *film, size_t i, size_t n)
 {
     const double *now = e->ln_eta + i * n, *before = e->before + i * n,
@@ -328,12 +330,12 @@ static void expect_stress_at(ehl_energy *e, const ehl_energy_film *film, size_t 
         expect_stress(e, film, i, e->across.count);
 }
 
-/* Finds the stress of all columns. Columns that have converged are not computed again. */
+/* Finds the stress of all columns. Columns that have converged are skipped. */
 static void find_stress(ehl_energy *e, const ehl_energy_film *film, const double *T)
 {
     enum { MOST = 30 };
-    /* flow_across removes the rest by the slope, which leaves half its square: a hundredth of what
-     * the reach leaves */
+    /* flow_across corrects the remaining error to first order, which leaves half its square: a
+       hundredth of the error that the reach allows */
     const double enough = film->rate > 0 ? e->reach / 10 : 1e-3;
     size_t left = film->count;
     memset(e->there, 0, left);
@@ -350,9 +352,9 @@ static void find_stress(ehl_energy *e, const ehl_energy_film *film, const double
     }
 }
 
-/* Sets the part of each tau_m beyond the limiting stress, which is the stress that the law gives a
- * liquid that is nearly solid. If the Eyring stress is auto, the rates of rheology/2 know no limit:
- * it acts on the traction and its heat, but not on the flow. */
+/* Sets the part of each tau_m beyond the limiting stress. The limiting stress is the stress that
+   the law gives for a liquid that is nearly solid. If the Eyring stress is auto, the rates of
+   rheology/2 have no limit: it then affects the traction and its heat, but not the flow. */
 static void find_excess(ehl_energy *e, const ehl_energy_film *film, const double *T)
 {
     const ff_rheology_3 *law = e->laws.rheology;
@@ -373,7 +375,7 @@ static void find_excess(ehl_energy *e, const ehl_energy_film *film, const double
     }
 }
 
-/* Returns int u rho dz with u(0) = u_1, of the rates in `gamma`, over h. */
+/* Returns int u rho dz over h with u(0) = u_1, from the shear rates in `gamma`. */
 FF_SIMD_INLINE double flow_of(const ehl_across *a, size_t n, const double *rho, double u_1,
                               double h, const double *gamma, double *u)
 {
@@ -392,7 +394,7 @@ FF_SIMD_INLINE double flow_of(const ehl_across *a, size_t n, const double *rho, 
     return ehl_lanes_sum(&sum);
 }
 
-/* Returns the pressure gradient at node i by differences. */
+/* Returns the pressure gradient at node i by finite differences. */
 static double gradient(const ehl_energy_film *film, size_t i)
 {
     size_t before = i > 0 ? i - 1 : 0, next = i + 1 < film->count ? i + 1 : i;
@@ -400,9 +402,9 @@ static double gradient(const ehl_energy_film *film, size_t i)
 }
 
 /*
- * Returns how far the gradient must be changed for the film to pass the mass that it is known to
- * pass. In a thick inlet two large flows nearly cancel, and a viscosity that has changed would
- * leave a flow of its own; where the flow hardly depends on the gradient, the gradient stays.
+ * Returns the change of the pressure gradient that gives the known mass flow. In a thick inlet two
+ * large flows nearly cancel, and a change of the viscosity alone would cause a spurious flow. Where
+ * the flow hardly depends on the gradient, the gradient is kept.
  */
 static double correction(const ehl_energy_film *film, double flow, double mobility, double p_x,
                          double carried, size_t i)
@@ -415,8 +417,8 @@ static double correction(const ehl_energy_film *film, double flow, double mobili
     return mobility > 0 ? trust * (flow - film->through[i]) / mobility : 0;
 }
 
-/* Computes velocities, mass flows and the coefficients that Reynolds' equation takes from them at
- * node i, with n nodes across. */
+/* Computes velocities, mass flows and the coefficients for Reynolds' equation at node i, with n
+   nodes across. */
 FF_SIMD_INLINE void flow_across(ehl_energy *e, const ehl_energy_film *film, size_t i, size_t n)
 {
     const ehl_across *a = &e->across;
@@ -466,7 +468,7 @@ FF_SIMD_INLINE void flow_across(ehl_energy *e, const ehl_energy_film *film, size
     e->reverse[i] = reverse != 0;
 }
 
-/* Passes the preset number of nodes across as a constant, which the compiler can use. */
+/* Passes the preset number of nodes across as a compile-time constant. */
 FF_SIMD
 static void flow_at(ehl_energy *e, const ehl_energy_film *film, size_t i)
 {

@@ -6,16 +6,17 @@
 #include <math.h>
 #include <string.h>
 
-/* A sweep over the columns, with the passage of the flanks from node to node. */
+/* A sweep over the columns, with the transfer of the flanks' temperature modes from node to
+   node. */
 typedef struct sweep {
     ehl_energy *e;
     const ehl_energy_film *film;
     const ehl_temperature *t;
-    ehl_passage passage[2], rest[2]; /* rest: at the last node, if no node is behind it */
+    ehl_passage passage[2], rest[2]; /* rest: at the last node, if there is no next node */
 } sweep;
 
-/* Transverse flow of mass rho (w - z h_x u - z h_t), kg/(m2 s), at the nodes: what the flow along x
-   does not carry off. */
+/* Computes the transverse mass flow rho (w - z h_x u - z h_t), kg/(m2 s), at the nodes. It follows
+   from the divergence of the flow along x. */
 FF_SIMD_INLINE void transverse_flow(const sweep *s, size_t i, size_t n, double *at)
 {
     const ehl_energy_film *film = s->film;
@@ -34,13 +35,14 @@ FF_SIMD_INLINE void transverse_flow(const sweep *s, size_t i, size_t n, double *
 }
 
 /* Computes the transverse transport. Where conduction does not smooth the transported temperature,
- * as in a thick inlet, the polynomial across the film would oscillate and no film would be found.
- * Its highest modes therefore get a conductance as large as the largest transport, which falls with
- * the third power of the number of nodes. Resolved temperatures do not have these modes, so that
- * the error still falls faster than any power. */
+   as in a thick inlet, the polynomial across the film would oscillate, and no film would be found.
+   Its highest modes therefore get a conductance as large as the largest transport. It decreases
+   with the third power of the number of nodes. Resolved temperatures do not contain these modes, so
+   that the error still decreases faster than any power. */
 FF_SIMD_INLINE void transverse_transport(const sweep *s, size_t i, size_t n, ehl_column *c)
 {
-    const double enough = 8.6; /* nodes; with 4 instead, no film is found at 20 m/s with 8 nodes */
+    const double enough = 8.6; /* number of nodes; with 4 instead, no film is found at 20 m/s
+                                  with 8 nodes */
     const ehl_energy *e = s->e;
     double at[EHL_ACROSS_MOST], most = 0, few = enough / (double)n;
     transverse_flow(s, i, n, at);
@@ -52,7 +54,8 @@ FF_SIMD_INLINE void transverse_transport(const sweep *s, size_t i, size_t n, ehl
 }
 
 /* Transport from one side of a column: (now T(i) - near T - far T_far)/dx, where T and T_far are
- * those of the next two columns on that side. It is of second order away from the ends. */
+   the temperatures of the next two columns on that side. It is of second order except near the
+   ends. */
 typedef struct side {
     double now, near, far;
     const double *T, *T_far;
@@ -79,7 +82,8 @@ FF_SIMD_INLINE double conductance_of(const sweep *s, size_t i)
            s->film->h[i];
 }
 
-/* Returns 1 over the mean slope of the shear rate over the stress; 0: that slope is 0. */
+/* Returns 1 over the mean derivative of the shear rate with respect to the stress, or 0 if that
+   mean is 0. */
 FF_SIMD_INLINE double per_mean_slope(const ehl_energy *e, size_t i, size_t n)
 {
     double mean = 0;
@@ -88,7 +92,8 @@ FF_SIMD_INLINE double per_mean_slope(const ehl_energy *e, size_t i, size_t n)
     return mean > 1e-290 ? 1 / mean : 0;
 }
 
-/* Sets `off` to the residuals of the equations of a column, without the flux into the flanks. */
+/* Sets `off` to the residuals of the equations of a column, without the heat flux into the
+   flanks. */
 FF_SIMD_INLINE void find_rest(const sweep *s, size_t i, size_t n, double *off)
 {
     const ehl_across *a = &s->e->across;
@@ -123,7 +128,7 @@ FF_SIMD_INLINE void subtract_row(size_t n, double share, const double *row, doub
 }
 
 /* Inverts a in place by Gauss-Jordan elimination with the largest pivot of each column. The padding
- * of its rows must hold numbers. 0: singular. */
+   of its rows must contain finite numbers. Returns 0 if a is singular. */
 FF_SIMD_INLINE int invert(size_t n, ehl_across_matrix a)
 {
     size_t from[EHL_ACROSS_MOST];
@@ -170,7 +175,7 @@ FF_SIMD_INLINE void renew(const sweep *s, size_t i, size_t n)
     const double *tau = e->tau + i * n, *gamma = e->gamma + i * n, *slope = e->gamma_tau + i * n,
                  *by_eta = e->gamma_eta + i * n, *ln_eta_T = e->ln_eta_T + i * n;
     double *to = e->inverse + i * n * n, by_stress[EHL_ACROSS_MOST], moved[EHL_ACROSS_MOST];
-    /* tau_m depends on the temperatures of the whole column, but not at the limiting stress */
+    /* tau_m depends on the temperatures of the whole column, except at the limiting stress */
     double moves = fabs(e->excess[i]) > 0 ? 0 : 1;
     double per = ehl_energy_touches(s->film, i) ? 0 : s->film->h[i] * per_mean_slope(e, i, n);
     ehl_across_matrix m;
@@ -195,10 +200,10 @@ FF_SIMD_INLINE void renew(const sweep *s, size_t i, size_t n)
     memcpy(e->inverted + (3 * i + 2) * n, c->level, n * sizeof *to);
 }
 
-/* Whether the equations of a column are close to those whose inverse is kept. Entries of the slope
- * matrix are at most n^2/2. Conduction, which is most of the diagonal of a thin film, does not
- * resist a change that is the same at all nodes across; only `level` does, so that its sum is held
- * to a tenth of `keep`. */
+/* Returns whether the equations of a column are close to those whose inverse is stored. Entries of
+   the slope matrix are at most n^2/2. Conduction is most of the diagonal of a thin film, but it
+   does not resist a change that is uniform across the film; only `level` does. The sum of the
+   changes is therefore limited to a tenth of `keep`. */
 FF_SIMD_INLINE int is_inverted(const sweep *s, size_t i, size_t n)
 {
     const ehl_column *c = &s->e->column[i];
@@ -216,9 +221,9 @@ FF_SIMD_INLINE int is_inverted(const sweep *s, size_t i, size_t n)
     return !other && moved <= level_share * keep * fabs(all) && keep > 0;
 }
 
-/* Prepares storage, transport along x, compression, and the dissipation or the friction of
- * asperities, which does not depend on their temperature. The diagonal has all slopes over
- * temperature except those by tau_m. */
+/* Prepares storage, transport along x, compression, and either dissipation or the friction of
+   asperities, which does not depend on their temperature. The diagonal includes all derivatives
+   with respect to temperature except those through tau_m. */
 FF_SIMD_INLINE void prepare_column(const sweep *s, size_t i, size_t n)
 {
     const ehl_energy *e = s->e;
@@ -260,7 +265,7 @@ FF_SIMD_INLINE void prepare_column(const sweep *s, size_t i, size_t n)
 }
 
 /* Prepares and inverts the equations of a column. The preset number of nodes is passed as a
- * constant, which the compiler can use. */
+   compile-time constant. */
 FF_SIMD
 static void prepare(const sweep *s, size_t i)
 {
@@ -270,20 +275,20 @@ static void prepare(const sweep *s, size_t i)
         prepare_column(s, i, s->e->across.count);
 }
 
-/* Whether flank g moves towards the first node. */
+/* Returns whether flank g moves towards the first node. */
 static int is_backward(const sweep *s, size_t g)
 {
     return s->film->speed[g] < 0;
 }
 
-/* Returns the passage of flank g to node i. */
+/* Returns the coefficients of flank g from its previous node to node i. */
 static const ehl_passage *passage_to(const sweep *s, size_t g, size_t i)
 {
     return is_backward(s, g) && i + 1 >= s->e->nodes ? &s->rest[g] : &s->passage[g];
 }
 
-/* Computes the modes of flank g at node i without the flux there. Returns the temperature that they
- * give the flank. */
+/* Computes the modes of flank g at node i without the heat flux there. Returns the flank
+   temperature that follows from them. */
 static double flank_at(const sweep *s, size_t g, size_t i)
 {
     const ehl_energy *e = s->e;
@@ -297,10 +302,10 @@ static double flank_at(const sweep *s, size_t g, size_t i)
                                           modes + i * n);
 }
 
-/* Changes the temperatures of a column, unless the change is no number. */
+/* Changes the temperatures of a column, unless the change is not finite. */
 FF_SIMD_INLINE void change_temperatures(sweep *s, size_t i, size_t n, const double *by)
 {
-    const double most = 100; /* K by which a sweep changes a temperature */
+    const double most = 100; /* largest change of a temperature in a sweep, K */
     const double weight = s->film->weight ? s->film->weight[i] : 1;
     ehl_energy *e = s->e;
     const double *ln_eta_T = e->ln_eta_T + i * n;
@@ -328,8 +333,8 @@ FF_SIMD_INLINE void change_temperatures(sweep *s, size_t i, size_t n, const doub
     e->change = change;
 }
 
-/* Solves for the temperatures of a column. On the way back (`returns`) the flanks have the
- * temperature, without the flux at the node, that the last sweep left. */
+/* Solves for the temperatures of a column. On the way back (`returns`), the temperature of the
+   flanks without the flux at the node is that of the last sweep. */
 FF_SIMD_INLINE void solve_across(sweep *s, size_t i, size_t n, int returns)
 {
     ehl_energy *e = s->e;
@@ -360,7 +365,7 @@ static void solve_column(sweep *s, size_t i, int returns)
         solve_across(s, i, s->e->across.count, returns);
 }
 
-/* Moves the oil along where there is no film; it keeps its temperature. */
+/* Transports the oil where there is no film; it keeps its temperature. */
 static void carry_column(sweep *s, size_t i)
 {
     const ehl_energy *e = s->e;
@@ -398,8 +403,8 @@ static int is_film(const sweep *s, size_t i)
     return i < s->film->count && s->film->full[i];
 }
 
-/* Columns with reverse flow are first solved against the entrainment, since the temperature of that
- * oil comes from downstream. */
+/* Columns with reverse flow are first solved in the direction against the entrainment, since the
+   temperature of that oil comes from downstream. */
 void ehl_energy_sweep(ehl_energy *e, const ehl_energy_film *film, const ehl_temperature *t)
 {
     sweep s = {.e = e, .film = film, .t = t};

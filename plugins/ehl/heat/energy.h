@@ -1,22 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Temperature and flow across a film, for a film whose pressure and gap are held:
- *
+ * Temperature and flow across a film with given pressure and gap:
  *   rho c (dT/dt + u dT/dx + w dT/dz) = k d2T/dz2 - (T/rho)(d rho/dT)(dp/dt + u dp/dx) + tau du/dz
  *   tau = tau_m + (z - h/2) dp/dx,  u = u_1 at z = 0 and u_2 at z = h,  |tau_m| <= limiting stress
  *   du/dz = rate(tau_s) + (d rate/d tau)(tau_s) (tau - tau_s),  int rate(tau_s) dz = u_2 - u_1
- *
- * with k(p), in zeta = z/h at the nodes of across.h, in weak form, so that the flux into the flanks
- * is the natural condition; along x by differences of second order from where the oil comes. w
- * follows from the balance of mass. The rates are taken at tau_s, as the mobility of the isothermal
- * film is: where all the film has one temperature the flow is the same. Oil that enters has the
- * temperature T_in, and so have flanks that have not been in the contact. Where there is no film
- * the oil carries on as it is, and no heat flows.
- *
- * The nodes of rough flanks move with the mean speed of the flanks. u is then the speed beyond it,
- * of oil and flanks, changes in time are those along the path, and the equations are the same; oil
- * and flanks come from both sides. Where asperities are in contact their friction is the heat of
- * the oil between them: it has nearly one temperature, and so have both flanks.
+ * The conductivity k depends on p. Across the film the equations are solved in weak form in zeta =
+ * z/h, at the nodes of across.h, so that the heat flux into the flanks is the natural boundary
+ * condition. Along x they use second-order upwind differences. w follows from the balance of mass.
+ * The rates are evaluated at tau_s, like the mobility of the isothermal film: if the film has one
+ * temperature, the flow is the same. Oil that enters has the temperature T_in, and so have flanks
+ * before they enter the contact. Where there is no film, the oil moves without change and without
+ * heat flow.
+ * The nodes of rough flanks move with the mean speed of the flanks. Then u is the speed relative to
+ * the nodes, changes in time are those along the path of the nodes, and the equations are the same;
+ * oil and flanks enter from both sides. Where asperities are in contact, their friction heats the
+ * oil between them. That oil and both flanks have nearly the same temperature.
  */
 #ifndef EHL_ENERGY_H
 #define EHL_ENERGY_H
@@ -28,22 +26,24 @@
 
 /* The film at one instant. */
 typedef struct ehl_energy_film {
-    size_t count; /* nodes that pressure can reach */
+    size_t count; /* number of nodes that pressure can reach */
     double dx, rate;
-    double speed[2]; /* of the flanks, along the nodes */
-    double frame;    /* of the nodes, along the film: 0, or the mean speed of the flanks */
+    double speed[2]; /* speed of the flanks, along the nodes */
+    double frame;    /* speed of the nodes along the film: 0, or the mean speed of the flanks */
     const double *p, *h;
     const double *p_t;             /* dp/dt; NULL: steady */
-    const double *through;         /* mass that passes, kg/(m s), nodes; NULL: dp/dx is held */
+    const double *through;         /* mass flow, kg/(m s), at the nodes; NULL: dp/dx is given
+                                      instead */
     const unsigned char *full;     /* 1: the film is full */
-    const unsigned char *asperity; /* 1: asperities are in contact; NULL: none are */
-    const double *friction; /* heat of asperities, W/m2, nodes; 0 where none touch; NULL: nowhere */
-    const double *weight;   /* how much a change at a node matters to the film; NULL: 1 */
-    const double *past;     /* dT/dt = rate T + past; NULL: steady */
-    const double *past_modes[2]; /* the same of the modes of both flanks */
+    const unsigned char *asperity; /* 1: asperities are in contact; NULL: nowhere */
+    const double *friction;        /* friction heat of asperities, W/m2, at the nodes; 0 where none
+                                      touch; NULL: nowhere */
+    const double *weight;          /* weight of a change at a node; NULL: 1 */
+    const double *past;            /* dT/dt = rate T + past; NULL: steady */
+    const double *past_modes[2];   /* the same for the temperature modes of both flanks */
 } ehl_energy_film;
 
-/* 1: asperities are in contact at node i, and carry p. */
+/* Returns 1 if asperities are in contact at node i and carry p. */
 static inline int ehl_energy_touches(const ehl_energy_film *film, size_t i)
 {
     return film->asperity && film->asperity[i];
@@ -51,20 +51,23 @@ static inline int ehl_energy_touches(const ehl_energy_film *film, size_t i)
 
 /* The unknowns of one instant. */
 typedef struct ehl_temperature {
-    double *T;        /* K, nodes x across */
-    double *modes[2]; /* of the flanks, nodes x their count */
+    double *T;        /* K, for each node and each place across */
+    double *modes[2]; /* modes of the flanks, for each node */
 } ehl_temperature;
 
-/* Coefficients of the equations of one column. */
+/* Coefficients of the equations of one column of nodes. */
 typedef struct ehl_column {
-    double damped;                /* conductance of the highest modes across, W/(m2 K) */
-    double lift[EHL_ACROSS_MOST]; /* transverse transport by the slope at the node */
-    /* transport along the nodes, from the column before and from the one behind */
+    double damped;                /* conductance of the highest modes across the film, W/(m2 K) */
+    double lift[EHL_ACROSS_MOST]; /* transverse transport, multiplied by the slope at the node */
+    /* transport along the nodes, from the previous and from the next column */
     double on[EHL_ACROSS_MOST], back[EHL_ACROSS_MOST];
-    double own[EHL_ACROSS_MOST]; /* storage, transport and compression, by the temperature here */
+    double own[EHL_ACROSS_MOST];      /* storage, transport and compression, multiplied by the
+                                         temperature here */
     double source[EHL_ACROSS_MOST];   /* heat produced, and storage by earlier instants */
-    double level[EHL_ACROSS_MOST];    /* resists a change that is one across, without tau_m */
-    double diagonal[EHL_ACROSS_MOST]; /* level, and what resists differences across */
+    double level[EHL_ACROSS_MOST];    /* resistance to a temperature change that is uniform
+                                         across the film, without tau_m */
+    double diagonal[EHL_ACROSS_MOST]; /* level, plus the resistance to temperature differences
+                                         across the film */
 } ehl_column;
 
 typedef struct ehl_energy {
@@ -73,57 +76,68 @@ typedef struct ehl_energy {
     ehl_laws laws;
     const ff_rheology_2 *flow; /* NULL: Newtonian */
     double conductivity, heat_capacity, T_in;
-    ehl_conductivity_rise conducts; /* of the conductivity over p */
+    ehl_conductivity_rise conducts; /* increase of the conductivity with p */
     ehl_half_space flank[2];
     double *memory;
-    /* nodes x across */
+    /* for each node and each place across */
     double *p, *ln_eta, *rho, *tau, *gamma, *u, *through;
-    double *gamma_tau, *gamma_eta; /* slopes of the shear rate by tau and by ln(eta) */
-    ehl_column *column;            /* nodes */
-    double *base[2];  /* temperature of the flanks without the flux at the node, over T_in, nodes */
-    double *inverse;  /* of the equations of each node, nodes x across^2 */
-    double *inverted; /* the coefficients at the last inversion: diagonal, lift, level */
-    double keep;      /* change of these, over the diagonal, up to which the inverse is kept */
-    double *called_p, *called_T; /* where the laws were called last; T = 0: nowhere yet */
-    double *called_ln_eta, *ln_eta_p, *ln_eta_T, *called_rho, *rho_p, *rho_T; /* what they gave */
-    double *bend;   /* curvature of ln(eta), by its own first-order change since the last call */
+    double *gamma_tau, *gamma_eta; /* derivatives of the shear rate with respect to tau and to
+                                      ln(eta) */
+    ehl_column *column;            /* one per node */
+    double *base[2];  /* temperature of the flanks without the flux at the node, minus T_in, at
+                         the nodes */
+    double *inverse;  /* inverse of the equations of each node, nodes x across^2 */
+    double *inverted; /* coefficients at the last inversion: diagonal, lift, level */
+    double keep;      /* an inverse is kept up to this change of its coefficients, relative to
+                         the diagonal */
+    double *called_p, *called_T; /* arguments of the last evaluation of the laws; T = 0: not yet
+                                    evaluated */
+    /* results of that evaluation */
+    double *called_ln_eta, *ln_eta_p, *ln_eta_T, *called_rho, *rho_p, *rho_T;
+    double *bend;   /* curvature of ln(eta) with respect to its first-order change since the last
+                       evaluation */
     double *before; /* ln(eta) of the last flow */
-    /* nodes */
-    int guessed;            /* tau_m has been computed before; 0: guess it first */
-    double *tau_m;          /* tau_s, Pa, the stress without dp/dx, whose rates are the flow */
-    double *excess;         /* part of tau_m beyond the limiting stress: tau lacks it, Pa */
-    double *p_x;            /* Pa/m, of the flow */
-    double *mobility;       /* -d(flow of mass)/d(dp/dx), kg s/m2 m: f of the tangent */
+    /* one value per node */
+    int guessed;            /* whether tau_m has been computed before; 0: it must be guessed
+                               first */
+    double *tau_m;          /* tau_s, Pa: the stress without dp/dx, whose rates give the flow */
+    double *excess;         /* part of tau_m beyond the limiting stress, by which tau is smaller,
+                               Pa */
+    double *p_x;            /* pressure gradient of the flow, Pa/m */
+    double *mobility;       /* -d(mass flow)/d(dp/dx), kg s/m2 m; it is the mobility f of the
+                               linearised flow */
     double *mass;           /* rho h, kg/m2 */
-    double *carried;        /* mass that flows without dp/dx, over the entrainment, kg/m2 */
-    double *flux[2];        /* into the flanks, W/m2 */
+    double *carried;        /* mass flow without dp/dx, over the entrainment, kg/m2 */
+    double *flux[2];        /* heat flux into the flanks, W/m2 */
     unsigned char *reverse; /* 1: oil flows towards the first node */
     unsigned char *there;   /* 1: tau_m has been found */
-    double highest, lowest; /* K, bounds of the temperatures that the laws are called with */
-    double reach;           /* change of ln(eta) up to which laws are followed by their slopes */
-    double damping;         /* of the highest modes across, over the usual one */
-    double share;           /* of the change of each temperature that a sweep takes */
-    double change;          /* largest change of ln(eta) by the last sweep, weighted */
+    double highest, lowest; /* bounds of the temperatures with which the laws are evaluated, K */
+    double reach;           /* change of ln(eta) up to which the laws are extrapolated */
+    double damping;         /* conductance of the highest modes across the film, over the usual
+                               value */
+    double share;           /* share of the change of each temperature that a sweep takes */
+    double change;          /* largest change of ln(eta) in the last sweep, weighted */
     ff_status law_status;
 } ehl_energy;
 
 ff_status ehl_energy_create(ehl_energy *e, size_t nodes, size_t across);
 void ehl_energy_destroy(ehl_energy *e);
 
-/* Forgets all that is kept of other films. */
+/* Removes everything stored about other films. */
 void ehl_energy_restart(ehl_energy *e);
 
-/* Computes all of e at these temperatures except the fluxes: the laws and the flow across the film.
- */
+/* Computes all members of e at these temperatures except the fluxes: the laws and the flow across
+   the film. */
 void ehl_energy_flow(ehl_energy *e, const ehl_energy_film *film, const double *T);
 
-/* One sweep of Newton's method for the temperatures. The dissipation is linearised with tau_m
- * within each column; all else is linear. A sweep takes `share` of the change, and keeps inverses
- * whose equations have changed by less than `keep`. The flow must be that of the temperatures. */
+/* Performs one sweep of Newton's method for the temperatures. Within each column the dissipation is
+   linearised, including tau_m; all other terms are linear. A sweep takes `share` of the change, and
+   reuses inverses whose equations have changed by less than `keep`. The flow must be that of the
+   current temperatures. */
 void ehl_energy_sweep(ehl_energy *e, const ehl_energy_film *film, const ehl_temperature *t);
 
-/* Heat per width of the film, W/m, by the equations that are solved; their sum is what the solution
- * has left unbalanced. */
+/* Heat per width of the film, W/m, from the equations that are solved. Its sum is the remaining
+   imbalance of the solution. */
 typedef struct ehl_energy_sums {
     double shear, compression, asperities, stored, carried, flank[2];
 } ehl_energy_sums;

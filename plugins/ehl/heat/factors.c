@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Factors by which the temperatures across a film change its flow, and their iteration for a steady
- * film. */
+/* Factors by which the temperatures across a film change its flow, and their fixed-point iteration
+   for a steady film. */
 #include "thermal.h"
 
 #include <math.h>
 
-/* Returns the factors in a state: of mobility, density and carried mass. */
+/* Returns the factors stored in a state: of mobility, density and transported mass. */
 double *ehl_thermal_factors(const ehl_thermal *t, double *heat)
 {
     return heat + t->width - EHL_THERMAL_FACTORS * t->energy.nodes;
 }
 
 /* Sets the weights of changes along a steady film. A relative error of the viscosity changes the
- * pressure there by the same share, and the film by at most alpha times that change of pressure.
- * The weight is therefore small where pressure begins: vortices of oil that flows back and forth
- * there take thousands of sweeps to their last digits, which the film does not feel. It does not
- * fall again behind the contact. */
+   pressure there by the same share, and the film by at most alpha times that change of pressure.
+   The weight is therefore small where pressure begins: vortices of oil that flows back and forth
+   there need thousands of sweeps to converge to the last digits, which do not affect the film.
+   Behind the contact the weight does not decrease. */
 void ehl_thermal_weigh(const ehl_thermal *t, const ehl_reynolds *r, const ehl_film *film)
 {
     double most = 0;
@@ -25,9 +25,10 @@ void ehl_thermal_weigh(const ehl_thermal *t, const ehl_reynolds *r, const ehl_fi
     }
 }
 
-/* Sets the factors behind the nodes that pressure can reach. The oil of the void there keeps its
- * density while it moves with u_r. If its density changed at once the void would gain mass, more
- * than its opening gap takes, and would fill. The carried mass is that of the last node. */
+/* Sets the factors after the nodes that pressure can reach. The oil next to the void there keeps
+   its density while it moves with u_r. If its density changed at once, the void would gain more
+   mass than its opening gap holds, and would fill. The transported mass is that of the last
+   node. */
 static void leave_behind(const ehl_thermal *t, const ehl_energy_film *f, size_t n, double *next)
 {
     const double *past = f->past ? t->past + t->width - (EHL_THERMAL_FACTORS - 1) * n : NULL;
@@ -41,8 +42,8 @@ static void leave_behind(const ehl_thermal *t, const ehl_energy_film *f, size_t 
 }
 
 /*
- * Computes the factors of the flow across the film. Returns by how much they change the flow
- * of mass, at most, relative to what the flanks carry along, weighted.
+ * Computes the factors from the flow across the film. Returns the largest change of the mass flow
+ * that they cause, relative to the mass transported with the flanks, weighted.
  */
 double ehl_thermal_find_factors(ehl_thermal *t, const ehl_reynolds *r, const ehl_energy_film *f,
                                 const ehl_film *film, double *next)
@@ -72,9 +73,10 @@ double ehl_thermal_find_factors(ehl_thermal *t, const ehl_reynolds *r, const ehl
     return most;
 }
 
-/* Accelerates the factors of a steady film by those of earlier rounds (Anderson). If one layer
- * takes all the shear of the oil, the factors make waves of a few cells in h, and these waves make
- * such factors: plain rounds diverge, however small a share of the change they take. */
+/* Accelerates the factors of a steady film with those of earlier rounds (Anderson). If a thin layer
+   takes all the shear of the oil, the factors cause waves of a few cells in h, and these waves
+   cause such factors. Rounds without acceleration then diverge, however small a share of the change
+   they take. */
 void ehl_thermal_accelerate(ehl_thermal *t, size_t count, double *next)
 {
     size_t n = t->energy.nodes;

@@ -8,9 +8,10 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* The error of the trapezoidal rule, relative, is 2 |Gamma(1/2 + 2 pi i/STEP)|/sqrt(pi): 3e-4. */
+/* Step of the trapezoidal rule. Its relative error is 2 |Gamma(1/2 + 2 pi i/STEP)|/sqrt(pi):
+   3e-4. */
 static const double STEP = 1.05;
-/* How far the modes go beyond both times: the ends are exact to the second moment. */
+/* How far the modes extend beyond both times. The ends are exact to the second moment. */
 static const double FASTER = 12, SLOWER = 0.15;
 
 void ehl_half_space_create(ehl_half_space *f, double B, double shortest, double longest)

@@ -11,9 +11,10 @@
 /* Most solutions for the film of one instant. */
 enum { MOST_ROUNDS = 30 };
 
-/* Relative change of the pressure flow in the inlet below which film and heat have settled. It is
- * at most the relative change of rho h at the highest pressure times 1 - R. A steady film begins
- * without heat and takes many rounds; a step begins next to its solution. */
+/* Film and heat have converged if the relative change of the pressure flow in the inlet is below
+   this. That change is at most the relative change of rho h at the highest pressure times 1 - R.
+   A steady film begins without heat and takes many rounds; a time step begins close to its
+   solution. */
 static const double settled = 1e-4, settled_steady = 1e-5;
 
 ff_status ehl_heat_create(ehl_heat *heat, size_t nodes, double conductivity)
@@ -36,11 +37,11 @@ void ehl_heat_destroy(ehl_heat *heat)
     heat->memory = NULL;
 }
 
-/* Multiples of -a between which the inlet ends. */
+/* Multiples of -a between which the exponent of R falls from 1 to 0. */
 static const double BEGIN = 1.05, END = 0.95;
 
 /* Returns the next node at which the ratio is computed. The ratio varies over the distance to the
- * edge of the contact, at x = -a, and is interpolated linearly between these nodes. */
+   edge of the contact (x = -a). Between these nodes it is interpolated linearly. */
 static size_t next_place(const ehl_reynolds *r, size_t i, double a)
 {
     const double outside = 4, share = 1. / 8;
@@ -58,9 +59,9 @@ static void set_between(double *ease, size_t from, size_t to, double left, doubl
         ease[i] = left + rise * (double)(i - from);
 }
 
-/* Computes `ease` = R^-s in the inlet. The exponent s is 1, and falls to 0 between BEGIN and END
- * times -a, at the edge of the contact, so that no node has a jump. Further on the flanks no longer
- * have the same temperature. r has the gap of the film. */
+/* Computes `ease` = R^-s in the inlet. The exponent s is 1 and falls to 0 between BEGIN and END
+   times -a, at the edge of the contact, so that there is no jump. Further downstream the flanks no
+   longer have equal temperatures. r contains the gap of the film. */
 static void ease_inlet(ehl_heat *heat, const ehl_march *m, const ehl_step *step,
                        const ehl_film *film)
 {
@@ -101,7 +102,7 @@ static void ease_inlet(ehl_heat *heat, const ehl_march *m, const ehl_step *step,
     heat->least = fmin(heat->least, heat->ratio);
 }
 
-/* Returns rho h at the highest pressure; 0 without pressure. r has the gap of the film. */
+/* Returns rho h at the highest pressure, or 0 without pressure. r contains the gap of the film. */
 static double mass_at_peak(const ehl_reynolds *r, const ehl_film *film)
 {
     const ff_density *law = r->laws.density;
@@ -116,8 +117,8 @@ static double mass_at_peak(const ehl_reynolds *r, const ehl_film *film)
     return rho * fmax(r->h[peak], r->floor);
 }
 
-/* Computes the heat of the film, unless it has settled after the first round. Returns 1 if it has.
- */
+/* Computes the heat of the film, unless it has converged after the first round. Returns 1 if it
+   has. */
 static int update(ehl_heat *heat, const ehl_march *m, const ehl_step *step, const ehl_film *film,
                   int first)
 {
@@ -158,11 +159,11 @@ void ehl_heat_report(const ehl_heat *heat, const ff_host *host)
     const double end = expm1((EHL_HEAT_TABLE - 1) * EHL_HEAT_STEP);
     char text[192];
     snprintf(text, sizeof text,
-             "least pressure gradient of the inlet over that without heat, thermal: inlet; %.3g "
-             "solutions per instant",
+             "smallest pressure gradient of the inlet over that without heat, with thermal: "
+             "inlet; %.3g solutions per instant",
              heat->rounds / fmax(heat->solved, 1));
     host->quality(host->ctx, "inlet_heat", heat->least, 0, FF_GOOD, text);
     if (heat->most > end)
         host->quality(host->ctx, "inlet_heat_range", heat->most, end, FF_RANGE,
-                      "largest of F and S, beyond the table of the heated channel");
+                      "largest of F and S is outside the table of the heated channel");
 }

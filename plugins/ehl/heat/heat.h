@@ -1,26 +1,28 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The heat of the film in a march. Its effect on the flow is held while the film of an instant is
- * solved for, and computed anew from that film, until neither changes. */
+/* The heat of the film in a march. While the film of an instant is solved for, the effect of heat
+   on the flow is kept constant. It is then recomputed from that film, until film and heat no longer
+   change. */
 #ifndef EHL_HEAT_H
 #define EHL_HEAT_H
 
 #include "../equations/march.h"
 
 typedef struct ehl_heat {
-    double conductivity; /* of the oil, W/(m K) */
-    double *ease;        /* of the nodes: psi over that of the laws at the oil's temperature */
+    double conductivity; /* conductivity of the oil, W/(m K) */
+    double *ease;        /* at the nodes: fluidity psi over that of the laws at the oil's
+                            temperature */
     double *memory, *room;
     double middle;         /* kg/m2, rho h at the highest pressure of the film that gave `ease` */
-    double ratio;          /* least ratio of that film upstream of the contact */
-    double least, most;    /* of all films: least ratio in the inlet, and largest F or S */
-    double rounds, solved; /* counts: solutions for a film, and instants */
+    double ratio;          /* smallest ratio R of that film upstream of the contact */
+    double least, most;    /* over all films: smallest ratio in the inlet, and largest F or S */
+    double rounds, solved; /* numbers of solutions for a film, and of instants */
     ff_status law_status;
 } ehl_heat;
 
 ff_status ehl_heat_create(ehl_heat *heat, size_t nodes, double conductivity);
 void ehl_heat_destroy(ehl_heat *heat);
 
-/* Solves for the film of `step` as solver->solve does, with the heat of the march. */
+/* Solves for the film of `step` like solver->solve, including the heat of the march. */
 ff_status ehl_heat_solve(ehl_march *m, const ehl_step *step, ehl_film *film, double time,
                          int limit);
 

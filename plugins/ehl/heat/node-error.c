@@ -1,25 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Estimates the error by the number of nodes across a film. The temperatures and the flow are
- * computed again with one and a half times as many nodes, at the same pressure and gap; the change
- * is the error of the fewer nodes. Since the error falls faster than any power of their number, the
- * change has nearly all of it. */
+/* Estimates the error due to the number of nodes across a film. Temperatures and flow are
+   recomputed with one and a half times as many nodes, at the same pressure and gap. The change is
+   the estimated error: since the error decreases faster than any power of the number of nodes,
+   nearly all of it is in the change. */
 #include "thermal.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Sweeps on the other nodes, which begin at the temperatures of the film. */
+/* Number of sweeps on the other nodes, starting from the temperatures of the film. */
 enum { SWEEPS = 20 };
 
-/* Another instant is checked if its temperature rise exceeds the highest one checked by this
- * factor. */
+/* A further instant is checked if its temperature rise exceeds that of the instants checked so far
+   by this factor. */
 static const double HOTTER = 1.1;
 
-/* Returns the relative error of the film or its friction if the flow is `now` instead of `then`.
- * The film is made where exp(-alpha p) falls from 1 to 0 in the inlet (as 13.6), so that an error
- * of the mobility at a node counts by its part of this fall. The oil behind carries the film off
- * and has the friction. */
+/* Returns the relative error of the film, or of its friction, if the flow changes from `then` to
+   `now`. The film forms where exp(-alpha p) falls from 1 to 0 in the inlet (as in 13.6). An error
+   of the mobility at a node therefore has the weight of that node's part of this fall. The friction
+   arises in the oil downstream. */
 static double change_of_film(const ehl_energy *now, const ehl_energy *then,
                              const ehl_energy_film *f, double alpha)
 {
@@ -41,13 +41,13 @@ static double change_of_film(const ehl_energy *now, const ehl_energy *then,
     return film + fmax(carried, drag);
 }
 
-/* Returns one and a half times as many nodes, or a quarter fewer if there is no room for more. */
+/* Returns one and a half times the number of nodes, or three quarters of it if that is too many. */
 static size_t other_nodes(size_t n)
 {
     return n + n / 2 <= EHL_ACROSS_MOST ? n + n / 2 : n - n / 4;
 }
 
-/* Returns the error by the number of nodes across; infinite: it is not known. */
+/* Returns the error due to the number of nodes across, or infinity if it is not known. */
 static double error_of(ehl_energy *other, const ehl_energy *e, const ehl_energy_film *f,
                        const ehl_temperature *film, double alpha)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Checks the heat of a film, and records how far it can be trusted. */
+/* Checks the heat balance of a film, and writes the quality lines of its temperatures. */
 #include "thermal.h"
 
 #include "../contact/lanes.h"
@@ -25,14 +25,15 @@ double ehl_thermal_pressure_flow(const ehl_march *m)
     return sum * r->dx;
 }
 
-/* Returns the heat that a flank of a steady film has taken up to node `end`, from its temperature
- * alone: B sqrt(u/pi) int (T - T_bulk)/sqrt(x_end - x) dx, T linear between the nodes. */
+/* Returns the heat that a flank of a steady film has absorbed up to node `end`, computed from its
+   temperature alone: B sqrt(u/pi) int (T - T_bulk)/sqrt(x_end - x) dx, with T linear between the
+   nodes. */
 static double taken_by_flank(const ehl_thermal *t, size_t flank, const double *T, size_t stride,
                              double dx, double u, size_t end)
 {
     double sum = 0, B = 1 / (t->energy.flank[flank].scale * sqrt(pi));
     for (size_t i = 0; i < end; i++) {
-        /* over a cell from `far` to `near` cells upstream of the end */
+        /* integral over the cell between `far` and `near` cells upstream of the end */
         double near = (double)(end - i - 1), far = near + 1, whole = 2 * (sqrt(far) - sqrt(near));
         double tilt = far * whole - 2. / 3 * (far * sqrt(far) - near * sqrt(near));
         double left = T[i * stride] - t->energy.T_in, right = T[(i + 1) * stride] - t->energy.T_in;
@@ -41,7 +42,8 @@ static double taken_by_flank(const ehl_thermal *t, size_t flank, const double *T
     return sum * B * sqrt(u * dx / pi);
 }
 
-/* Returns the heat that the oil carries past node i, beyond that of oil as it entered. */
+/* Returns the heat that the oil transports past node i, relative to oil at the inlet
+   temperature. */
 static double carried_past(const ehl_energy *e, const double *T, size_t i)
 {
     const ehl_across *a = &e->across;
@@ -51,9 +53,10 @@ static double carried_past(const ehl_energy *e, const double *T, size_t i)
     return sum * e->heat_capacity;
 }
 
-/* Balances the heat of a steady film by other sums: the heat dissipated by the forces on the flanks
- * and by the pressure flow, the heat that the oil carries out of the film, and the heat that the
- * flanks have taken up, by their temperature. The imbalance falls with the cells. */
+/* Balances the heat of a steady film with independent sums: the heat dissipated by the forces on
+   the flanks and by the pressure flow, the heat that the oil transports out of the film, and the
+   heat that the flanks have absorbed according to their temperature. The imbalance decreases with
+   the cell size. */
 static double steady_balance(const ehl_march *m, const ehl_energy_film *f,
                              const ehl_energy_sums *sum)
 {
@@ -106,14 +109,14 @@ void ehl_thermal_report(const ehl_thermal *t, const ff_host *host, const ehl_mar
 {
     const double enough = 0.05, limit = 10 * fmax(m->solver->tolerance, 1e-4), slow = 5;
     char text[200];
-    /* reported first, since it explains a film whose temperature is cut */
+    /* reported first, since it explains a film whose temperature is limited */
     host->quality(host->ctx, "temperature_max", t->highest, t->energy.highest,
                   t->highest < t->energy.highest ? FF_GOOD : FF_BAD,
-                  "highest temperature of the film, K, below that at which it is cut");
+                  "highest temperature of the film, K; it must be below the limit at which "
+                  "temperatures are cut");
     snprintf(text, sizeof text,
-             "heat of shear, compression and asperities, less that of the oil and both flanks, "
-             "over it, thermal: "
-             "full; %.3g solutions per instant",
+             "heat of shear, compression and asperities minus the heat taken by the oil and both "
+             "flanks, relative, with thermal: full; %.3g solutions per instant",
              t->rounds / fmax(t->solved, 1));
     host->quality(host->ctx, "heat_balance", t->unbalanced, limit,
                   t->unbalanced <= limit  ? FF_GOOD
@@ -123,9 +126,8 @@ void ehl_thermal_report(const ehl_thermal *t, const ff_host *host, const ehl_mar
     if (!m->rough) {
         const double off = t->by_nodes;
         snprintf(text, sizeof text,
-                 "estimate of the error of the film and its friction by the nodes across, at its "
-                 "hottest; "
-                 "there are %zu thermal_nodes%s",
+                 "estimated error of the film and its friction due to the number of nodes "
+                 "across, at the hottest instant; thermal_nodes is %zu%s",
                  t->energy.across.count, off <= enough ? "" : ": use more of them");
         host->quality(host->ctx, "node_error", off, enough, off <= enough ? FF_GOOD : FF_DOUBTFUL,
                       text);
@@ -133,11 +135,12 @@ void ehl_thermal_report(const ehl_thermal *t, const ff_host *host, const ehl_mar
     if (m->history->count == 1 && !m->rough)
         host->quality(host->ctx, "heat_of_flanks", t->elsewise, 0.02,
                       t->elsewise <= 0.02 ? FF_GOOD : FF_DOUBTFUL,
-                      "the same with the flanks' share by their temperature, the oil's by what "
-                      "leaves the film, the shear by the forces");
+                      "the same balance from independent sums: heat of the flanks from their "
+                      "temperature, of the oil from what leaves the film, of the shear from the "
+                      "forces");
     host->quality(
         host->ctx, "flank_peclet", t->least_peclet, slow,
         t->least_peclet >= slow ? FF_GOOD : FF_RANGE,
-        "u a rho c/k of the flank that has less: below it heat spreads along it, which is "
-        "left out");
+        "smallest u a rho c/k of the flanks: below the limit heat spreads along the flank, which "
+        "the model neglects");
 }

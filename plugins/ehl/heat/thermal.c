@@ -11,15 +11,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Least factor that a prediction may give; the largest is 1 over it. */
+/* Smallest factor that a prediction may give. The largest is the reciprocal. */
 static const double LEAST_FACTOR = 1e-3;
 
-/* Most rounds for the film of one instant; most sweeps in a round of a step and of a steady film;
- * sweeps that always take the whole change; and most idle rounds, in which the factors have settled
- * but the temperatures have not. A sweep that hesitates alternates between two states, and half of
- * its change lies between them. Along the nodes of rough flanks the oil of one flank flows against
- * that of the other, so that in a thin film whole sweeps may diverge: after a round that did not
- * converge, all sweeps of this instant take half of what they took. */
+/* Limits: rounds for the film of one instant; sweeps in a round of a time step, and in one of a
+   steady film; sweeps that always take the whole change; idle rounds, in which the factors have
+   converged but the temperatures have not. A sweep that stagnates alternates between two states,
+   and half of its change lies between them. Along the nodes of rough flanks the oil of one flank
+   flows against that of the other, so that in a thin film whole sweeps may diverge. After a round
+   that did not converge, all sweeps of the instant take half of the share that they took before. */
 enum {
     MOST_ROUNDS = 80,
     MOST_PASSES = 8,
@@ -29,36 +29,37 @@ enum {
     FACTORS = EHL_THERMAL_FACTORS
 };
 static const double SHARE_THAT_HESITATES = 0.5, LEAST_SWEEP = 0.125;
-/* A sweep of a steady film hesitates if its change is above this share of the change before. */
+/* A sweep of a steady film stagnates if its change is above this share of the previous change. */
 static const double SLOW_SWEEP = 0.9;
 
-/* The factors have settled if they change the flow of mass by less than this, relative; h changes
- * by about as much. A steady film begins without heat, a step next to its solution. A tenth of the
- * bound of rough films moves h_min of ten random ones by 1.6e-3 at most, of eight by less than
- * 3e-4, and friction by less than 3.3e-4 of its largest. */
+/* The factors have converged if they change the mass flow by less than this share; h changes by
+   about the same share. A steady film begins without heat, a time step close to its solution. A
+   tenth of the bound for rough films changes h_min of ten random ones by at most 1.6e-3, of eight
+   by less than 3e-4, and friction by less than 3.3e-4 of its largest value. */
 static const double SETTLED = 1e-4, SETTLED_STEADY = 1e-5, SETTLED_ROUGH = 1e-3;
 /* Rounds of a steady film before its factors are accelerated, and the share of their change that is
- * then mixed in. */
+   mixed in then. */
 static const int PLAIN_ROUNDS = 12;
 static const double MIXED = 0.5;
-/* While changes do not shrink by this factor, a smaller share of them is taken, down to a least
- * one. */
+/* While changes do not shrink by this factor, a smaller share of them is taken, down to
+   LEAST_SHARE. */
 static const double SHRINKING = 0.95, LEAST_SHARE = 0.15;
-/* The temperatures have settled if a sweep changes ln(eta) by less than this. */
+/* The temperatures have converged if a sweep changes ln(eta) by less than this. */
 static const double WARM = 1e-3, WARM_STEADY = 1e-6;
-/* The same for a steady film, relative to the last error of its factors. With temperatures that lag
- * behind, the rounds would not converge, since they would accelerate factors of another film. */
+/* The same for a steady film, relative to the last error of its factors. If the temperatures had
+   not converged, the rounds would accelerate factors of another film and would not converge. */
 static const double LAGGING = 0.01;
-/* Change of ln(eta) up to which a step extrapolates the laws, ln(eta) along a parabola. Half its
- * square times the curvature is a fifth of SETTLED for laws whose slopes change as ln(eta)/10, and
- * a twentieth of that remains if the curvature itself changes at that rate. */
+/* Change of ln(eta) up to which a time step extrapolates the laws. ln(eta) is extrapolated along a
+   parabola. Half of the squared change times the curvature is a fifth of SETTLED for laws whose
+   slopes vary like ln(eta)/10. A twentieth of that remains if the curvature itself varies at that
+   rate. */
 static const double REACH = 0.02;
-/* Relative change of a column's equations up to which the first pass of a step keeps their inverse.
- * It leaves about this share of the pass's change, a tenth of WARM. */
+/* Relative change of a column's equations up to which the first pass of a step reuses their
+   inverse. The remaining error is about this share of the pass's change, a tenth of WARM. */
 static const double KEPT = 0.1;
 
-/* Finds the fastest and the slowest flank of a history along the nodes. FF_UNSUPPORTED if one moves
- * against the oil, or stays in a steady film. */
+/* Finds the fastest and the slowest flank of a history along the nodes. Returns FF_UNSUPPORTED if a
+   flank moves against the oil, or is at rest in a steady film. */
 static ff_status speeds_of(const ff_host *host, const ehl_history *h, double *least, double *most)
 {
     *least = HUGE_VAL;
@@ -68,15 +69,16 @@ static ff_status speeds_of(const ff_host *host, const ehl_history *h, double *le
         double slow = fmin(fabs(u1), fabs(u2)), fast = fmax(fabs(u1), fabs(u2));
         if (u1 * u2 < 0)
             return ff_failf(host, FF_UNSUPPORTED, "thermal",
-                            "at time %.6g s the flanks move in opposite directions, %.4g and %.4g "
-                            "m/s (slide-roll ratio beyond 2): thermal: full follows flanks that "
-                            "both move as the oil does; use thermal: inlet or none",
+                            "at time %.6g s the flanks move in opposite directions, %.4g and "
+                            "%.4g m/s (slide-roll ratio above 2): thermal: full needs flanks "
+                            "that both move in the direction of the oil; use thermal: inlet or "
+                            "none",
                             h->time[i], u1, u2);
         if (h->count == 1 && !(slow > 0))
             return ff_failf(host, FF_UNSUPPORTED, "thermal",
-                            "a flank at rest (slide-roll ratio 2) that is sheared for ever has no "
-                            "steady temperature: thermal: full follows it in a history in time, or "
-                            "use thermal: inlet or none");
+                            "a flank at rest (slide-roll ratio 2) that is sheared without end "
+                            "has no steady temperature: use thermal: full with a history in "
+                            "time, or thermal: inlet or none");
         *least = fmin(*least, slow);
         *most = fmax(*most, fast);
     }
@@ -124,7 +126,7 @@ ff_status ehl_thermal_create(ehl_thermal *t, const ff_host *host, ehl_march *m,
     if (status != FF_OK)
         return status;
     double lasts = h->time[h->count - 1] - h->time[0] + length / most;
-    if (m->rough) /* and their way into the contact: start.c */
+    if (m->rough) /* and their travel into the contact: start.c */
         lasts += length / most;
     double longest = least * lasts > length ? length / least : lasts;
     for (size_t k = 0; k < 2; k++) {
@@ -200,7 +202,8 @@ static void go_on(size_t n, const double *restrict one, const double *restrict t
     }
 }
 
-/* Sets `past` to the part of the difference formula that n values of earlier states contribute. */
+/* Sets `past` to the contribution of n values of earlier states to the difference formula in
+   time. */
 FF_SIMD
 static void look_back(size_t n, const double *restrict one, const double *restrict two,
                       const double c[3], double *restrict past)
@@ -210,7 +213,7 @@ static void look_back(size_t n, const double *restrict one, const double *restri
         past[j] = by_one * one[j] + by_two * two[j];
 }
 
-/* Sets moved[k] to state k, moved with the oil. */
+/* Sets moved[k] to state k, transported with the oil. */
 static void move_state(const ehl_march *m, size_t k)
 {
     const ehl_thermal *t = m->thermal;
@@ -226,8 +229,8 @@ static void move_state(const ehl_march *m, size_t k)
     }
 }
 
-/* Extrapolates the temperatures of the trial and its factors linearly in time, and sets `past` to
- * the contribution of earlier states to their change in time. */
+/* Extrapolates the temperatures of the trial and its factors linearly in time. Sets `past` to the
+   contribution of earlier states to their change in time. */
 static void predict(ehl_march *m, double time, double c[3])
 {
     ehl_thermal *t = m->thermal;
@@ -243,14 +246,14 @@ static void predict(ehl_march *m, double time, double c[3])
     if (m->smooth >= 2)
         ahead = (time - m->state[0].time) / (m->state[0].time - m->state[1].time);
     look_back(t->width, one, two, c, past);
-    if (m->rough) /* a flank that moves back gets its modes from the node behind */
+    if (m->rough) /* a flank that moves backwards gets its modes from the next node */
         memcpy(now + temperatures, one + temperatures, (kept - temperatures) * sizeof *now);
     go_on(temperatures, one, two, ahead, t->energy.lowest, t->energy.highest, now);
     go_on(FACTORS * n, one + kept, two + kept, ahead, LEAST_FACTOR, 1 / LEAST_FACTOR, now + kept);
 }
 
-/* Sets p_t, along the path where the nodes move. It is 0 where asperities were or are in contact,
- * since their pressure is not that of the oil. */
+/* Sets p_t, along the path of the nodes if they move. It is 0 where asperities were or are in
+   contact, since their pressure is not that of the oil. */
 static void pressure_in_time(const ehl_march *m, const ehl_film *film, const double c[3])
 {
     ehl_thermal *t = m->thermal;
@@ -277,7 +280,8 @@ static void pressure_in_time(const ehl_march *m, const ehl_film *film, const dou
     }
 }
 
-/* Returns the film as the energy equation takes it; r has been evaluated for it. */
+/* Returns the film in the form that the energy equation needs. r has been evaluated for the
+   film. */
 static ehl_energy_film film_of(const ehl_march *m, const ehl_step *step, const ehl_film *film,
                                const double c[3])
 {
@@ -304,7 +308,7 @@ static ehl_energy_film film_of(const ehl_march *m, const ehl_step *step, const e
         double carried = r->statistical.law ? r->p_a[i] : film->asperity[i] ? film->p[i] : 0;
         t->friction[i] = t->coefficient * carried * fabs(step->sliding);
     }
-    for (size_t i = 0; i < n; i++) { /* the faces are nodes, or lie between them */
+    for (size_t i = 0; i < n; i++) { /* the faces are at the nodes, or between them */
         double before = r->flux[r->asymmetric || i < 1 ? i : i - 1];
         t->through[i] = i > 0 && i + 1 < n ? -(before + r->flux[i]) / 2 : 0;
     }
@@ -330,7 +334,7 @@ static double tightness(const ehl_march *m)
     return fmax(fmin(m->solver->tolerance / usual, 1) * m->exactness, least);
 }
 
-/* Computes the temperatures of the film and its factors. Returns 1 if both had settled. */
+/* Computes the temperatures of the film and its factors. Returns 1 if both had converged. */
 static int update(ehl_march *m, const ehl_step *step, const ehl_film *film, const double c[3])
 {
     ehl_thermal *t = m->thermal;
@@ -347,7 +351,8 @@ static int update(ehl_march *m, const ehl_step *step, const ehl_film *film, cons
     int passes = 0;
     double before = HUGE_VAL;
     t->film = f;
-    if (!(c[0] > 0)) /* a steady film calls all laws anew; those on the way to it do not count */
+    if (!(c[0] > 0)) /* a steady film evaluates all laws again; failures on the way to it are not
+                        recorded */
         t->energy.law_status = FF_OK;
     do {
         ehl_energy_flow(&t->energy, &f, temperature.T);
@@ -453,7 +458,7 @@ double ehl_thermal_stress(const ehl_march *m, size_t i)
 {
     const ehl_energy *e = &m->thermal->energy;
     size_t n = e->across.count;
-    double sum = 0; /* at mid-film, of a stress that is linear across it */
+    double sum = 0; /* at mid-film, since the stress is linear across the film */
     for (size_t k = 0; k < n; k++)
         sum += e->across.weight[k] * e->tau[i * n + k];
     return m->mirrored ? sum : -sum;

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A change of g is left out if this share of it is all that is linearly independent of the newer
- * ones. */
+/* A change of g is dropped if its part that is linearly independent of the newer changes is below
+   this share of it. */
 static const double parallel = 1e-6;
 
 int ehl_anderson_create(ehl_anderson *m, size_t size)
@@ -66,8 +66,8 @@ static void remember(ehl_anderson *m, const double *y, const double *g)
     }
 }
 
-/* Orthogonalises by Gram and Schmidt, the newest change first and twice for each, which gives R of
- * dG = Q R. Returns the number of independent columns. */
+/* Orthogonalises by Gram-Schmidt, the newest change first and each twice. This gives R of dG = Q R.
+   Returns the number of independent columns. */
 static size_t factorise(ehl_anderson *m, double r[EHL_ANDERSON_DEPTH][EHL_ANDERSON_DEPTH],
                         size_t used[EHL_ANDERSON_DEPTH])
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Anderson acceleration of a relaxation y <- y + g(y) (Anderson 1965, J. ACM 12; Walker & Ni 2011,
- * SIAM J. Numer. Anal. 49). The last changes of y and g are taken as a linear model; the step is
- * the one for which the model predicts the least g. */
+   SIAM J. Numer. Anal. 49). The last changes of y and g form a linear model. The step minimises the
+   g that the model predicts. */
 #ifndef EHL_ANDERSON_H
 #define EHL_ANDERSON_H
 
@@ -10,20 +10,20 @@
 enum { EHL_ANDERSON_DEPTH = 8 };
 
 typedef struct ehl_anderson {
-    size_t size, count; /* count: number of known changes */
+    size_t size, count; /* count: number of stored changes */
     size_t newest;
     int started;
     double *memory;
-    double *y, *g; /* of the last call */
+    double *y, *g; /* values at the last call */
     double *dy[EHL_ANDERSON_DEPTH], *dg[EHL_ANDERSON_DEPTH];
-    double *basis[EHL_ANDERSON_DEPTH]; /* of the changes of g, orthonormal, newest first */
+    double *basis[EHL_ANDERSON_DEPTH]; /* orthonormal basis of the changes of g, newest first */
 } ehl_anderson;
 
 /* 0: out of memory */
 int ehl_anderson_create(ehl_anderson *m, size_t size);
 void ehl_anderson_destroy(ehl_anderson *m);
 
-/* Forgets all earlier changes. */
+/* Removes all stored changes. */
 void ehl_anderson_begin(ehl_anderson *m);
 
 /* Computes the change of y that replaces g. */

@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* REACH: nodes that the kernel reaches. LOWER, UPPER: entries of a row on either side of the
- * diagonal. LANES: length of a vector. BEHIND: UPPER rounded up to whole vectors. WIDTH: length of
- * a row, with zeros at its end. */
+/* REACH: number of nodes after which the kernel is cut off. LOWER, UPPER: entries of a row on
+   either side of the diagonal. LANES: length of a SIMD vector. BEHIND: UPPER rounded up to whole
+   vectors. WIDTH: length of a row, with zeros at its end. */
 enum {
     REACH = EHL_BAND_REACH - 1,
     LOWER = REACH + 2,
@@ -17,15 +17,15 @@ enum {
     LANES = EHL_LANES,
     BEHIND = (UPPER + LANES - 1) / LANES * LANES,
     WIDTH = 32,
-    PAD = 16 /* zeros on either side of a vector */
+    PAD = 16 /* number of zeros on either side of an array */
 };
 _Static_assert(LOWER + 1 + BEHIND <= WIDTH && PAD >= LOWER, "a row reaches no farther");
 _Static_assert(LOWER % 2 == 0, "pairs of columns");
 
-/* A block of the factors. A substitution finds LANES values at a time: rows i ... i + LANES - 1 by
- * columns, first those of values already known, then the inverse of the triangle between these
- * rows. An entry of `below` belongs to the column i - LOWER + j, one of `above` to the column i +
- * LANES + j. */
+/* A block of the factors. A substitution computes LANES values at a time, those of the rows i ... i
+   + LANES - 1. It first applies the columns of values already known, then the inverse of the
+   triangle between these rows. An entry of `below` belongs to the column i - LOWER + j, one of
+   `above` to the column i + LANES + j. */
 typedef struct block {
     double below[LOWER][LANES], below_inverse[LANES - 1][LANES]; /* L, with ones on its diagonal */
     double above[UPPER][LANES], above_inverse[LANES][LANES];     /* U */
@@ -86,8 +86,8 @@ void ehl_band_destroy(ehl_band *b)
     free(b);
 }
 
-/* Writes row = by_h * cut kernel; `cut` is the kernel at the row's first column and the node i - 2
- * of the stencil. */
+/* Writes row = by_h * cut kernel. `cut` points to the kernel at the row's first column and the node
+   i - 2 of the stencil. */
 FF_SIMD
 static void fill_row(double h0, double h1, double h2, double h3, const double *restrict cut,
                      double *restrict row)
@@ -96,7 +96,7 @@ static void fill_row(double h0, double h1, double h2, double h3, const double *r
         row[k] = h0 * cut[k + 2] + h1 * cut[k + 1] + h2 * cut[k] + h3 * (cut - 1)[k];
 }
 
-/* Removes the kernel from the columns whose unknown deflects nothing. */
+/* Removes the kernel from the columns whose unknown causes no deflection. */
 FF_SIMD
 static void drop_columns(const double *restrict carries, double *restrict row)
 {
@@ -104,7 +104,7 @@ static void drop_columns(const double *restrict carries, double *restrict row)
         row[k] *= carries[k];
 }
 
-/* Value of ehl_carries if no metal yields. */
+/* Returns the value of ehl_carries if no metal yields. */
 FF_SIMD
 static void find_carrying(size_t rows, int all, const unsigned char *restrict full,
                           double *restrict carries)
@@ -130,7 +130,7 @@ static void fill(ehl_band *b, const ehl_reynolds *r, const ehl_film *film, size_
         /* column k - LOWER from the diagonal is k - LOWER + 2 from the node i - 2 of the stencil */
         fill_row(r->by_h[0][i + 1], r->by_h[1][i + 1], r->by_h[2][i + 1], r->by_h[3][i + 1],
                  b->cut + REACH + 3 - LOWER, row);
-        /* zero, unless an earlier elimination overflowed */
+        /* these entries are zero, unless an earlier elimination overflowed */
         memset(row + LOWER + 1 + UPPER, 0, (WIDTH - LOWER - 1 - UPPER) * sizeof *row);
         if (r->conserving)
             drop_columns(b->carries + i - LOWER, row);

@@ -10,20 +10,21 @@
 #include <string.h>
 
 /* Corner k is node k stride. The pressure is unknown at the corners 1 ... count and zero at the
- * others. Block i holds the nodes nearest to corner i + 1. With its stencils it depends on the
- * corners i ... i + 2, and with zero weight on one more. */
+   others. Block i holds the nodes nearest to corner i + 1. With its stencils it depends on the
+   corners i ... i + 2. A fourth corner has weight 0. */
 enum { NEAR = 4 };
 
 struct ehl_coarse {
-    size_t stride, most; /* most: more corners than exist, for sums that reach beyond the end */
-    size_t count;        /* number of unknown pressures; h00 is one unknown more */
+    size_t stride, most; /* most: number of corners beyond which sums do not reach */
+    size_t count;        /* number of unknown pressures; h00 is one more unknown */
     int solvable, loaded;
     double *memory;
     double *way;  /* position between two corners, 0 ... 1 */
     double *bend; /* deflection at a distance of k - `most` corners from a pressure */
-    double (*by_p)[NEAR], (*by_v)[NEAR]; /* derivatives of a block by the values at its corners */
+    double (*by_p)[NEAR], (*by_v)[NEAR]; /* derivatives of a block's balance with respect to the
+                                            values at its corners */
     double *x, *v;                       /* x: the unknowns; v: values at the corners */
-    double *matrix;                      /* by columns */
+    double *matrix;                      /* stored by columns */
     size_t *pivot;
 };
 
@@ -86,8 +87,8 @@ static size_t block(const ehl_coarse *c, size_t node)
     return corner - 1;
 }
 
-/* Sums over the blocks. The last column of the matrix (h00) and its last row (load) are left out.
- */
+/* Sums the derivatives over the blocks. The last column of the matrix (h00) and its last row (load)
+   are not set here. */
 static void gather(ehl_coarse *c, const ehl_reynolds *r, const ehl_film *film)
 {
     size_t m = c->count, rows = m + 1;
@@ -136,7 +137,7 @@ static void fill(ehl_coarse *c)
     }
 }
 
-/* Factorises by Gaussian elimination with partial pivoting. 0: singular. */
+/* Factorises by Gaussian elimination with partial pivoting. Returns 0 if the matrix is singular. */
 static int eliminate(ehl_coarse *c)
 {
     size_t rows = c->count + 1;
@@ -222,7 +223,7 @@ static void deflect(ehl_coarse *c)
     }
 }
 
-/* Sums the balances alone; other nodes have an equation of their own, or none. */
+/* Sums the residuals of the mass balances only. Other nodes have another equation, or none. */
 static void restrict_to_blocks(ehl_coarse *c, const double *residual, const unsigned char *full,
                                size_t last)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One instant by Newton's method with a dense Jacobian, written face by face, and LAPACK. The
- * deflection is a plain double sum. It is slow and obvious: the twin that the fast solver is
- * compared with. */
+/* Solves one instant by Newton's method with a dense Jacobian, written face by face, and LAPACK.
+   The deflection is a plain double sum. It is the slow and simple reference implementation with
+   which the fast solver is compared. */
 #include "../equations/cavitation.h"
 #include "../equations/deflection.h"
 #include "../equations/solver.h"
@@ -11,14 +11,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* LAPACK's solver of `size` equations with `sides` right-hand sides, in place; columns follow each
- * other. */
+/* LAPACK's solver of `size` equations with `sides` right-hand sides, in place. Matrices are stored
+   by columns. */
 typedef void dgesv(const int *size, const int *sides, double *matrix, const int *rows, int *pivot,
                    double *rhs, const int *rhs_rows, int *info);
 
 typedef struct dense {
-    size_t size;      /* nodes + 1: every p, then h00 */
-    double *jacobian; /* by columns, as LAPACK expects */
+    size_t size;      /* nodes + 1: all pressures, then h00 */
+    double *jacobian; /* stored by columns, as LAPACK expects */
     double *rhs, *change;
     int *pivot;
     dgesv *solve;
@@ -123,7 +123,7 @@ static void assemble(const ehl_solver *s, const ehl_step *step, const ehl_film *
     d->rhs[n] = step->loaded ? step->load - ehl_film_load(film, n, r->dx) : 0;
 }
 
-/* Scales each row by its largest entry, since rows differ in unit. */
+/* Scales each row by its largest entry, since rows have different units. */
 static void scale_rows(dense *d)
 {
     for (size_t i = 0; i < d->size; i++) {
@@ -136,8 +136,8 @@ static void scale_rows(dense *d)
     }
 }
 
-/* Applies the changes of the masses of cavitated nodes in full and removes them from the step of
- * the pressures. */
+/* Applies the full change of the masses of cavitated nodes, and removes these changes from the step
+   of the pressures. */
 static void apply_mass_changes(dense *d, const ehl_reynolds *r, ehl_film *film, double *dh)
 {
     for (size_t i = 1; i + 1 < r->nodes; i++)
@@ -191,7 +191,7 @@ static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int 
                 dh = fmax(dh, fabs(d->change[i]) / r->thick[i]);
         double most = s->tolerance * ehl_pressure_scale(s->grid, film, n);
         if (step->loaded && fabs(ehl_film_load(film, n, r->dx) / step->load - 1) > 1e-9)
-            continue; /* pressure was cut off */
+            continue; /* a negative pressure was cut off */
         if (share >= 1 && !d->cavitation.split && dp <= most && cut <= most &&
             dh <= (s->reynolds->conserving ? 1 : 10) * s->tolerance)
             return FF_OK;
@@ -199,8 +199,8 @@ static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int 
     return FF_NOCONV;
 }
 
-/* Loads LAPACK. Loading takes longer than solving a small film, so that only this solver does it.
- * NULL: it is not on this machine. */
+/* Loads LAPACK. Loading takes longer than solving a small film, so only this solver loads it.
+   Returns NULL if LAPACK is not installed. */
 static dgesv *load_dgesv(void)
 {
     dgesv *function = NULL;

@@ -11,46 +11,48 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The coarse grid has a corner every LEAST_STRIDE nodes or more and at most MOST_CORNERS of them.
- * It is used if there would be more than LEAST_CORNERS. */
+/* The coarse grid has a corner at most every LEAST_STRIDE nodes, and at most MOST_CORNERS corners.
+   It is used if it has more than LEAST_CORNERS. */
 enum { LEAST_STRIDE = 16, LEAST_CORNERS = 16, MOST_CORNERS = 128 };
 
-/* Imbalance of flow that a linear solution may leave: relative to the imbalance before it, and to
- * the flow through the contact. An imbalance counts if both are exceeded. */
+/* Imbalance of flow that a linear solution may leave, relative to the imbalance before it and to
+   the flow through the contact. It is too large if both limits are exceeded. */
 static const double MOST_IMBALANCE_LEFT = 0.3, IMBALANCE_NOTICED = 0.01;
 
 /* Imbalance that the answer to other right-hand sides may leave (ehl_linear_answer), relative to
  * theirs. */
 static const double ANSWER_IMBALANCE = 0.1;
 
-/* A linear system is solved at least to this share of its first residual. The second value applies
- * to rough flanks, where the rest may open or close contacts of asperities, and to light loads,
- * where a norm of the pressure says little about the film. */
+/* Least reduction of the residual of a linear system, relative to its first residual.
+   CAREFUL_REDUCTION applies to rough flanks, where the remaining residual may open or close
+   contacts of asperities, and to light loads, where a norm of the pressure contains little
+   information about the film. */
 static const double LEAST_REDUCTION = 0.2, CAREFUL_REDUCTION = 0.05;
 
-/* The value where statistical flanks touch: load that passes between oil and asperities changes the
- * film but hardly the pressure. */
+/* Least reduction where statistical flanks touch: load that moves between oil and asperities
+   changes the film but hardly the pressure. */
 static const double SHARED_REDUCTION = 1e-3;
 
 /* With rough flanks, a change of the pressure within the tolerance is solved to this share of the
- * tolerance. */
+   tolerance. */
 static const double SHARE_OF_LAST = 0.01;
 
-/* Newton's method neglects this multiple of the square of a relative change. It is alpha p_max/2
- * for a viscosity exp(alpha p), some 10 in a contact of gears. */
+/* The error of a Newton step is about this multiple of the square of its relative change. For a
+   viscosity exp(alpha p) it is alpha p_max/2, about 10 in a contact of gears. */
 static const double CURVATURE = 10;
 
-/* How the multiple is learned from two successive Newton steps: LEARNED times the value found, but
- * at least LEAST_CURVATURE. It grows by FORGETTING after a step that was enough by itself. */
+/* Parameters that adapt this multiple. After two successive Newton steps it becomes LEARNED times
+   the value found from them, but at least LEAST_CURVATURE. After a single sufficient step it grows
+   by the factor FORGETTING. */
 static const double LEARNED = 2, LEAST_CURVATURE = 0.3, FORGETTING = 1.05;
 
-/* Share of the tolerance that one time step may leave. The oil carries these errors through the
- * contact, where they add up; docs/performance.md has the sum for the presets. */
+/* Share of the tolerance that one time step may use. The oil transports these errors through the
+   contact, where they add up; docs/performance.md has the sum for the presets. */
 static const double SHARE_OF_STEP = 1. / 20;
 
-/* Imbalance of flow that a step may leave between the inlet and any place, in tolerances. Between
- * two places it is at most twice that, below the lowest limit of the quality lines, 5 tolerances
- * (quality.c). */
+/* Imbalance of flow that a step may leave between the inlet and any place, in units of the
+   tolerance. Between two places it is at most twice that, which is below 5 tolerances, the lowest
+   limit of the quality lines (quality.c). */
 static const double MOST_UNBALANCED = 2;
 
 void ehl_linear_deflect(ehl_solver *s, const double *p, double *v)
@@ -150,8 +152,8 @@ const double *ehl_pressure_part(const ehl_solver *s, const ehl_film *film, const
     return w->masked;
 }
 
-/* Applies the preconditioner: (dp, dh00) = M^-1 (product, sum). The coarse grid removes the long
- * waves, then the band solves for the rest. */
+/* Applies the preconditioner: (dp, dh00) = M^-1 (product, sum). The coarse grid solves for the long
+   waves, then the band matrix for the rest. */
 static void apply_preconditioner(ehl_solver *s, const ehl_film *film, double sum, double *dp,
                                  double *dh00)
 {
@@ -170,8 +172,9 @@ static void apply_preconditioner(ehl_solver *s, const ehl_film *film, double sum
     *dh00 += h00_change;
 }
 
-/* Extends the Krylov space: next = M^-1 J basis[k], and keeps the deflection of basis[k]. A vector
- * holds `weight` times the change of h00 in place 0 and the change of p in 1 ... last - 1. */
+/* Extends the Krylov space: next = M^-1 J basis[k]. The deflection of basis[k] is stored too. A
+   vector contains `weight` times the change of h00 at index 0 and the change of p at 1 ... last -
+   1. */
 static void extend_krylov_space(ehl_solver *s, const ehl_film *film, int loaded, double weight,
                                 size_t k)
 {
@@ -194,7 +197,7 @@ typedef struct hessenberg {
     double h[EHL_KRYLOV + 1][EHL_KRYLOV], c[EHL_KRYLOV], s[EHL_KRYLOV], rest[EHL_KRYLOV + 1];
 } hessenberg;
 
-/* Makes column k triangular by Givens rotations and returns the norm of the remaining residual. */
+/* Makes column k triangular by Givens rotations. Returns the norm of the remaining residual. */
 static double rotate_column(hessenberg *q, size_t k)
 {
     for (size_t j = 0; j < k; j++) {
@@ -211,7 +214,8 @@ static double rotate_column(hessenberg *q, size_t k)
     return fabs(q->rest[k + 1]);
 }
 
-/* Combines `count` basis vectors to p_step and v_step with the least residual; returns dh00. */
+/* Combines `count` basis vectors to p_step and v_step so that the residual is smallest. Returns
+   dh00. */
 static double combine_basis(ehl_linear *w, hessenberg *q, size_t count, size_t nodes, double weight)
 {
     if (count == 0) {
@@ -235,8 +239,8 @@ static double combine_basis(ehl_linear *w, hessenberg *q, size_t count, size_t n
     return dh00;
 }
 
-/* Predicts the error after a relative change: the residual's share of it, plus the square that
- * Newton's method neglects. */
+/* Predicts the error after a relative change: the linear residual's share of the change, plus the
+   square that Newton's method neglects. */
 static double left_of(const ehl_linear *w, double change)
 {
     return change * (w->reached + w->curvature * change);
@@ -273,9 +277,10 @@ int ehl_linear_balances(const ehl_solver *s)
     return w->unbalanced <= MOST_UNBALANCED * s->tolerance;
 }
 
-/* Returns the share of the residual that may be left for a relative change of the pressure: the
- * share at which the film meets its tolerance together with Newton's neglected square, or that
- * square itself if it is larger (a forcing term, Eisenstat & Walker 1996). */
+/* Returns the share of the residual that may remain after a relative change of the pressure
+   (forcing term, Eisenstat & Walker 1996). With this share and the square that Newton's method
+   neglects, the film meets its tolerance. If the neglected square is larger than the tolerance, the
+   share is that square. */
 static double forcing_term(const ehl_solver *s, double change, int careful)
 {
     if (s->reynolds->rough && change <= s->tolerance)
@@ -315,9 +320,10 @@ static ff_status gmres(ehl_solver *s, const ehl_film *film, int loaded, double m
     hessenberg q;
     size_t rows = s->reynolds->last, nodes = s->reynolds->nodes, k = 0;
     double p_max = ehl_pressure_scale(g, film, nodes);
-    /* weight, in Pa/m, that makes a change of h00 comparable with one of the pressure: the pressure
-     * over the whole contact that deflects the flanks by as much; under light loads, where the film
-     * changes the pressure long before the flanks deflect, the pressure over the least film */
+    /* weight, in Pa/m, that makes a change of h00 comparable with one of the pressure. It is the
+       pressure over the whole contact divided by its deflection. Under light loads the film reacts
+       to the pressure long before the flanks deflect, and the weight is the pressure over the
+       smallest film */
     double weight = g->dx / (g->half_width * (s->kernel[0] - s->kernel[nodes - 1]));
     double by_film = p_max / ehl_least(rows, s->reynolds->thick);
     int careful = w->careful = s->reynolds->rough || by_film < weight;
@@ -352,9 +358,9 @@ static ff_status gmres(ehl_solver *s, const ehl_film *film, int loaded, double m
     return isfinite(norm) ? FF_OK : FF_NOCONV;
 }
 
-/* Returns 1 if the solution leaves the flow unbalanced although GMRES's norm is small. Where the
- * blocks of the coarse grid are wider than the contact, M^-1 almost annihilates some waves of the
- * balances, and a left-preconditioned norm does not see them. */
+/* Returns 1 if the solution leaves the flow unbalanced although GMRES's norm is small. If the
+   blocks of the coarse grid are wider than the contact, M^-1 almost cancels some waves of the
+   balances, and a left-preconditioned norm does not contain them. */
 static int misses_imbalance(const ehl_solver *s, const ehl_step *step, const ehl_film *film,
                             const goal *of, double dh00)
 {
@@ -376,7 +382,7 @@ static int misses_imbalance(const ehl_solver *s, const ehl_step *step, const ehl
               : most_left > MOST_IMBALANCE_LEFT * most && w->unbalanced > IMBALANCE_NOTICED;
 }
 
-/* Fills the right-hand side of rows 1 ... last - 1 at the nodes where ehl_is_solved holds. */
+/* Fills the right-hand side of rows 1 ... last - 1 at the nodes where ehl_is_solved is true. */
 FF_SIMD
 static void negate_solved(size_t last, int all, const unsigned char *restrict full,
                           const double *restrict residual, double *restrict asked)
@@ -393,11 +399,11 @@ static ff_status solve_for_asked(ehl_solver *s, const ehl_step *step, const ehl_
     ehl_linear *w = s->self;
     const ehl_reynolds *r = s->reynolds;
     for (w->split = w->coarse != NULL;;
-         w->split = 0) { /* the band alone is slower, but misses no wave */
+         w->split = 0) { /* the band matrix alone is slower, but misses no wave */
         memcpy(w->product + 1, w->asked + 1, (r->last - 1) * sizeof *w->product);
         ff_status status = gmres(s, film, step->loaded, sum, of, dh00);
         if (status != FF_OK) {
-            w->factored = 0; /* factors that are no numbers would look as if they still held */
+            w->factored = 0; /* after an overflow the factors would wrongly count as valid */
             return status;
         }
         w->unbalanced = 0;
@@ -476,7 +482,7 @@ ff_status ehl_linear_create(ehl_solver *s, ehl_linear *w)
     w->curvature = CURVATURE;
     w->fft = ehl_fft_create(n, s->kernel);
     w->band = ehl_band_create(n, s->kernel);
-    /* where cavitated masses are unknowns the band converges faster without the coarse grid */
+    /* if cavitated masses are unknowns, the band matrix converges faster without the coarse grid */
     size_t stride = n / MOST_CORNERS < LEAST_STRIDE ? LEAST_STRIDE : n / MOST_CORNERS;
     int split = n > LEAST_CORNERS * LEAST_STRIDE && !s->reynolds->conserving;
     w->coarse = split ? ehl_coarse_create(n, stride, s->kernel) : NULL;

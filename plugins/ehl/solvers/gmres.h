@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The linear system of one Newton step by GMRES (Saad & Schultz 1986) with a preconditioner of two
- * levels: a coarse grid for long waves and banded factors for the others. A product with the
- * Jacobian costs one FFT convolution. */
+/* Solves the linear system of one Newton step by GMRES (Saad & Schultz 1986) with a two-level
+   preconditioner: a coarse grid for long waves and a band matrix for the others. A product with the
+   Jacobian costs one FFT convolution. */
 #ifndef EHL_GMRES_H
 #define EHL_GMRES_H
 
@@ -10,10 +10,10 @@
 #include "band.h"
 #include "coarse.h"
 
-/* Most vectors of one linear solution. */
+/* Largest Krylov dimension of one linear solution. */
 enum { EHL_KRYLOV = 40 };
 
-/* A solution of the linear system, Pa and m; v is the deflection of p. */
+/* A solution of the linear system, Pa and m. v is the deflection of p. */
 typedef struct ehl_answer {
     double *p, *v, h00;
 } ehl_answer;
@@ -22,8 +22,8 @@ typedef struct ehl_answer {
 typedef struct ehl_linear {
     ehl_fft *fft;
     ehl_band *band;
-    ehl_coarse *coarse; /* NULL: the band suffices */
-    int split;          /* 1: the coarse grid takes part in the current solution */
+    ehl_coarse *coarse; /* NULL: the band matrix is sufficient */
+    int split;          /* 1: the coarse grid is used in the current solution */
     double *memory;
     double *basis[EHL_KRYLOV + 1], *deflection[EHL_KRYLOV];
     double *asked;   /* right-hand side */
@@ -32,15 +32,16 @@ typedef struct ehl_linear {
     unsigned char *factored_kind, *kind;
     size_t factored_last;
     int factored, factored_loaded;
-    int careful; /* 1: rough flanks, or so light a load that the pressure says little about the film
-                  */
+    int careful; /* 1: rough flanks, or such a light load that the pressure contains little
+                    information about the film */
     double
-        curvature; /* Newton's method neglects this multiple of the square of a relative change */
-    double
-        suffices; /* share of the residual that is acceptable in the end; 0: the share asked for */
-    double reached;    /* residual norm after the last solution over that before it */
-    double unbalanced; /* imbalance of flow after the last solution, over the flow through the
-                          contact; 0 without the coarse grid, which alone hides it from the norm */
+        curvature;   /* multiple of the square of a relative change that Newton's method neglects */
+    double suffices; /* share of the residual that is acceptable at the end of the iterations; 0:
+                        the requested share */
+    double reached;  /* residual norm after the last solution over that before it */
+    /* imbalance of flow after the last solution, over the flow through the contact; 0 without
+       the coarse grid, since only the coarse grid hides it from the norm */
+    double unbalanced;
     size_t krylov, krylov_fresh; /* iterations of the last solution, and of the first one after a
                                     factorisation */
 } ehl_linear;
@@ -49,11 +50,11 @@ typedef struct ehl_linear {
 ff_status ehl_linear_create(ehl_solver *s, ehl_linear *w);
 void ehl_linear_destroy(ehl_linear *w);
 
-/* Computes the deflection of p by FFT; implements the solver's `deflect`. */
+/* Computes the deflection of p by FFT. It is the solver's `deflect`. */
 void ehl_linear_deflect(ehl_solver *s, const double *p, double *v);
 
-/* Solves for p_step, v_step and *dh00, after the residual and the derivatives of the equations.
- * FF_NOCONV: a number overflowed. */
+/* Solves for p_step, v_step and *dh00. The residual and the derivatives of the equations have been
+   computed. Returns FF_NOCONV if a number overflowed. */
 ff_status ehl_linear_solve(ehl_solver *s, const ehl_step *step, const ehl_film *film, double *dh00);
 
 /* Solves J (e->p, e->h00) = (rows, 0) with the derivatives that the equations have now, starting
@@ -70,30 +71,30 @@ static inline int ehl_linear_converged(const ehl_linear *w)
     return w->krylov < EHL_KRYLOV || w->reached <= w->suffices;
 }
 
-/* Factorises from the first node whose equation has changed, or all nodes if the factors are
- * outdated. */
+/* Factorises from the first node whose equation has changed, or for all nodes if the factors are
+   outdated. */
 void ehl_linear_factor(ehl_solver *s, const ehl_step *step, const ehl_film *film);
 
-/* Learns the curvature from two steps in a row: the first had the size `before` and left the share
- * `reached` of its residual, and the second has the size `now`. Sizes are relative changes. */
+/* Adapts the curvature from two successive steps. The first had the relative change `before` and
+   left the share `reached` of its residual. The second has the relative change `now`. */
 void ehl_linear_learn(ehl_solver *s, double before, double reached, double now);
 
 void ehl_linear_unlearn(ehl_solver *s);
 
-/* Raises the curvature a little, after a step that was enough by itself. */
+/* Raises the curvature slightly after a step that was sufficient by itself. */
 void ehl_linear_forget(ehl_solver *s);
 
-/* Returns whether the predicted error after the last solution's step is within the tolerance: of
- * the pressure, and within `times` the tolerance of the film. Both arguments are relative changes
- * by the step. */
+/* Returns whether the predicted error after the last step is within the tolerance for the pressure,
+   and within `times` the tolerance for the film. `pressure` and `film` are their relative changes
+   in that step. */
 int ehl_linear_settles(const ehl_solver *s, double pressure, double film, double times);
 
-/* Returns whether the last solution left the flow balanced to the tolerance. The prediction of
- * ehl_linear_settles relies on GMRES's norm, which may hide a hundred times as much. */
+/* Returns whether the last solution left the flow balanced within the tolerance. ehl_linear_settles
+   relies on GMRES's norm, which may hide an imbalance a hundred times as large. */
 int ehl_linear_balances(const ehl_solver *s);
 
-/* Returns the pressures in a vector of unknowns. The unknown of a cavitated node is a mass and that
- * of a yielding node a plastic part; both count as 0 here. */
+/* Returns the pressures in a vector of unknowns. The unknown of a cavitated node is a mass, that of
+   a yielding node a plastic part; both count as 0 here. */
 const double *ehl_pressure_part(const ehl_solver *s, const ehl_film *film, const double *v);
 
 /* y += factor x */

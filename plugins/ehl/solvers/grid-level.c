@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Finds steady films between smooth flanks, on one grid and by nested grids. */
+/* Finds steady films between smooth flanks, on one grid and on nested grids. */
 #include "grid-level.h"
 
 #include "../equations/deflection.h"
@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* First guess of the pressure, half an ellipse: Hertz's under high load. Under low load it is as
- * wide as the pressure of a rigid cylinder, from -2 S to 0.475 S with S = sqrt(2 R h). */
+/* First guess of the pressure: half an ellipse. Under a high load it is Hertz's. Under a low load
+   it is as wide as the pressure of a rigid cylinder, from -2 S to 0.475 S with S = sqrt(2 R h). */
 void ehl_first_guess(ehl_solver *s, const ehl_instant *at, double modulus, double thinnest,
                      ehl_film *film)
 {
@@ -42,7 +42,7 @@ void ehl_first_guess(ehl_solver *s, const ehl_instant *at, double modulus, doubl
         film->content[i] = s->reynolds->oil.density * thinnest;
 }
 
-/* Accuracy of films that finer grids start from, or that measure errors by the cells. */
+/* Accuracy of films from which finer grids start, or that measure the error due to the cells. */
 static const double loose = 1e-3;
 
 void ehl_grid_level_destroy(ehl_grid_level *l)
@@ -120,13 +120,13 @@ ff_status ehl_grid_level_solve(ehl_grid_level *l, const ehl_grid_level *before,
     return l->solver.solve(&l->solver, step, &l->film, EHL_LIMIT_START);
 }
 
-/* Number of cells that is not halved any more. */
+/* A grid with at most this number of cells is not halved. */
 enum { COARSEST = 512 };
 
-/* Fills `film` with the steady film on half the cells, by nested grids. The end of a film moves by
- * few cells in a Newton step, so that it is found on a coarse grid first, and each finer grid
- * starts from the one before. FF_NOCONV: the grid of `s` is coarse itself, or no coarser one has a
- * solution. */
+/* Fills `film` with the steady film on half the cells, by nested grids. In a Newton step the end of
+   a film moves by only a few cells, so it is found on a coarse grid first, and each finer grid
+   starts from the previous one. Returns FF_NOCONV if the grid of `s` is coarse itself, or if no
+   coarser grid has a solution. */
 ff_status ehl_nested_film(ehl_solver *s, const ehl_step *step, const ehl_instant *at,
                           double modulus, double thinnest, ehl_film *film)
 {
@@ -146,7 +146,7 @@ ff_status ehl_nested_film(ehl_solver *s, const ehl_step *step, const ehl_instant
                 ehl_grid_level_solve(&l[now], found ? before : NULL, step, at, modulus, thinnest);
         if (status != FF_OK && (found || status != FF_NOCONV))
             break;
-        found = status == FF_OK; /* a grid too coarse for a film is skipped */
+        found = status == FF_OK; /* a grid that is too coarse for a film is skipped */
     }
     if (status == FF_OK)
         ehl_grid_level_refine(&l[now], s, film);

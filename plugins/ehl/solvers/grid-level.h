@@ -5,12 +5,12 @@
 
 #include "../equations/solver.h"
 
-/* Fills `film` with a first guess of the steady film under `at`, whose least thickness is
- * `thinnest`. */
+/* Fills `film` with a first guess of the steady film under `at`; its smallest thickness is
+   `thinnest`. */
 void ehl_first_guess(ehl_solver *s, const ehl_instant *at, double modulus, double thinnest,
                      ehl_film *film);
 
-/* A grid with everything that a steady film on it needs. */
+/* A grid and everything needed for a steady film on it. */
 typedef struct ehl_grid_level {
     ehl_grid grid;
     ehl_reynolds reynolds;
@@ -20,8 +20,8 @@ typedef struct ehl_grid_level {
     unsigned char *flags;
 } ehl_grid_level;
 
-/* Makes a level on the domain of `s` with that many cells and with the equations of a steady smooth
- * film: laws, oil, wedge, limits of the film. Its film is accurate to 1e-3 at best. */
+/* Makes a level on the domain of `s` with that number of cells and with the equations of a steady
+   smooth film: laws, oil, wedge, limits of the film. Its film is accurate to 1e-3 at best. */
 ff_status ehl_grid_level_create(ehl_grid_level *l, const ehl_solver *s, size_t cells,
                                 double modulus);
 void ehl_grid_level_destroy(ehl_grid_level *l);
@@ -29,14 +29,14 @@ void ehl_grid_level_destroy(ehl_grid_level *l);
 /* Interpolates `film` of the solver `s` linearly from a coarser film on the same domain. */
 void ehl_grid_level_refine(const ehl_grid_level *from, ehl_solver *s, ehl_film *film);
 
-/* Solves the film of the level from that of the level before, or from a first guess with the least
- * thickness `thinnest` if that is NULL. Returns FF_OK or FF_NOCONV. */
+/* Solves for the film of the level, starting from that of the level `before`, or from a first guess
+   with the smallest thickness `thinnest` if `before` is NULL. Returns FF_OK or FF_NOCONV. */
 ff_status ehl_grid_level_solve(ehl_grid_level *l, const ehl_grid_level *before,
                                const ehl_step *step, const ehl_instant *at, double modulus,
                                double thinnest);
 
-/* Fills `film` with the steady film on half the cells of `s`, by nested grids. FF_NOCONV: the grid
- * is coarse itself, or no coarser one has a solution. */
+/* Fills `film` with the steady film on half the cells of `s`, by nested grids. Returns FF_NOCONV if
+   the grid is coarse itself, or if no coarser grid has a solution. */
 ff_status ehl_nested_film(ehl_solver *s, const ehl_step *step, const ehl_instant *at,
                           double modulus, double thinnest, ehl_film *film);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Newton's method for one instant. Cavitation, contact and yield are primal-dual active sets
- * (Hintermueller, Ito & Kunisch 2002). gmres.h solves the linear systems. */
+   (Hintermueller, Ito & Kunisch 2002). gmres.h solves the linear systems. */
 #include "../contact/lanes.h"
 #include "../equations/asperities.h"
 #include "../equations/cavitation.h"
@@ -28,8 +28,8 @@ static void destroy(ehl_solver *s)
     s->self = NULL;
 }
 
-/* Fills h with the change of the film and `share` with its ratio to the film where it is full.
- * Returns the largest ratio. */
+/* Fills h with the change of the film, and `share` with its ratio to the film where the film is
+   full. Returns the largest ratio. */
 FF_SIMD
 static double measure_film(size_t last, double dh00, const double *restrict v,
                            const unsigned char *restrict full, const double *restrict thick,
@@ -43,7 +43,7 @@ static double measure_film(size_t last, double dh00, const double *restrict v,
 }
 
 /* Fills h_step, the change of the film, and finds the largest changes: *dp of the pressure (Pa),
- * and *dh of the full film, relative. The change of a cavitated node's mass counts in *dh. */
+   and *dh of the full film (relative). The change of a cavitated node's mass is included in *dh. */
 static void measure_step(const ehl_solver *s, const ehl_film *film, double dh00, double *dp,
                          double *dh)
 {
@@ -70,7 +70,8 @@ static void measure_step(const ehl_solver *s, const ehl_film *film, double dh00,
     }
 }
 
-/* Rescales only the pressures below the hardness; their deflection then takes a convolution. */
+/* Rescales only the pressures below the hardness. Their deflection is then recomputed with a
+   convolution. */
 static int rescale_elastic_part(ehl_solver *s, const ehl_step *step, ehl_film *film)
 {
     newton *w = s->self;
@@ -91,8 +92,8 @@ static int rescale_to_load(ehl_solver *s, const ehl_step *step, ehl_film *film)
                                               : ehl_rescale_to_load(s, step, film);
 }
 
-/* Returns 1 if the first steps say little about the last ones: a steady film starts far from its
- * solution, and a light load hardly shows in the pressure. */
+/* Returns 1 if the first Newton steps are not representative of the last ones: a steady film starts
+   far from its solution, and a light load hardly affects the pressure. */
 static int is_far(const ehl_solver *s, const ehl_step *step)
 {
     const newton *w = s->self;
@@ -108,7 +109,7 @@ static ff_status newton_step(ehl_solver *s, const ehl_step *step, ehl_film *film
     ehl_reynolds_evaluate(r, step, film);
     int moved = r->conserving ? ehl_cavitation_fill(&w->cavitation, r, film, step->rate > 0)
                               : ehl_cavitation_grow_film(&w->cavitation, r, film);
-    if (w->cavitation.grown && is_far(s, step)) /* the film's end may still move */
+    if (w->cavitation.grown && is_far(s, step)) /* the end of the film may still move */
         w->cavitation.moved = 1;
     if (r->rough)
         moved |= ehl_contact_choose(r, step, film);
@@ -123,8 +124,8 @@ static ff_status newton_step(ehl_solver *s, const ehl_step *step, ehl_film *film
         ehl_statistical_rows(r, film);
     if (ehl_linear_solve(s, step, film, dh00) != FF_OK)
         return FF_NOCONV;
-    s->counters.newton +=
-        w->linear.krylov > 0; /* without iterations so little was left that no step is due */
+    s->counters.newton += w->linear.krylov > 0; /* no iterations: the residual was already small
+                                                   enough, and no step is needed */
     measure_step(s, film, *dh00, dp, dh);
     return isfinite(*dp) && isfinite(*dh) && isfinite(*dh00) ? FF_OK : FF_NOCONV;
 }
@@ -142,12 +143,11 @@ static void take_step(const ehl_solver *s, ehl_film *film, double share, double 
     film->h00 += share * dh00;
 }
 
-/* Damping of the Newton steps. A node caught between its two equations may alternate between
- * contact and film. A smaller share of each step is taken while the steps do not shrink, which ends
- * that. */
+/* Damping of the Newton steps. A node may alternate between contact and film. While the steps do
+   not shrink, a smaller share of each step is taken, which ends the alternation. */
 typedef struct damping {
     double share;        /* share of a Newton step that is taken */
-    double last, before; /* sizes of the last step and of the one before, Pa */
+    double last, before; /* sizes of the last step and of the previous one, Pa */
 } damping;
 
 static double damped_share(damping *d, int k, double size)
@@ -161,13 +161,13 @@ static double damped_share(damping *d, int k, double size)
     return d->share;
 }
 
-/* Relative change of the traction if the film's end gains a node after the last step. */
+/* Relative change of the traction if the end of the film moves by one node after the last step. */
 static const double END_OF_FILM = 2e-5;
 
-/* Returns whether the error after a step is small enough; the step changed the pressure and the
- * film by these shares. If the film kept its ends, the error is predicted. If they moved or must
- * still be found, or if the flanks are rough and contacts may turn in the next step, the step
- * itself must be small. */
+/* Returns whether the error after a step is small enough. dp and dh are the relative changes of
+   pressure and film in the step. If the ends of the film did not move, the error is predicted. If
+   they moved or are not yet found, or if the flanks are rough and contacts may change in the next
+   step, the step itself must be small. */
 static int is_small(const ehl_solver *s, double dp, double dh)
 {
     const newton *w = s->self;
@@ -178,12 +178,13 @@ static int is_small(const ehl_solver *s, double dp, double dh)
     return small && (whole || ehl_linear_balances(s));
 }
 
-/* The last Newton step of a smooth film that kept its ends, from which the next one learns. */
+/* The last Newton step of a smooth film whose ends did not move. The next step learns from it. */
 typedef struct judged {
-    double size, reached; /* size: relative change of the pressure, 0: none */
+    double size, reached; /* size: relative change of the pressure, 0: none; reached: remaining
+                             share of the residual */
 } judged;
 
-/* Learns from the step before how much a step leaves, and keeps this one. */
+/* Learns from the previous step how much error a step leaves, and stores the current step. */
 static void learn(ehl_solver *s, const ehl_step *step, judged *last, double size, int whole)
 {
     const newton *w = s->self;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Decides which factors of the last matrix still serve for the next one. */
+/* Decides which factors of the last matrix can be reused for the next one. */
 #include "../equations/asperities.h"
 #include "gmres.h"
 
@@ -8,13 +8,13 @@
 #include <math.h>
 #include <string.h>
 
-/* Factors are renewed if a solution takes this many vectors more than right after the last
- * factorisation. */
+/* The factors are renewed if a solution takes this many more iterations than right after the last
+   factorisation. */
 enum { KRYLOV_STALE = 3 };
 
-/* Factors are outdated from the first row whose diagonal has changed by this share. For steady
- * films, and where the norm of the pressure says little about the film, the second value applies,
- * and all factors are renewed. */
+/* Factors are outdated from the first row whose diagonal has changed by this share.
+   CAREFUL_STALE_CHANGE applies to steady films, and where the norm of the pressure contains little
+   information about the film; all factors are then renewed. */
 static const double STALE_CHANGE = 0.5, CAREFUL_STALE_CHANGE = 0.3;
 
 /* Writes the diagonal of rows 1 ... last - 1. Returns whether a full node before row `from` has
@@ -35,9 +35,10 @@ static int64_t compare_diagonal(size_t last, size_t from, double self, double st
     return drifted;
 }
 
-/* Leaves in `product` the diagonal of the matrix that the preconditioner approximates. Returns the
- * first node upstream of node `from` where it has changed too much since its last factorisation, or
- * `from`. The residual preconditioned by outdated factors says little about the remaining error. */
+/* Writes to `product` the diagonal of the matrix that the preconditioner approximates. Returns the
+   first node, upstream of node `from`, where the diagonal has changed too much since its last
+   factorisation, or `from` if there is none. With outdated factors the preconditioned residual says
+   little about the remaining error. */
 static size_t first_drifted(const ehl_solver *s, const ehl_film *film, size_t from, double stale)
 {
     ehl_linear *w = s->self;
@@ -53,7 +54,7 @@ static size_t first_drifted(const ehl_solver *s, const ehl_film *film, size_t fr
     return i;
 }
 
-/* Codes the equation of each node: bit 0 full film, bit 1 asperity contact, bit 2 yield. */
+/* Encodes the equation of each node: bit 0 full film, bit 1 asperity contact, bit 2 yield. */
 FF_SIMD
 static void find_kinds(const ehl_reynolds *r, const ehl_film *film, unsigned char *restrict kind)
 {
@@ -65,7 +66,7 @@ static void find_kinds(const ehl_reynolds *r, const ehl_film *film, unsigned cha
         kind[i] = (unsigned char)(kind[i] | ehl_yields(r, film, i) << 2);
 }
 
-/* Returns the first row whose factors must be renewed; `last` if all still hold. */
+/* Returns the first row whose factors must be renewed, or `last` if all are still valid. */
 static size_t first_outdated_row(const ehl_solver *s, const ehl_step *step)
 {
     const ehl_linear *w = s->self;
@@ -78,8 +79,8 @@ static size_t first_outdated_row(const ehl_solver *s, const ehl_step *step)
         i = held;
     while (i < held && w->kind[i] == w->factored_kind[i])
         i++;
-    /* the column of a cavitated node belongs to a mass, and rows upstream of it reach that column
-     */
+    /* the column of a cavitated node belongs to a mass, and rows upstream of it contain that
+       column */
     size_t reached = s->reynolds->conserving && i < last ? EHL_BAND_REACH : 0;
     return i > reached ? i - reached : 1;
 }

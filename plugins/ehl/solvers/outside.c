@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One instant by the discretisation of another stage (film.h), in place of a solver of this plugin.
- */
+/* Solves one instant with the discretisation of another stage (film.h), in place of a solver of
+   this plugin. */
 #include "../equations/deflection.h"
 #include "../equations/solver.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* The march gives up after this many instants without a film, if they are this share of those asked
- * for. Otherwise steps would be cut for ever. */
+/* The march fails after MOST_FAILURES instants without a film, if they are more than
+   1/FAILING_SHARE of all instants. Otherwise steps would be cut endlessly. */
 enum { MOST_FAILURES = 200, FAILING_SHARE = 5 };
 
 typedef struct outside {
     ehl_fft *fft;
     ff_film_contact contact;
     void *solver;
-    size_t asked, failed; /* counts of instants */
+    size_t asked, failed; /* numbers of instants */
 } outside;
 
 static void deflect(ehl_solver *s, const double *p, double *v)
@@ -85,7 +85,7 @@ static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int 
     film->h00 = state.h00;
     film->full[0] = film->full[s->grid->nodes - 1] = 0;
     ehl_reynolds_evaluate(s->reynolds, step,
-                          film); /* quantities that the losses take from the last step */
+                          film); /* quantities from the last step that the losses need */
     return FF_OK;
 }
 

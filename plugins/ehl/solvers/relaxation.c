@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One instant by line relaxation in semi-system form, with the coefficients of the last film. A
- * sweep changes the pressures of the whole line at once: a banded matrix solves the residuals
- * through the pressure flow, and through wedge and squeeze by the deflection of near nodes (Ai
- * 1993; Zhu & Hu 2001: where the pressure flow vanishes the wedge keeps the diagonal large). The
- * deflection by all nodes follows by FFT and enters the next sweep. Anderson acceleration replaces
- * the relaxation factors of these authors, and a border of the matrix that keeps the load replaces
- * their search for h00. */
+/* Solves one instant by line relaxation in semi-system form, with the coefficients of the last
+   film. A sweep changes the pressures of the whole line at once. A band matrix acts through the
+   pressure flow, and through wedge and squeeze by the deflection of nearby nodes (Ai 1993; Zhu & Hu
+   2001: where the pressure flow vanishes the wedge keeps the diagonal large). The deflection by all
+   nodes follows by FFT and is used in the next sweep. Anderson acceleration replaces the relaxation
+   factors of these authors. A border of the matrix that keeps the load replaces their search for
+   h00. */
 #include "../equations/cavitation.h"
 #include "../equations/deflection.h"
 #include "../equations/reynolds.h"
@@ -17,17 +17,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* SWEEPS: most sweeps with one set of coefficients. A matrix is renewed if it takes STALE_SWEEPS
- * more of them than when it was new. */
+/* SWEEPS: most sweeps with one set of coefficients. The matrix is renewed if it takes STALE_SWEEPS
+   more sweeps than when it was new. */
 enum { SWEEPS = 60, STALE_SWEEPS = 2 };
 
 /* Most consecutive alternations of the film boundary between two nodes. The second-order flow at a
- * node depends on two nodes upstream, with the wrong sign, so that the balances behind the pressure
- * maximum are not those of an M-matrix. In places no film boundary suits both the last full node,
- * which must not have p < 0, and the cavitated one downstream, which must not gain mass. After
- * MOST_FLIPS alternations the boundary stays at the first node. The mass that the other one gains
- * appears in the quality line `complementarity`. The first-order flow always has a boundary that
- * suits both. */
+   node depends on two nodes upstream, with the wrong sign, so that the balances behind the pressure
+   maximum are not those of an M-matrix. In some places no film boundary is consistent: the last
+   full node must not have p < 0, and the cavitated node downstream must not gain mass. After
+   MOST_FLIPS alternations the boundary stays at the first node. The mass that the other node gains
+   is reported in the quality line `complementarity`. The first-order flow always has a consistent
+   boundary. */
 enum { MOST_FLIPS = 4 };
 
 typedef struct relaxation {
@@ -42,7 +42,7 @@ typedef struct relaxation {
     double missing;           /* missing load over dx */
     int whole;                /* 1: the last sweeps converged */
     int sweeps, sweeps_fresh; /* of the last film, and with a new matrix */
-    unsigned char *made_full; /* film boundary that the matrix was made for */
+    unsigned char *made_full; /* number of sweeps of the last solution, and with a new matrix */
     int made, made_loaded;
     int flips;              /* consecutive alternations of the film boundary in this solution */
     size_t end, end_before; /* last full node after the last two steps */
@@ -71,16 +71,16 @@ static void destroy(ehl_solver *s)
     s->self = NULL;
 }
 
-/* Returns the weight of h00 among pressures, Pa/m: a pressure over the whole contact, divided by
- * its deflection. */
+/* Returns the weight of h00 relative to pressures, Pa/m: a pressure over the whole contact, divided
+   by its deflection. */
 static double h00_weight(const ehl_solver *s)
 {
     const ehl_grid *g = s->grid;
     return g->dx / (g->half_width * (s->kernel[0] - s->kernel[g->nodes - 1]));
 }
 
-/* Subtracts the Jacobian times (dp, dh) from `product` in rows 1 ... last - 1; dp holds the masses
- * of cavitated nodes. */
+/* Subtracts the Jacobian times (dp, dh) from `product` in rows 1 ... last - 1. At cavitated nodes
+   dp contains masses. */
 static void subtract_jacobian(const ehl_reynolds *r, const double *dp, const double *dh,
                               double *product)
 {
@@ -94,9 +94,9 @@ static void subtract_jacobian(const ehl_reynolds *r, const double *dp, const dou
     }
 }
 
-/* Solves the matrix for the residual of the balances: pressures, masses of cavitated nodes in
- * multiples of `unit`, and in place 0 the change of h00, weighted like a pressure. Returns the
- * largest entry. */
+/* Solves the matrix for the residual of the balances. The solution contains pressures, masses of
+   cavitated nodes in multiples of `unit`, and at index 0 the change of h00, weighted like a
+   pressure. Returns the largest entry. */
 static double sweep(ehl_solver *s, const ehl_step *step)
 {
     relaxation *w = s->self;
@@ -128,7 +128,8 @@ static void apply_sweep(ehl_solver *s, const ehl_film *film)
     subtract_jacobian(r, w->change, w->deflection, w->product);
 }
 
-/* Sweeps until a sweep is small against the first. FF_NOCONV: a number overflowed. */
+/* Sweeps until a sweep is small compared with the first one. Returns FF_NOCONV if a number
+   overflowed. */
 static ff_status relax(ehl_solver *s, const ehl_step *step, const ehl_film *film, double reduction)
 {
     relaxation *w = s->self;
@@ -149,8 +150,8 @@ static ff_status relax(ehl_solver *s, const ehl_step *step, const ehl_film *film
     return isfinite(now) ? FF_OK : FF_NOCONV;
 }
 
-/* Renews the matrix if the film boundary or the length of the step has changed, or if the old one
- * takes too many sweeps. */
+/* Renews the matrix if the film boundary or the time step has changed, or if the old matrix takes
+   too many sweeps. */
 static void update_matrix(ehl_solver *s, const ehl_step *step, const ehl_film *film)
 {
     relaxation *w = s->self;

@@ -9,8 +9,8 @@ typedef struct landing {
     double film, film_error, pressure, pressure_error;
 } landing;
 
-/* Whether the flanks land at a row of the history, to carry a load, and the row of its first
-   maximum. */
+/* Returns whether the flanks land at a row of the history and then carry load. Sets the row of the
+   first maximum of the load. */
 static int lands_at(const ehl_history *h, size_t row, size_t *top)
 {
     const double *number = h->engagement;
@@ -34,8 +34,8 @@ static double error_of(const ehl_results *r, size_t i, uint32_t column, int kind
     return fabs(value(r, i, column) + ehl_space_part(r, i, kind));
 }
 
-/* From the films of the engagement: the least film by a straight line at the instant, the largest
-   pressure up to the film behind the maximum of the load. */
+/* Interpolates the smallest film linearly at the instant of landing. The largest pressure is that
+   of all films up to the first one after the maximum of the load. */
 static landing look(const ehl_results *r, const ehl_history *h, size_t row, size_t top)
 {
     landing x = {.pressure = 0};

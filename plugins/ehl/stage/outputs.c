@@ -24,7 +24,7 @@ static void table_destroy(ehl_rows *t)
     t->data = NULL;
 }
 
-/* Appends a row and returns it; NULL: out of memory. */
+/* Appends a row and returns it. Returns NULL if out of memory. */
 static double *table_row(ehl_rows *t)
 {
     if (t->count == t->room) {
@@ -84,7 +84,7 @@ void ehl_results_destroy(ehl_results *r)
     r->memory = NULL;
 }
 
-/* Returns the mean film over the middle half of the Hertz width, m. */
+/* Returns the mean film thickness over the middle half of the Hertz width, m. */
 static double mean_film(const ehl_march *m)
 {
     const ehl_grid *g = m->solver->grid;
@@ -98,10 +98,10 @@ static double mean_film(const ehl_march *m)
     return sum / (double)count;
 }
 
-/* Returns the film as a spring in series with the teeth sees it: h00 minus the gap that the motion
- * knows, and minus h00 of the dry Hertzian contact under the same force. Its pressure deflects the
- * middle by (4/(pi E')) w (ln(2 X/a) + 1/2), where X = half_width is the distance at which the
- * kernel is 0. */
+/* Returns the film thickness as a spring in series with the teeth: h00 minus the gap that the model
+   of the motion includes, minus h00 of the dry Hertzian contact under the same force. The pressure
+   deflects the middle by (4/(pi E')) w (ln(2 X/a) + 1/2), where X = half_width is the distance at
+   which the kernel is 0. */
 static double separation_of(const ehl_march *m)
 {
     const ehl_grid *g = m->solver->grid;
@@ -113,7 +113,7 @@ static double separation_of(const ehl_march *m)
     return beyond < 0 ? 0 : beyond;
 }
 
-/* Records the load on asperities, and the load on oil that is trapped between two of them. */
+/* Records the load on asperities, and the load on oil that is trapped between two asperities. */
 static void record_contact(ehl_results *r, const ehl_march *m)
 {
     const ehl_grid *g = m->solver->grid;
@@ -154,13 +154,14 @@ static void record_statistical(ehl_results *r, const ehl_march *m)
     r->loaded++;
 }
 
-/* Records the load on metal that yields, and how well plastic (H - p) = 0 holds (asperities.h). The
-   plastic part is computed from the gap, as what it has beyond that of elastic flanks. */
+/* Records the load on yielding metal, and the error in plastic (H - p) = 0 (asperities.h). The
+   plastic part is recomputed from the gap: the gap minus that of elastic flanks. */
 static void record_yield(ehl_results *r, const ehl_march *m)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     const ehl_film *film = &m->state[0].film;
-    const double molecule = 1e-9; /* m; below it the gap is no scale for the plastic part */
+    const double molecule = 1e-9; /* m; a smaller gap is not used as the reference of the plastic
+                                     part */
     double deepest = 0, load = ehl_film_load(film, eq->nodes, eq->dx);
     for (size_t i = 1; i + 1 < eq->nodes; i++) {
         double elastic =
@@ -177,9 +178,9 @@ static void record_yield(ehl_results *r, const ehl_march *m)
     r->deepest_yield = fmax(r->deepest_yield, r->row[EHL_PLASTIC_DEPTH_MAX]);
 }
 
-/* Returns the largest sum of the residuals from the highest pressure to another node, over the flow
- * there: the entrained flow, and the pressure flow of p_max over a cell (check_mass in balance.c).
- */
+/* Returns the largest imbalance of mass between the highest pressure and another node: the sum of
+   the residuals over the flow at that node. The flow is the sum of the entrained flow and the
+   pressure flow of p_max over one cell (check_mass in balance.c). */
 static double unbalanced(const ehl_reynolds *eq, const ehl_film *film, double flow)
 {
     size_t peak = 1;
@@ -200,9 +201,9 @@ static double unbalanced(const ehl_reynolds *eq, const ehl_film *film, double fl
 }
 
 /*
- * Records the balance of mass with rough flanks, whose nodes move with the oil, over the flow: of
- * the nodes outside contacts, of those that should be cavitated, and of those in contact. It uses
- * the residuals of the solver's equations.
+ * Records the balance of mass with rough flanks, relative to the flow: of the nodes outside
+ * contacts, of cavitated nodes, and of nodes in contact. The nodes move with the oil. The residuals
+ * are those of the solver's equations.
  */
 static double record_mass(ehl_results *r, const ehl_march *m)
 {
@@ -234,7 +235,8 @@ static void record_balance(ehl_results *r, const ehl_march *m)
     double carried = ehl_film_load(film, g->nodes, g->dx), most = m->history->load_max;
     double off = fabs(carried - (m->contact_lost ? m->at.load : m->step.load)) / most;
     r->row[EHL_LOAD_ERROR] = off;
-    r->row[EHL_LOAD_AHEAD] = film->ahead + film->p[0] * g->dx / 2; /* to the first node itself */
+    /* p[0] dx/2: from the start of the cell to the first node */
+    r->row[EHL_LOAD_AHEAD] = film->ahead + film->p[0] * g->dx / 2;
     if (m->contact_lost)
         r->lost_force = fmax(r->lost_force, off);
     else
@@ -259,16 +261,16 @@ static double field_value(const ehl_reynolds *eq, const ehl_film *film, uint32_t
         return film->plastic ? film->plastic[i] : 0;
     case EHL_ROUGHNESS:
         return eq->rough ? eq->rough[i] : 0;
-    default: /* share of the gap that is filled */
+    default: /* fraction of the gap that is filled */
         return ehl_is_cavitated(eq, film, i)
                    ? fmin(film->content[i] / (eq->oil.density * eq->h[i]), 1)
                    : 1;
     }
 }
 
-/* Nodes that move with the oil are up to a cell away from the places of the outputs. The output is
-   the value of the nearest node, since a mean of two would show no contact where only one node is
-   in contact. */
+/* Records the fields. Nodes that move with the oil are up to a cell away from the places of the
+   outputs. An output takes the value of the nearest node, since a mean of two nodes would hide a
+   contact at only one of them. */
 static ff_status record_fields(ehl_results *r, const ehl_march *m)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -289,7 +291,7 @@ static ff_status record_fields(ehl_results *r, const ehl_march *m)
     return FF_OK;
 }
 
-/* Records film and pressure, the extremes of both over all rows, and the errors of this row. */
+/* Records film and pressure, their extremes over all rows, and the errors of this row. */
 static void record_film(ehl_results *r, const ehl_march *m)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -360,8 +362,7 @@ ff_status ehl_results_record(ehl_results *r, ehl_march *m, int last)
     ff_status status = record_fields(r, m);
     int undecided = m->solver->counters.undecided > r->undecided;
     r->undecided = m->solver->counters.undecided;
-    int begins =
-        m->smooth < EHL_STATES; /* the difference formula in time starts anew at these films */
+    int begins = m->smooth < EHL_STATES; /* the time integration formula restarts at these films */
     int wholly = wants(r, EHL_MASS_ERROR) || k % SAMPLE == 0 || last || undecided || begins;
     double mass = ehl_balance_hold(&r->balance, m, wholly);
     if (wholly && m->thermal)
@@ -373,7 +374,7 @@ ff_status ehl_results_record(ehl_results *r, ehl_march *m, int last)
     return status;
 }
 
-/* Returns the error by the cells that an output of errors must include; 0 for other outputs. */
+/* Returns the error due to the cells that an error output must include, or 0 for other outputs. */
 static double space_part(const ehl_results *r, size_t i, uint32_t k)
 {
     return k == EHL_H_MIN_ERROR       ? ehl_space_part(r, i, EHL_LEAST)

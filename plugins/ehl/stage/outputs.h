@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Keeps the film at each time as outputs, and records how far it can be trusted. */
+/* Stores the film at each time for the outputs, and records how accurate it is. */
 #ifndef EHL_OUTPUTS_H
 #define EHL_OUTPUTS_H
 
@@ -9,7 +9,7 @@ ff_status ehl_results_create(ehl_results *r, const ff_host *host, uint64_t wante
                              const ehl_march *m);
 void ehl_results_destroy(ehl_results *r);
 
-/* Records the newest film of the march; `last`: no other will follow. */
+/* Records the newest film of the march. `last`: it is the last film. */
 ff_status ehl_results_record(ehl_results *r, ehl_march *m, int last);
 
 /* Writes all outputs and the quality record. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Checks the outputs of each instant against the same quantities from its fields, and writes the
-   quality record of a run: how far its results can be trusted. */
+/* Compares the outputs of each instant with the same quantities computed from its fields, and
+   writes the quality record of a run. */
 #include "../contact/lanes.h"
 #include "../contact/surface.h"
 #include "../errors/balance.h"
@@ -14,7 +14,7 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Keeps the worst relative error of all outputs so far. */
+/* Keeps the largest relative error of all outputs so far. */
 static void compare_output(ehl_balance *b, double value, double expected, double scale)
 {
     ehl_worse(&b->worst.outputs, fabs(value - expected) / (scale + 1e-300));
@@ -58,17 +58,18 @@ static void compare_film_outputs(ehl_balance *b, const ehl_march *m, const doubl
 
 typedef struct force {
     double fluid, asperities, all;
-    double end; /* of the fluid in one cell, where the film ends */
+    double end; /* part of `fluid` in the cell where the film ends */
 } force;
 
-/* The traction that is nearest to the given one, when the film may end up to half a cell before, or
-   one behind, the cell of its last node: where it does is not compared here. */
+/* Returns the traction nearest to the given one within an uncertainty: the film may end up to half
+   a cell before, or one cell after, the cell of its last node. The position of the end is not
+   checked here. */
 static double with_end(double given, double sum, double end)
 {
     return fmin(fmax(given, sum + fmin(-end / 2, end)), sum + fmax(-end / 2, end));
 }
 
-/* b->left = tau, up to the last node that has pressure */
+/* Sets b->left to tau, up to the last node with pressure. Returns the friction forces. */
 static force friction(ehl_balance *b, const ehl_march *m, double boundary)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -79,7 +80,7 @@ static force friction(ehl_balance *b, const ehl_march *m, double boundary)
     size_t n = b->nodes;
     while (n > 1 && !(film->p[n - 1] > 0))
         n--;
-    if (m->rough) /* of smooth flanks the balance of mass has it */
+    if (m->rough) /* with smooth flanks ln_eta is already set by the balance of mass */
         eq->laws.viscosity->eval(eq->laws.viscosity->self, n, film->p, NULL, b->ln_eta, NULL, NULL);
     if (eq->laws.rheology)
         eq->laws.rheology->shear(eq->laws.rheology->self, n, fluid, NULL, b->ln_eta, eq->h, slide,
@@ -112,7 +113,8 @@ static void compare_loss_outputs(ehl_balance *b, const ehl_march *m, const doubl
     if (m->thermal)
         D = ehl_thermal_pressure_flow(m);
     double scale = eq->dx / m->step.radius;
-    double enters = p[0] * (eq->h[0] + eq->h[1]) / 2; /* of the moment by parts, where p begins */
+    /* boundary term of the integration by parts, at the start of the pressure */
+    double enters = p[0] * (eq->h[0] + eq->h[1]) / 2;
     double tail = p[1] > 0 ? 24 * eq->oil.viscosity * u * m->step.radius / -eq->first : 0;
     double power = (f.fluid + f.asperities) * m->step.sliding + D + u * tail;
     compare_output(b, row[EHL_ROLLING_LOSS], u * (tail - scale * b->moment - enters),
@@ -157,21 +159,23 @@ static void report_at_least(const ehl_results *r, const char *name, double value
                          text);
 }
 
-/* Reports an equation that a film must satisfy: beyond `broken` it does not. */
+/* Reports the error of an equation that a film must satisfy. Beyond `broken` the film does not
+   satisfy it. */
 static void report_balance(const ehl_results *r, const char *name, double value, double limit,
                            double broken, const char *text)
 {
     report_at_most(r, name, value, limit, value <= broken ? FF_DOUBTFUL : FF_BAD, text);
 }
 
-/* How far a film may miss its equations: beyond `limit` it is doubtful, beyond `broken` bad. */
+/* Tolerances of the balances: an error beyond `limit` is doubtful, beyond `broken` bad. */
 typedef struct tolerances {
     double limit, broken;
 } tolerances;
 
 static tolerances tolerances_of(const ehl_results *r, const ehl_march *m)
 {
-    const double unknown = 0.02; /* no instant has a load by which the cells could be judged */
+    const double unknown = 0.02; /* used if no instant has a load at which the error due to the
+                                    cells is known */
     double most = fmax(20 * fmin(r->tolerance, 2e-5), 5 * r->tolerance);
     double same = fmax(most, 1e-9), cells = r->worst_by_cells;
     if (!m->solver->outside)
@@ -181,12 +185,14 @@ static tolerances tolerances_of(const ehl_results *r, const ehl_march *m)
 }
 
 /*
- * Up to a tolerance of 2e-5 the last Newton step of a film changed its pressure by less than that
- * of p_max, and its gap by less than ten times that: between two places the equations are open by
- * twice as much. Beyond it so much is left after all steps of a passage. What is more was not
- * solved, or not the film's equations. Beyond a hundredth the film is off by it. Of another
- * discretisation the balances know the equations alone, and not how it cuts them into cells: they
- * are open by as much as h_min is off by the cells.
+ * Reports the balances. The limits follow from Newton's method. With a tolerance up to 2e-5, the
+ * last Newton step of a film changed its pressure by less than the tolerance times p_max, and its
+ * gap by less than ten times that share. The error of the equations between two places may be twice
+ * as large. With a larger tolerance that much error may remain after all steps of a passage. A
+ * larger error means that the equations were not solved, or that they are not those of the film. An
+ * error above 0.01 is of that size in the film too. For the discretisation of another stage the
+ * balances use the same equations, but not its division into cells. Their error is then as large as
+ * that of h_min due to the cells.
  */
 static void report_conservation(const ehl_results *r, const ehl_march *m)
 {
@@ -195,47 +201,52 @@ static void report_conservation(const ehl_results *r, const ehl_march *m)
     const tolerances of = tolerances_of(r, m);
     const double limit = of.limit, broken = of.broken;
     report_balance(r, "contact_conditions", w->conditions, 1e-9, 1e-6,
-                   "radius, speeds and load of the films, off those of the contact at their times");
+                   "largest relative difference between the radius, speeds and load of the films "
+                   "and those of the contact at the same times");
     report_balance(
         r, "load_balance", fmax(w->load, r->worst_load), 1e-8, 1e-8,
-        "integral of p against the load of the contact, over the largest; loaded instants, "
-        "without those of landing, where load_error shows up to 1 %");
+        "integral of p minus the load of the contact, over the largest load; at loaded instants "
+        "except during landing, where load_error may reach 1 %");
     report_balance(r, "load_rescaling", w->rescaling, limit, broken,
-                   "factor on the pressure that the load takes at the end of a solution, less 1");
+                   "factor by which the pressure is scaled to the load at the end of a solution, "
+                   "minus 1");
     report_balance(
         r, "film_shape", w->gap, limit, broken,
-        m->rough ? "h between places of the contact, off the shape of the flanks, their traces as "
-                   "they have moved, and a deflection by direct sum, over h"
-                 : "h between places of the contact, off the shape of the flanks and a deflection "
-                   "by direct sum, over h");
+        m->rough ? "difference of h, at places of the contact, from the shape of the flanks, "
+                   "their roughness as it has moved, and a deflection by direct summation, over h"
+                 : "difference of h, at places of the contact, from the shape of the flanks and "
+                   "a deflection by direct summation, over h");
     report_balance(
         r, "mass_balance", fmax(w->mass, r->worst_mass), limit, broken,
-        "inflow - outflow - storage of what lies between the highest pressure and any other, "
-        "over the flow");
+        "inflow - outflow - storage between the place of the highest pressure and any other "
+        "place, over the flow");
     report_balance(
         r, "complementarity", fmax(w->cavitated, r->worst_complement), limit, broken,
         m->solver->reynolds->conserving
-            ? "what a cell with p = 0 holds beyond its gap, over the gap"
-            : "pressure that would carry off the oil which a cell with p = 0 gains, over the "
-              "highest");
-    /* the mobility in the losses is that of the last Newton step: exp(alpha p), alpha p some 20 */
-    report_balance(
-        r, "outputs", w->outputs, 2.5 * limit, broken,
-        "film, pressure, friction and losses as they are given, off the same from the fields");
+            ? "oil in a cell with p = 0 beyond what its gap can hold, over the gap"
+            : "pressure that would remove the oil which a cell with p = 0 gains, over the "
+              "highest pressure");
+    /* the mobility in the losses is that of the last Newton step. It varies like exp(alpha p), with
+       alpha p about 20, so its error is larger */
+    report_balance(r, "outputs", w->outputs, 2.5 * limit, broken,
+                   "difference of the outputs of film, pressure, friction and losses from the same "
+                   "quantities computed from the fields");
     report_balance(r, "rolling_moment", w->moment, limit, broken,
-                   "work of the entrainment, off that by the moment of the pressure");
+                   "work of the entrainment minus its value from the moment of the pressure, "
+                   "relative");
     if (m->rough)
         return;
-    /* its terms are some hundredths of the flow times P that the volumes are balanced to */
+    /* the terms of this balance are a few hundredths of flow times pressure, in which the tolerance
+       of the cells is expressed */
     report_balance(
         r, "energy_balance", w->energy, 2 * limit, 2 * broken,
-        "work of the entrainment and of the squeeze less what the pressure flow dissipates, "
-        "over them");
+        "work of entrainment and squeeze minus the dissipation of the pressure flow, relative to "
+        "them");
     if (wants_loss)
         report_at_most(
             r, "power_loss_space_error", w->dissipation, 0.05, FF_DOUBTFUL,
-            "estimate of the error of power_loss by the cells, over it: its pressure flow off the "
-            "work of the flanks; loads above 2 % of the largest");
+            "estimated relative error of power_loss due to the cells: dissipation of the "
+            "pressure flow minus the work of the flanks; for loads above 2 % of the largest");
 }
 
 static double largest_loss(const ehl_results *r)
@@ -248,76 +259,79 @@ static double largest_loss(const ehl_results *r)
 
 static void report_end_of_inlet(const ehl_results *r)
 {
-    int flooded = r->tail_share > 0; /* at some instant: of a starved inlet nothing is looked at */
+    int flooded = r->tail_share > 0; /* flooded at some instant; a starved inlet is not checked */
     if (!r->rough && flooded && (r->wanted & FF_BIT(EHL_POWER_LOSS)))
         report_at_most(
             r, "power_loss_inlet_error", r->worst_squeezed / largest_loss(r), 0.05, FF_DOUBTFUL,
-            "estimate of the error of power_loss by where the domain begins, over the largest: the "
-            "squeeze of the flanks in the outer half of the inlet, of which as much is left out");
+            "estimated error of power_loss due to the start of the domain, over the largest "
+            "power_loss: the squeeze loss of the outer half of the inlet, since about as much is "
+            "lost in front of the domain");
 }
 
-/* The loss that is added upstream of the domain is off by about a sixth of its share. */
+/* The error of the loss that is added upstream of the domain is about a sixth of that loss. */
 static void report_inlet_tail(const ehl_results *r)
 {
     if (!ehl_loss_of_flow(r->wanted) || !(r->tail_share > 0 || r->starved > 0))
         return;
     report_at_most(
         r, "inlet_tail", r->tail_share, 0.5, FF_DOUBTFUL,
-        !r->starved ? "the inlet is flooded: share of the pressure flow's loss that is taken in "
-                      "front of the domain, in closed form"
+        !r->starved ? "the inlet is flooded: share of the pressure flow's loss that arises in "
+                      "front of the domain and is added by a closed formula"
         : r->tail_share > 0
-            ? "share of the pressure flow's loss that is taken in front of the domain, where the "
-              "inlet is flooded; at some instants it is starved, and nothing is"
-            : "the inlet is starved: no loss is taken in front of the domain");
+            ? "share of the pressure flow's loss that arises in front of the domain and is added "
+              "by a closed formula where the inlet is flooded; at some instants it is starved, "
+              "and nothing is added"
+            : "the inlet is starved: no loss in front of the domain is added");
 }
 
-/* Asymmetric volumes do not always have a film boundary (relaxation.c). */
+/* With asymmetric volumes the film does not always have a definite boundary (relaxation.c). */
 static void report_end_of_film(const ehl_results *r, const ehl_march *m)
 {
     if (m->solver->reynolds->asymmetric)
         report_at_most(
             r, "film_end", r->undecided, 0.01 * (double)r->series.count, FF_DOUBTFUL,
-            "films whose end suits neither of two nodes; what the second of them gains is in "
-            "complementarity");
+            "number of films whose end is not definite between two nodes; the oil that the "
+            "second node gains is reported in complementarity");
 }
 
 static void report_ends(const ehl_results *r, const ehl_grid *g)
 {
     report_at_least(r, "inlet_length", r->least_inlet, r->fed ? EHL_FED_LENGTHS : 4,
                     r->fed
-                        ? "least length of the domain in front of the contact over sqrt(2 R h); "
-                          "from 2 on the pressure with which it begins is that of a longer one"
-                        : "least length of the domain in front of the contact over sqrt(2 R h); "
-                          "below 4 the film is starved by about 1 % or more: move the inlet out");
+                        ? "shortest domain in front of the contact over sqrt(2 R h); at 2 or "
+                          "more, its inlet pressure is that of a longer domain"
+                        : "shortest domain in front of the contact over sqrt(2 R h); below 4 the "
+                          "film is starved by about 1 % or more: move the inlet out");
     if (isfinite(r->least_inlet))
         report_at_most(
             r, "starvation", r->worst_starvation, EHL_STARVED_LIMIT, FF_DOUBTFUL,
-            r->fed ? "film that is missing because the domain ends, mean over a passage, though it "
-                     "begins with the pressure of a longer one: what that lacks by the film of the "
-                     "run, and by the squeeze in front"
-                   : "film that is missing because the domain ends, mean over a passage; its inlet "
-                     "end is taken as flooded; move the inlet out");
+            r->fed ? "film that is missing because the domain ends, mean over a passage, "
+                     "although its inlet pressure is that of a longer domain: error of that "
+                     "pressure due to the film of the run, and due to squeeze in front of the "
+                     "domain"
+                   : "film that is missing because the domain ends, mean over a passage, if the "
+                     "inlet is flooded there; move the inlet out");
     report_at_most(
         r, "outlet_load", r->worst_outlet, 2.5e-3, FF_DOUBTFUL,
-        "share of the load next to the outlet's end, within a quarter of sqrt(2 R h), where "
-        "the film reaches it, mean over a passage; above 0.0025 its exit is cut off and h_min too "
-        "low: move the outlet out");
+        "share of the load within a quarter of sqrt(2 R h) of the outlet's end, where the film "
+        "reaches it, mean over a passage; above 0.0025 the exit of the film is cut off and h_min "
+        "is too low: move the outlet out");
     if (g->drawn > 0)
         report_at_least(r, "outlet_length", g->outlet / g->drawn, 0.99,
-                        "length of the outlet over what it takes where the contact swells faster "
-                        "than the oil leaves, and oil is "
-                        "drawn in there; below 1 too little of it comes, and p_max is too low: "
-                        "move the outlet out");
+                        "length of the outlet over the length needed where the contact grows "
+                        "faster than the oil leaves, so that oil is drawn in at the outlet; "
+                        "below 1 too little oil is drawn in, and p_max is too low: move the "
+                        "outlet out");
 }
 
-/* Where no error of a film by the cells is estimated. */
+/* Reports the resolution if the error of a film due to the cells is not estimated. */
 static void report_resolution(const ehl_results *r)
 {
     if (!ehl_results_estimate_cells(r))
         report_at_least(
             r, "film_resolution", r->least_resolution, 4,
-            "least cells over the inlet's pressure rise; below 3 to 4 the film depends on the grid "
-            "by more than 2 %: use more cells");
+            "smallest number of cells over the pressure rise of the inlet; below 3 to 4 the film "
+            "depends on the grid by more than 2 %: use more cells");
 }
 
 static void report_time_errors(const ehl_results *r, const ehl_march *m)
@@ -326,12 +340,14 @@ static void report_time_errors(const ehl_results *r, const ehl_march *m)
     if (r->series.count < 2)
         return;
     report_at_most(r, "instants", ehl_sampling_missed(&r->sampling), 0.02, FF_DOUBTFUL,
-                   "part of the load that lies off straight lines between the instants of the "
-                   "film, or of the highest Hertz pressure that none of them has; above 0.02 means "
-                   "and extremes miss what passes between them: more steps");
-    if (m->rough) { /* one asperity's film is no smooth function of time */
+                   "largest error of linear interpolation of the load between the instants of "
+                   "the film, or of the highest Hertz pressure, which no instant may hit; above "
+                   "0.02 means and extremes miss what happens between the instants: use more "
+                   "steps");
+    if (m->rough) { /* the film on a single asperity is not a smooth function of time */
         report_at_most(r, "steps_cut", m->steps_cut, (double)r->series.count, FF_DOUBTFUL,
-                       "time steps that were cut, as contacts come and go");
+                       "number of time steps that were cut because asperity contacts formed or "
+                       "opened");
         return;
     }
     if (ehl_wants_h_min(r->wanted))
@@ -341,20 +357,21 @@ static void report_time_errors(const ehl_results *r, const ehl_march *m)
                                             : r->worst_in_time[EHL_LEAST]),
                        0.05, FF_DOUBTFUL,
                        r->lowest_alone
-                           ? "estimate of the error of h_min_lowest by the time steps, over it; "
-                             "loads above 2 % of the largest"
-                           : "estimate of the error of h_min by the time steps, over h_min; loads "
+                           ? "estimated relative error of h_min_lowest due to the time steps; "
+                             "for loads above 2 % of the largest"
+                           : "estimated relative error of h_min due to the time steps; for loads "
                              "above 2 % of the largest");
     if (ehl_wants_h_central(r->wanted))
         report_at_most(
             r, "h_central_time_error", r->worst_in_time[EHL_CENTRAL], 0.05, FF_DOUBTFUL,
-            "estimate of the error of h_central by the time steps, over h_central; loads above 2 "
-            "% of the largest");
+            "estimated relative error of h_central due to the time steps; for loads above 2 % of "
+            "the largest");
     report_balance(
         r, "mass_history", r->balance.worst.history, 0.05,
         m->solver->outside ? fmax(0.1, 4 * r->worst_in_time[EHL_LEAST])
                            : fmax(0.5, 10 * r->worst_in_time[EHL_LEAST]),
-        "oil that came into the contact and left it, off the change of what is there, over it");
+        "oil that entered the contact minus oil that left it, minus the change of the oil in it, "
+        "relative");
     if (ehl_wants_p_max(r->wanted))
         report_at_most(r, "p_max_time_error",
                        ehl_beyond_instants(r, EHL_P_MAX, 1) +
@@ -362,19 +379,19 @@ static void report_time_errors(const ehl_results *r, const ehl_march *m)
                                              : r->worst_peak_in_time),
                        0.05, FF_DOUBTFUL,
                        r->highest_alone
-                           ? "estimate of the error of p_max_highest by the time steps, over it"
-                           : "estimate of the error of p_max by the time steps, over p_max");
+                           ? "estimated relative error of p_max_highest due to the time steps"
+                           : "estimated relative error of p_max due to the time steps");
     double loss = r->wanted & FF_BIT(EHL_POWER_LOSS) ? ehl_results_loss_in_time(r, m) : -1;
     if (loss >= 0)
         report_at_most(
             r, "power_loss_time_error", loss / largest_loss(r), 0.05, FF_DOUBTFUL,
-            "estimate of the error of the rolling and squeeze in power_loss by the time steps, "
-            "over the largest power_loss; loads above 2 % of the largest");
+            "estimated error due to the time steps of the rolling and squeeze loss in "
+            "power_loss, over the largest power_loss; for loads above 2 % of the largest");
     r->host->quality(r->host->ctx, "steps_cut", m->steps_cut, 0, FF_GOOD,
-                     "time steps that failed and were taken again in shorter ones");
+                     "number of time steps that failed and were repeated with shorter ones");
     snprintf(text, sizeof text,
-             "largest truncation of the film in one step, over it, at %.6g s; %g steps were taken "
-             "again for theirs",
+             "largest truncation error of the film in one step, relative, at %.6g s; %g steps "
+             "were repeated because of it",
              m->worst_truncation_at, m->steps_refused);
     r->host->quality(r->host->ctx, "worst_step", m->worst_truncation, 0, FF_GOOD, text);
 }
@@ -383,22 +400,25 @@ static void report_contact_loss(const ehl_results *r, const ehl_march *m)
 {
     if (m->pressureless_steps > 0)
         r->host->quality(r->host->ctx, "bare_steps", m->pressureless_steps, 0, FF_DOUBTFUL,
-                         "steps without load that were carried on without pressure, because "
-                         "Newton's method failed there");
+                         "number of steps without load that continued without pressure because "
+                         "Newton's method failed");
     if (r->lost_force > 0)
         r->host->quality(r->host->ctx, "unloaded_force", r->lost_force, 1, FF_GOOD,
-                         "largest force of the film without contact, over the largest load");
+                         "largest force of the film while the flanks are separated, over the "
+                         "largest load");
     if (r->worst_gap_excess > 0 && r->widest_gap > 0)
         report_at_most(
             r, "one_way_gap_error", r->worst_gap_excess / r->widest_gap, 1, FF_DOUBTFUL,
             "largest distance by which the film keeps the flanks further apart than the dynamics "
-            "says, over the largest gap; above 1 the flight is the film's, not the dynamics'");
+            "computed, over the largest gap; above 1 the film determines the flight, not the "
+            "dynamics");
 }
 
 /*
- * The film on an asperity is made over its inlet, which is the shorter the thinner it is. From one
- * cell over it on, when the film is the contact film, twice the cells change the share of the
- * asperities by less than 5 % of it: docs/validation/mixed.md.
+ * Reports the resolution of asperities. The film on an asperity forms over its inlet, which is
+ * shorter for a thinner film. If there is at least one cell over this inlet when the film is the
+ * contact film, doubling the cells changes the asperities' share by less than 5 %:
+ * docs/validation/mixed.md.
  */
 static void asperity_cells(const ehl_results *r, const ehl_march *m, double share)
 {
@@ -410,9 +430,9 @@ static void asperity_cells(const ehl_results *r, const ehl_march *m, double shar
     int resolved = length >= enough * dx || share < little;
     char text[192];
     snprintf(text, sizeof text,
-             "%scells over the inlet of an asperity, %.2g um for the rms curvature of the flanks; "
-             "%.3g cells lie between two peaks",
-             resolved ? "" : "share not resolved: ", 1e6 * length, shortest / dx);
+             "%scells over the inlet of an asperity, %.2g um for the rms curvature of the "
+             "flanks; %.3g cells between two peaks",
+             resolved ? "" : "not resolved, share of the time ", 1e6 * length, shortest / dx);
     r->host->quality(r->host->ctx, "asperity_resolution", length / dx, enough,
                      resolved ? FF_GOOD : FF_DOUBTFUL, text);
 }
@@ -424,18 +444,18 @@ static void report_yield(const ehl_results *r, const ehl_march *m, double count)
     if (!(hardness > 0))
         return;
     snprintf(text, sizeof text,
-             "mean share of the load where the metal yields, at %.4g GPa; the plastic part of the "
-             "gap, %.3g um at most, is that of the instant: no dent stays on a flank",
+             "mean share of the load where the metal yields, at %.4g GPa; the plastic part of "
+             "the gap is at most %.3g um. It is that of each instant: no dent remains on a flank",
              1e-9 * hardness, 1e6 * r->deepest_yield);
     r->host->quality(r->host->ctx, "yield", r->yield_sum / count, 1, FF_GOOD, text);
-    /* rounding errors of the sum that h is, of terms up to some 1e5 times as large */
-    report_at_most(
-        r, "yield_complementarity", r->worst_yield, 1e-9, FF_BAD,
-        "plastic part of the gap where p is below asperity_hardness, over h, or p beyond it");
+    /* round-off of the sum that gives h, whose terms are up to 1e5 times as large as h */
+    report_at_most(r, "yield_complementarity", r->worst_yield, 1e-9, FF_BAD,
+                   "error of the yield condition: plastic part of the gap where p is below "
+                   "asperity_hardness, over h, or p above asperity_hardness");
 }
 
-/* Flanks that are rough along the motion alone let oil into valleys that are closed in truth, and
-   ride over waves that are longer than the contact. */
+/* The model has flanks that are rough only along the motion. They let oil into valleys that are
+   closed in reality, and they ride over waves that are longer than the contact. */
 static void report_rough_lambda(const ehl_results *r)
 {
     const double least = 1;
@@ -444,9 +464,9 @@ static void report_rough_lambda(const ehl_results *r)
     r->host->quality(
         r->host->ctx, "lambda", r->least_lambda, least,
         r->least_lambda < least ? FF_RANGE : FF_GOOD,
-        "lowest mean film over the roughness of the record; below 1 asperities carry a "
-        "share of the load that flanks rough along the motion alone do not tell, so "
-        "that friction and loss may be larger");
+        "lowest mean film over the roughness of the record; below 1 asperities carry a share of "
+        "the load that a model with roughness along the motion alone cannot give, so that "
+        "friction and loss may be larger");
 }
 
 /* Flanks ride over waves that are longer than the contact. */
@@ -456,23 +476,22 @@ static void report_long_waves(const ehl_results *r, const ehl_march *m)
     double share = ehl_roughness_longer(m->rough, 2 * m->solver->grid->half_width);
     r->host->quality(r->host->ctx, "waves_longer_than_contact", share, most,
                      share <= most ? FF_GOOD : FF_RANGE,
-                     "share of the variance of the flanks in waves longer than the largest "
-                     "contact, which rides over them: friction is that of a film on waves, and "
-                     "what asperities carry in three dimensions is not in it "
-                     "(surface/statistical)");
+                     "share of the flanks' variance in waves longer than the largest contact, "
+                     "which rides over them: the friction is that of a film on waves, and "
+                     "excludes what asperities carry in three dimensions (surface/statistical)");
 }
 
-/* A record that does not repeat is shorter than the way of its flank. */
+/* Reports if a record that does not repeat is shorter than the travel of its flank. */
 static void report_record(const ehl_results *r, const ehl_march *m)
 {
     double beyond = ehl_roughness_beyond(m->rough);
     if (beyond > 0)
         report_at_most(r, "surface_record", beyond, 0.01, FF_RANGE,
-                       "share of the way of the flanks that passes after the end of their record, "
-                       "where they are flat: take a longer record, or let it repeat (extend)");
+                       "share of the flanks' travel beyond the end of their record, where they "
+                       "are taken as flat: use a longer record, or let it repeat (extend)");
 }
 
-/* What the film does not know of the flanks. */
+/* Reports the part of the roughness that the film does not resolve. */
 static void report_left_out(const ehl_results *r, const ehl_march *m)
 {
     const ehl_roughness *f = m->rough;
@@ -482,7 +501,7 @@ static void report_left_out(const ehl_results *r, const ehl_march *m)
         return;
     snprintf(text, sizeof text,
              "rq_left_out over the Rq of the flanks, %.3g of %.3g um: waves below %.4g um, %.3g "
-             "cells, are taken off (roughness_cutoff); more cells leave less out",
+             "cells, are removed (roughness_cutoff); with more cells less is removed",
              1e6 * f->left_out, 1e6 * f->given, 1e6 * f->cutoff, f->cutoff / m->solver->grid->dx);
     report_at_most(r, "roughness_left_out", f->left_out / f->given, most, FF_RANGE, text);
 }
@@ -492,8 +511,8 @@ static void report_asperities(const ehl_results *r, const ehl_march *m)
     double count = fmax(1, (double)r->loaded);
     char text[192];
     snprintf(text, sizeof text,
-             "mean share of the load on asperities; %.3g of the contact's length touches, and oil "
-             "in sealed valleys carries %.3g of the load",
+             "mean share of the load on asperities; %.3g of the contact's length touches, and "
+             "oil in sealed valleys carries %.3g of the load",
              r->ratio_sum / count, r->trapped_sum / count);
     r->host->quality(r->host->ctx, "asperity_load", r->share_sum / count, 1, FF_GOOD, text);
     report_left_out(r, m);
@@ -503,32 +522,34 @@ static void report_asperities(const ehl_results *r, const ehl_march *m)
     report_yield(r, m, count);
     report_at_most(
         r, "contact_supply", r->worst_supply, 0.01, FF_DOUBTFUL,
-        "oil that asperities in contact press out beyond what is between them, over the flow");
+        "oil that asperities in contact press out beyond the oil between them, over the flow");
     report_at_least(
         r, "cells_per_wavelength", ehl_roughness_wavelength(m->rough) / m->solver->grid->dx, 8,
-        "cells over the mean distance of the peaks; below 8 the finest asperities are coarse");
+        "cells over the mean distance of the peaks; below 8 the finest asperities are not "
+        "resolved");
 }
 
-/* What the asperities of statistical flanks carry is known to a factor of 3: so is K. */
+/* The load on statistical asperities is known only to a factor of 3, since their parameter K is. */
 static void report_statistical(const ehl_results *r, const ehl_march *m)
 {
     const double longest = 1.5, length = 2 * m->solver->grid->half_width;
     char text[224];
     snprintf(text, sizeof text,
-             "mean share of the load on asperities, by their statistics, whose K is known to a "
-             "factor of 3; the mean planes come as close as %.3g sigma",
+             "mean share of the load on asperities, from their statistics, whose K is known to a "
+             "factor of 3; smallest distance of the mean planes: %.3g sigma",
              r->least_gap);
     r->host->quality(r->host->ctx, "asperity_load", r->share_sum / fmax(1, (double)r->loaded), 1,
                      FF_GOOD, text);
     if (r->cutoff > 0)
         report_at_most(r, "roughness_cutoff", r->cutoff / length, longest, FF_RANGE,
-                       "longest waves of the roughness over the length of the largest contact; the "
-                       "flanks ride over longer ones, and rq is too large by these");
+                       "longest waves of the roughness over the length of the largest contact; "
+                       "the flanks ride over longer ones, so that rq is too large by these waves");
     if (r->roughness > 0)
         ehl_lambda_carried(r->host, r->least_lambda);
 }
 
-/* The film at rest is not known, nor what was there before the creep that stands in for it. */
+/* The film at rest is not known, nor is the film before the creep that replaces the state of
+   rest. */
 static void report_start(const ehl_results *r, const ehl_march *m)
 {
     const ehl_history *h = m->history;
@@ -536,8 +557,9 @@ static void report_start(const ehl_results *r, const ehl_march *m)
     if (!h->at_rest)
         return;
     snprintf(text, sizeof text,
-             "begins at rest: up to %.3g s, when the film that it began with has left the contact, "
-             "least films are those of %g %% of the largest speed, or left over from them",
+             "the history begins at rest: up to %.3g s, when the initial film has left the "
+             "contact, the smallest films are those of %g %% of the largest speed, or remain "
+             "from them",
              m->renewed > 0 ? m->renewed : h->time[h->count - 1], 100 * EHL_CREEP);
     r->host->quality(r->host->ctx, "start_at_rest", 1, 0, FF_RANGE, text);
 }
@@ -564,18 +586,18 @@ void ehl_results_quality(const ehl_results *r, const ehl_march *m)
     } else if (r->roughness > 0) {
         ehl_lambda_report(r->host, r->least_lambda);
     }
-    if (r->lowest < (m->rough ? 0.99e-9 : 0.999e-9)) /* asperities hold 1 nm to the tolerance */
+    if (r->lowest < (m->rough ? 0.99e-9 : 0.999e-9)) /* asperities keep 1 nm within the tolerance */
         r->host->quality(r->host->ctx, "continuum", r->lowest, 1e-9, FF_RANGE,
                          "outside continuum: the film is thinner than 1 nm, a few molecules");
     ehl_law_report(r->host, r->laws);
     report_start(r, m);
     if (m->solver->outside)
         r->host->quality(r->host->ctx, "discretisation", 1, 0, FF_GOOD,
-                         "each film is that of another stage's discretisation; its errors by the "
-                         "cells are estimated as if it were this model's own");
+                         "each film is computed by the discretisation of another stage; its "
+                         "errors due to the cells are estimated as if it were that of this model");
     snprintf(text, sizeof text, "%s%s; %.3g Newton steps and %.3g convolutions per instant",
              count > 1 ? "converged at every instant" : "converged",
-             m->start_unloaded ? "; begins without load, from the film of 1 % of the largest load"
+             m->start_unloaded ? "; starts without load, from the film of 1 % of the largest load"
                                : "",
              counters->newton / count, counters->convolutions / count);
     r->host->quality(r->host->ctx, "status", 0, 0, FF_GOOD, text);

@@ -11,11 +11,11 @@ int ehl_is_statistical(const ehl_model *m)
     return m->asperities && m->roughness != EHL_IGNORED;
 }
 
-/* tolerance: auto. The first film, and the solvers that finite-volume is compared with. */
+/* tolerance: auto, for the first film and for the solvers with which finite-volume is compared */
 static const double FIRST_TOLERANCE = 1e-5;
 
-/* The same between rough flanks, whose error by the cells is not known: what it changes of the
-   share of the asperities is a fifth of what the steps do. */
+/* tolerance: auto, between rough flanks, whose error due to the cells is not known. It changes the
+   asperities' share by a fifth of what the time steps do. */
 static const double ROUGH_TOLERANCE = 1e-4;
 
 double ehl_first_tolerance(const ehl_model *m, const ehl_run *r)
@@ -46,9 +46,9 @@ static ff_status read_surface(const ehl_model *m, const ff_array *in, ehl_run *r
         return FF_OK;
     if (m->maker != ehl_newton_krylov || m->outside)
         return ff_failf(m->host, FF_UNSUPPORTED, "surface.position",
-                        "%s knows smooth flanks only; ehl/finite-volume takes rough ones%s",
+                        "%s models smooth flanks only; ehl/finite-volume takes rough ones%s",
                         m->outside ? "the discretisation" : "this model",
-                        m->outside ? " where none is wired" : "");
+                        m->outside ? " if no discretisation is wired" : "");
     for (uint32_t k = EHL_IN_POSITION; k <= EHL_IN_ORIGIN; k++)
         if (!in[k].data)
             return ff_failf(m->host, FF_INVALID, ehl_inputs[k].name,
@@ -67,8 +67,8 @@ static ff_status read_surface(const ehl_model *m, const ff_array *in, ehl_run *r
                : ehl_roughness_create(&r->rough, in[EHL_IN_POSITION].data, &r->history, m->host);
 }
 
-/* Takes off the waves of rough flanks that the cells do not resolve: one cut-off for all
-   engagements, since they share a grid. */
+/* Removes the waves of rough flanks that the cells do not resolve. All engagements share one
+   cut-off, since they share a grid. */
 static ff_status cut_surface(const ehl_model *m, ehl_run *r)
 {
     double cutoff =
@@ -76,7 +76,8 @@ static ff_status cut_surface(const ehl_model *m, ehl_run *r)
     return r->rough.count > 0 && cutoff > 0 ? ehl_roughness_cut(&r->rough, cutoff, m->host) : FF_OK;
 }
 
-/* The hardness of rough flanks, that of the softer gear or the parameter where no gear tells. */
+/* Reads the hardness of rough flanks: that of the softer gear, or the parameter if no gear gives
+   it. */
 static ff_status read_hardness(const ehl_model *m, const ff_array *in, ehl_run *r)
 {
     const ff_array *row = &in[EHL_IN_HARDNESS];
@@ -86,21 +87,23 @@ static ff_status read_hardness(const ehl_model *m, const ff_array *in, ehl_run *
                          : FF_OK;
 }
 
-/* Refuses a hardness below the mean pressure pi/4 p_H (Johnson 1985, ch. 4): metal that yields all
-   over carries its hardness times a length, which would be longer than the elastic contact. */
+/* Refuses a hardness below the mean pressure pi/4 p_H (Johnson 1985, ch. 4). If all metal yields,
+   the load is its hardness times a length, and this length would exceed that of the elastic
+   contact. */
 static ff_status check_hardness(const ehl_model *m, const ehl_run *r)
 {
     const double mean = 3.14159265358979323846 / 4 * r->grid.pressure;
     if (!(r->rough.count > 0 && r->hardness > 0) || r->hardness > mean)
         return FF_OK;
     return ff_failf(m->host, FF_INVALID, r->gears_tell ? "gear.hardness" : "asperity_hardness",
-                    "flanks of %.4g GPa would yield all over the contact, whose mean pressure is "
-                    "%.4g GPa under the largest load: asperity_hardness, or that of the "
-                    "gears, must be above that, or 0 for flanks that stay elastic",
+                    "flanks of %.4g GPa hardness would yield over the whole contact, whose mean "
+                    "pressure is %.4g GPa under the largest load: asperity_hardness, or the "
+                    "hardness of the gears, must be above that, or 0 for flanks that stay elastic",
                     1e-9 * r->hardness, 1e-9 * mean);
 }
 
-/* An inlet that was shortened by more than rounding begins with the pressure of the longest. */
+/* An inlet shorter than this share of the full length begins with the pressure of the full
+   inlet. */
 static const double SHORT = 0.9;
 
 /* Fits the domain and its nodes to the contact, the oil and the roughness. */
@@ -125,7 +128,7 @@ static ff_status fit_grid(const ehl_model *m, ehl_run *r)
 {
     if (ehl_fluid_oil(&m->laws, &r->oil) < 0)
         return ff_failf(m->host, FF_INVALID, NULL, "an oil law fails at ambient pressure");
-    double *film = malloc(r->history.count * sizeof *film); /* each row is looked at many times */
+    double *film = malloc(r->history.count * sizeof *film); /* each row is used many times */
     if (!film)
         return FF_NOMEM;
     for (size_t i = 0; i < r->history.count; i++)
@@ -158,8 +161,8 @@ static ff_status equations_create(const ehl_model *m, ehl_run *r)
                                             .share = 1,
                                             .hardness = r->hardness};
     if (r->rough.count > 0) {
-        /* mass-conserving cavitation: a bubble in a valley must give way; first-order wedge: the
-           film boundary must make no waves */
+        /* Mass-conserving cavitation: a void in a valley must be able to close. First-order wedge:
+           no spurious waves at the film boundary. */
         eq->conserving = 1;
         eq->wedge = 1;
         eq->contact = eq->floor = m->contact_film;
@@ -185,7 +188,7 @@ static ff_status solver_create(const ehl_model *m, ehl_run *r)
     if (status == FF_UNSUPPORTED && m->outside)
         return ff_failf(
             m->host, status, "discretisation",
-            "the discretisation does not solve for such a film: cavitation %s, %s wedge",
+            "the discretisation does not support a film with cavitation %s and %s wedge",
             r->reynolds.conserving ? "mass-conserving" : "clip",
             r->reynolds.wedge == 2 ? "second-order" : "first-order");
     if (status == FF_UNSUPPORTED)

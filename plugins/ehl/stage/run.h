@@ -12,12 +12,12 @@
 #include "../time/error-transport.h"
 #include "../time/step-control.h"
 
-/* In the order in which they are made. Starts zeroed. */
+/* Members are in the order in which they are made. The struct starts zeroed. */
 typedef struct ehl_run {
-    ehl_history whole, history; /* of all engagements, and of the current one */
+    ehl_history whole, history; /* history of all engagements, and of the current one */
     ehl_roughness rough;
-    double hardness; /* of rough flanks, Pa; 0: they stay elastic */
-    int gears_tell;  /* it is that of the softer gear */
+    double hardness; /* hardness of rough flanks, Pa; 0: they stay elastic */
+    int gears_tell;  /* whether the hardness comes from the gears */
     ehl_oil oil;
     ehl_grid grid;
     ehl_reynolds reynolds;
@@ -31,16 +31,16 @@ typedef struct ehl_run {
     ehl_results results;
 } ehl_run;
 
-/* True if the film feels asperities that are known by their statistics. */
+/* Returns whether the film has asperities described by their statistics. */
 int ehl_is_statistical(const ehl_model *m);
 
-/* Tolerance of Newton's method for the first film. */
+/* Returns the tolerance of Newton's method for the first film. */
 double ehl_first_tolerance(const ehl_model *m, const ehl_run *r);
 
-/* Makes all parts but heat, step control and results from r->history, which has been read. To be
-   destroyed in any case. */
+/* Makes all parts except heat, step control and results from r->history, which has been read.
+   Destroy it in any case. */
 ff_status ehl_run_create(const ehl_model *m, uint64_t wanted, const ff_array *in, ehl_run *r);
-/* Makes the rough flanks anew, for the engagement that r->history has now. */
+/* Makes the rough flanks again, for the current engagement in r->history. */
 ff_status ehl_run_surface(const ehl_model *m, const ff_array *in, ehl_run *r);
 void ehl_run_destroy(ehl_run *r);
 

@@ -52,7 +52,7 @@ ff_status ehl_ready(void *self)
 {
     static const char smooth[] = "the flanks are smooth: no surface is wired",
                       ignored[] = "roughness is ignored",
-                      statistical[] = "the asperities are known by their statistics alone";
+                      statistical[] = "the asperities are given by their statistics alone";
     const ehl_model *m = self;
     const int any = m->rough || m->asperities;
     const int flat = !m->rough || m->roughness == EHL_IGNORED;
@@ -63,7 +63,7 @@ ff_status ehl_ready(void *self)
                *cold = "thermal is not full";
     const int full = m->thermal == EHL_THERMAL_FULL;
     const ff_serving rows[] = {
-        {m->steps > 0, "time_tolerance", "", NULL, "the time steps are given, and equal"},
+        {m->steps > 0, "time_tolerance", "", NULL, "the time steps are given and equal"},
         {!any, "roughness", "", NULL, smooth},
         {flat, "contact_film", "", NULL, why},
         {bare, "boundary_friction", "", NULL, why},
@@ -73,8 +73,8 @@ ff_status ehl_ready(void *self)
         {flat || m->valleys != EHL_VENTILATED, "valley_length", "", NULL,
          flat ? why : "valleys is sealed"},
         {!flat && m->cavitation != EHL_CONSERVING, "cavitation", "", NULL,
-         "rough flanks take mass-conserving"},
-        {!flat && m->wedge > 0, "wedge", "", NULL, "rough flanks take the first order"},
+         "with rough flanks mass-conserving is used"},
+        {!flat && m->wedge > 0, "wedge", "", NULL, "with rough flanks the first order is used"},
         {any, "gear.roughness", "", "surface", "the surface has a roughness of its own"},
         {!full, "thermal_nodes", "", NULL, cold},
         {bare, "gear.hardness", "", NULL, why},
@@ -91,21 +91,21 @@ ff_status ehl_ready(void *self)
         return FF_OK;
     if (m->maker != ehl_newton_krylov || m->outside)
         return ff_failf(m->host, FF_UNSUPPORTED, "surface.asperities",
-                        "%s knows smooth flanks only; ehl/finite-volume takes statistical ones%s",
+                        "%s models smooth flanks only; ehl/finite-volume takes statistical ones%s",
                         m->outside ? "the discretisation" : "this model",
-                        m->outside ? " where none is wired" : "");
+                        m->outside ? " if no discretisation is wired" : "");
     if (m->cavitation == EHL_CONSERVING)
         return ff_failf(m->host, FF_UNSUPPORTED, "cavitation",
-                        "between statistical flanks a cavitated film has no gap of its own that "
+                        "between statistical flanks a cavitated film has no definite gap that "
                         "oil could fill: cavitation must be clip");
     return FF_OK;
 }
 
-/* It is this share of the error by the cells and the steps, from one bound to the other: beyond
-   them Newton's method gains or loses no step. */
+/* The tolerance of Newton's method is TOLERANCE_SHARE times the error due to the cells and the
+   steps, between the two bounds. Beyond these bounds the number of Newton steps does not change. */
 static const double TOLERANCE_SHARE = 1. / 20, LEAST_TOLERANCE = 2e-5, MOST_TOLERANCE = 2e-4;
 
-/* Records the newest film, and lets the tolerance follow its error. */
+/* Records the newest film, and adapts the tolerance to its error. */
 static ff_status record(const ehl_model *m, ehl_run *r, int last)
 {
     ff_status status = ehl_results_record(&r->results, &r->march, last);
@@ -126,9 +126,9 @@ static ff_status explain(const ehl_model *m, const ehl_run *r, ff_status status,
     const double molecule = 0.5e-9; /* Israelachvili 2011 */
     if (r->solver.gave_up)
         return ff_failf(m->host, FF_NOCONV, "discretisation",
-                        "at time %.6g s the discretisation had found no film at more than a fifth "
-                        "of the instants that it was asked for, however short the steps: more "
-                        "cells, or another discretisation, may help",
+                        "at time %.6g s the discretisation had failed at more than a fifth of "
+                        "the instants, also with the shortest steps: more cells, or another "
+                        "discretisation, may help",
                         time);
     if (status != FF_NOCONV)
         return status;
@@ -138,29 +138,30 @@ static ff_status explain(const ehl_model *m, const ehl_run *r, ff_status status,
         return FF_BUG;
     if (r->solver.no_film)
         return ff_failf(m->host, status, "discretisation",
-                        "at time %.6g s the discretisation gave something that is not a film: not "
-                        "numbers, or a pressure at the ends of the domain",
+                        "at time %.6g s the discretisation returned an invalid film: values that "
+                        "are not finite, or a pressure at the ends of the domain",
                         time);
     if (r->history.roll)
         snprintf(roll, sizeof roll, ", roll angle %.6g rad", at.roll);
     if (r->march.known > 0)
-        snprintf(good, sizeof good, "; the last good film is that of %.6g s",
+        snprintf(good, sizeof good, "; the last valid film is that at %.6g s",
                  r->march.state[0].time);
     int gone = r->march.known > 0 && r->march.state[0].thinnest < molecule;
     snprintf(
         advice, sizeof advice,
-        "More cells, more steps or a wider domain may help, if its Hertz pressure of %.3g GPa is "
-        "meant",
+        "If its Hertz pressure of %.3g GPa is intended, more cells, more steps or a wider domain "
+        "may help",
         1e-9 * hertz);
     if (m->thermal == EHL_THERMAL_FULL && !gone && !r->thermal.cold_fails)
         snprintf(advice, sizeof advice,
-                 "Heat %s why: with much of it no film is found by thermal: full where thermal: "
-                 "inlet or none finds one; more cells, less speed or less sliding may help",
+                 "Heat %s the reason: with much heat thermal: full may find no film where "
+                 "thermal: inlet or none does; more cells, less speed or less sliding may help",
                  r->march.known > 0 ? "may be" : "is");
     return ff_failf(m->host, status, NULL, "at time %.6g s%s (load %.4g N/m): %s%s. %s", time, roll,
                     at.load, r->march.why, good,
-                    gone ? "It has been squeezed or starved to less than a molecule at one place: "
-                           "smooth flanks have no film from there on, or need more cells to tell"
+                    gone ? "The film is thinner than a molecule at one place, by squeezing or "
+                           "starvation: from there on smooth flanks have no film, or more cells "
+                           "are needed to decide it"
                          : advice);
 }
 
@@ -222,7 +223,7 @@ static ff_status march_engagement(const ehl_model *m, ehl_run *r)
     return status;
 }
 
-/* Marches each engagement from its own steady film, on a grid that fits all of them. */
+/* Computes each engagement from its own steady film, on a grid that fits all engagements. */
 static ff_status march(const ehl_model *m, const ff_array *in, ehl_run *r)
 {
     ff_status status = FF_OK;
@@ -258,7 +259,7 @@ static int is_of_heat(uint32_t output)
            output == EHL_FLASH_TEMPERATURE;
 }
 
-/* 1: an output of places where asperities touch, or yield. */
+/* Returns 1 for an output of places where asperities touch or yield. */
 static int is_of_places(uint32_t output)
 {
     return output == EHL_CONTACT_RATIO || output == EHL_TRAPPED_SHARE ||
@@ -286,8 +287,8 @@ static ff_status evaluate(ehl_model *m, uint64_t wanted, const ff_array *in)
     for (uint32_t k = 0; k < EHL_OUTPUTS; k++)
         if ((wanted & FF_BIT(k)) && ehl_is_statistical(m) && is_of_places(k))
             return ff_failf(m->host, FF_UNSUPPORTED, ehl_outputs[k].name,
-                            "this output needs flanks whose heights are known: asperities that are "
-                            "known by their statistics touch at no place of their own");
+                            "this output needs flanks with given heights: asperities that are "
+                            "given by their statistics have no place of contact");
     const double bulk = ehl_stage_bulk(m, in);
     if ((wanted & FF_BIT(EHL_BULK_TEMPERATURE)) && !(bulk > 0))
         return ff_failf(m->host, FF_UNSUPPORTED, ehl_outputs[EHL_BULK_TEMPERATURE].name,

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Parameters and life cycle of the line-contact film models, which differ in the solver alone. */
+/* Parameters and life cycle of the line-contact film models. The models differ only in the
+   solver. */
 #ifndef EHL_STAGE_H
 #define EHL_STAGE_H
 
@@ -24,7 +25,7 @@ typedef struct ehl_model {
     const ff_host *host;
     const ff_model *model; /* its descriptor */
     ehl_solver_maker *maker;
-    /* parameters, by their names; auto and none read as -1 or NaN, a word as its rank */
+    /* Parameters by their names. auto and none are -1 or NaN; a word is its index. */
     int64_t cells, steps;
     double inlet, outlet, time_tolerance, tolerance, light_load;
     int32_t time_scheme, wedge, cavitation, valleys, roughness, thermal;
@@ -35,22 +36,22 @@ typedef struct ehl_model {
     ehl_laws laws;
     ehl_isothermal isothermal;
     const ff_liquid *liquid;         /* NULL: no oil is wired */
-    const ff_rheology_2 *shear_rate; /* NULL: the rheology does not offer it */
-    const ff_film *outside;          /* NULL: the solver of `maker` */
-    const ff_asperity *asperities;   /* NULL: no surface of statistical flanks is wired */
-    int rough;                       /* a surface is wired */
+    const ff_rheology_2 *shear_rate; /* NULL: the rheology does not provide it */
+    const ff_film *outside;          /* NULL: the solver of `maker` is used */
+    const ff_asperity *asperities;   /* NULL: no statistical surface is wired */
+    int rough;                       /* whether a surface is wired */
 } ehl_model;
 
 struct ehl_heat;
 struct ehl_march;
 struct ehl_thermal;
 
-/* K, of the teeth: as their loss heats them, or given, or that of the oil, which an isothermal film
-   has; 0: no oil tells. */
+/* Returns the bulk temperature of the teeth, K: as heated by their loss, or as given, or that of
+   the oil (which an isothermal film has). Returns 0 if no oil is wired. */
 double ehl_stage_bulk(const ehl_model *m, const ff_array *in);
 
-/* Lets the march heat the film, by what it makes of `heat` or `thermal`; without the parameter
-   thermal it stays as it is. */
+/* Sets up the heating of the film by the parameters `heat` or `thermal`. Without the parameter
+   thermal the film stays isothermal. */
 ff_status ehl_stage_heat(const ehl_model *m, const ff_array *in, struct ehl_march *march,
                          struct ehl_heat *heat, struct ehl_thermal *thermal);
 

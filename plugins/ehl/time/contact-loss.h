@@ -5,12 +5,13 @@
 
 #include "../equations/march.h"
 
-/* Solves it while the contact is lost: chooses between the prescribed gap and a balance of
-   forces. */
+/* Solves for the film while the contact is lost. It selects either the prescribed gap or a balance
+   of forces. */
 ff_status ehl_solve_contact_loss(ehl_march *m, ehl_step *step, const ehl_instant *at);
 
-/* Used if not even the shortest step to `at` converges: while the contact is lost the film then
- * follows the prescribed gap without pressure. FF_OK, or FF_NOCONV with `why`. */
+/* For use if not even the shortest step to `at` converges: while the contact is lost the film then
+   follows the prescribed gap without pressure. Returns FF_OK, or FF_NOCONV with the reason in
+   `why`. */
 ff_status ehl_march_without_load(ehl_march *m, const ehl_instant *at);
 
 #endif

@@ -11,17 +11,17 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* A change of the slope of the load by this much of the largest load per passage is a
+/* A change of the slope of the load by this share of the largest load per passage is a
    breakpoint. */
 static const double SHARP_BREAKPOINT = 0.25;
-/* So is a change of the slope of the radius by this much of the entrainment u: what flanks squeeze
-   from x on, x^3 R'/(6 R^2), then changes by a twelfth of u x^2/(2 R) at x = R, further out than
-   most domains begin. */
+/* A change of the slope R' of the radius is a breakpoint if it is this share of the entrainment u.
+   The flow squeezed from x on, x^3 R'/(6 R^2), then changes by a twelfth of u x^2/(2 R) at x = R,
+   which is farther out than most domains begin. */
 static const double SHARP_BEND = 0.25;
 /* First step after a breakpoint, as a share of the passage time. */
 static const double FIRST_STEP = 5e-4;
-/* Shortest steps, in units of dx/u: SHORT_STEP if the truncation demands it, SHORTEST_STEP if
- * convergence demands it. */
+/* Shortest steps, in units of dx/u: SHORT_STEP if chosen for the truncation error, SHORTEST_STEP if
+   needed for convergence. */
 static const double SHORT_STEP = 0.02, SHORTEST_STEP = 1e-4;
 
 /* What the solver leaves of the flow enters the truncation, which is of the differences of films:
@@ -33,8 +33,7 @@ static const double STRICTER = 0.3, STRICTEST = 0.02;
 
 /* Share of the tolerance by which a straight line between two instants may differ from the film. */
 static const double CHORD_SHARE = 1. / 16;
-/* The history has at least LEAST_INSTANTS (tolerance/REFERENCE_TOLERANCE)^INSTANTS_EXPONENT
-   steps. */
+/* A history has at least LEAST_INSTANTS (tolerance/REFERENCE_TOLERANCE)^INSTANTS_EXPONENT steps. */
 static const double LEAST_INSTANTS = 100, REFERENCE_TOLERANCE = 5e-3, INSTANTS_EXPONENT = -0.15;
 
 /* A step is repeated if its truncation is above the allowed one by this factor. */
@@ -50,8 +49,8 @@ static double slope_of_row(const ehl_history *h, const double *y, size_t i)
     return span > 0 ? (y[i + 1] - y[i]) / span : 0;
 }
 
-/* Returns 1 if at row i the history jumps, changes its slope sharply, or loses or regains contact.
- */
+/* Returns 1 if at row i the history jumps, its slope changes sharply, or contact is lost or
+   regained. */
 static int is_breakpoint(const ehl_march *m, size_t i)
 {
     const ehl_history *h = m->history;
@@ -65,9 +64,9 @@ static int is_breakpoint(const ehl_march *m, size_t i)
 }
 
 /*
- * Returns 1 where the radius changes its slope R' sharply, at rest beside the creep: as flanks far
- * from the contact part by x^2 R'/(2 R^2), the film's change in time leaps there, and (10.2) across
- * the leap makes 3/2 of it, however short the step.
+ * Returns 1 if the slope R' of the radius changes sharply at row i, at rest or at creep speed.
+ * Flanks far from the contact separate by x^2 R'/(2 R^2), so the rate of change of the film jumps
+ * there. (10.2) across the jump gives 3/2 of it, however short the step.
  */
 static int radius_bends(const ehl_march *m, size_t i)
 {
@@ -109,8 +108,8 @@ int ehl_step_control_done(const ehl_step_control *p)
     return p->next == p->breakpoints;
 }
 
-/* Returns the factor of the next step if the truncation of this one was `error` times the allowed
- * one. */
+/* Returns the factor from this step to the next one, if the truncation error of this step was
+   `error` times the allowed one. */
 static double step_growth(const ehl_march *m, double error)
 {
     double order = m->scheme == EHL_EULER ? 1 : 2;
@@ -118,9 +117,9 @@ static double step_growth(const ehl_march *m, double error)
     return fmin(fmax(factor, 0.25), 2);
 }
 
-/* Returns the step whose chord differs from the film by the allowed amount, dt^2/8 h''. If the
- * contact takes many passages to change, a bound on the truncation alone would step over whole
- * extrema. */
+/* Returns the step length at which linear interpolation differs from the film by the allowed
+   amount, dt^2/8 h''. If the contact takes many passages to change, a bound on the truncation error
+   alone would step over whole extrema. */
 static double longest_chord(const ehl_step_control *p, const ehl_march *m)
 {
     const ehl_state *s = m->state;
@@ -134,8 +133,8 @@ static double longest_chord(const ehl_step_control *p, const ehl_march *m)
     return fmin(longest, sqrt(8 * CHORD_SHARE * p->tolerance * s[0].thinnest / fmax(bend, 1e-300)));
 }
 
-/* Returns the time after which an accumulated error has left the film: the passage time, or, where
- * the oil hardly moves, the time in which the film changes by as much as itself. */
+/* Returns the time after which an accumulated error has left the film. It is the passage time, or
+   if the oil hardly moves the time in which the film changes by its own size. */
 static double forgetting_time(const ehl_march *m)
 {
     const double hardly = 0.1;
@@ -155,12 +154,13 @@ static void pass_breakpoint(ehl_step_control *p, ehl_march *m)
     ehl_march_breakpoint(m);
 }
 
-/* Returns the instant at the end of the next step; sets *last when it is the breakpoint. */
+/* Returns the instant at the end of the next step. Sets *last if that is the next breakpoint. */
 static ehl_instant next_instant(const ehl_step_control *p, const ehl_march *m, int *last)
 {
     double now = m->state[0].time, breakpoint = p->breakpoint[p->next], rest = breakpoint - now,
            dt = p->dt;
-    if (m->rough) /* no truncation is estimated for an asperity's film: steps follow the cells */
+    if (m->rough) /* no truncation error is estimated for the film on an asperity; the step
+                     length follows from the cells */
         dt = fmin(dt,
                   ehl_largest_advection(m) * m->solver->grid->dx / fmax(m->at.entrainment, 1e-300));
     *last = dt > 0.999 * rest;
@@ -172,9 +172,9 @@ static ehl_instant next_instant(const ehl_step_control *p, const ehl_march *m, i
     return *last ? ehl_history_before(m->history, to) : ehl_history_at(m->history, straight);
 }
 
-/* Returns the change of the film in the trial over the change that a step may make; the error grows
- * with its cube. A load that vanishes or returns within a step counts as well, since the film of
- * rigid flanks goes with 1/load. */
+/* Returns the change of the film in the trial, over the change that a step may make; the error is
+   proportional to its cube. A load that vanishes or returns within a step counts as well, since the
+   film of rigid flanks is proportional to 1/load. */
 static double change_over_limit(const ehl_step_control *p, const ehl_march *m)
 {
     if (m->rough)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Chooses time steps as long as their truncation allows, which end at each breakpoint of the
+/* Chooses time steps as long as their truncation errors allow. Steps end at each breakpoint of the
    history. */
 #ifndef EHL_STEP_CONTROL_H
 #define EHL_STEP_CONTROL_H
@@ -7,20 +7,22 @@
 #include "../equations/march.h"
 
 typedef struct ehl_step_control {
-    double tolerance;   /* relative error of the film that may accumulate in one passage of the
-                           contact */
-    double *breakpoint; /* s, times at which a step must end; the last is the end */
+    double tolerance;   /* relative error of the film that may accumulate in one passage through
+                           the contact */
+    double *breakpoint; /* times at which a step must end, s; the last one is the end of the
+                           history */
     size_t breakpoints, next;
     double dt;  /* s, length of the next step */
     int futile; /* shortest steps in a row with more error than a step may have */
 } ehl_step_control;
 
-/* equal: the lengths of the steps are given, and only kinks of the radius are breakpoints. */
+/* Makes a step control. `equal`: the step lengths are given, and only kinks of the radius are
+   breakpoints. */
 ff_status ehl_step_control_create(ehl_step_control *p, const ehl_march *m, double tolerance,
                                   int equal);
 void ehl_step_control_destroy(ehl_step_control *p);
 
-/* Takes one step; FF_OK, or FF_NOCONV with m->why. */
+/* Takes one step. Returns FF_OK, or FF_NOCONV with the reason in m->why. */
 ff_status ehl_step_control_next(ehl_step_control *p, ehl_march *m);
 
 /* Advances to `time` in one step, or in several that end at the breakpoints on the way. */

@@ -5,15 +5,16 @@
 
 #include "../equations/march.h"
 
-/* Advances to `time`, in one step unless it fails. FF_OK, or FF_NOCONV with `why`. */
+/* Advances to `time`, in one step unless it fails. Returns FF_OK, or FF_NOCONV with the reason in
+   `why`. */
 ff_status ehl_march_to(ehl_march *m, double time);
 
-/* Tries one implicit step to that instant: leaves the film in `trial` and its truncation in
+/* Tries one implicit step to that instant. The film is left in `trial`, its truncation error in
    `local`. */
 ff_status ehl_march_try(ehl_march *m, const ehl_instant *at);
 
-/* Returns 1 if a step should be cut because the film of the trial thins too fast, or changes too
- * much as the contact opens or closes. */
+/* Returns 1 if a step should be cut because the film of the trial becomes thinner too fast, or
+   changes too much while contact is lost or regained. */
 int ehl_march_step_too_large(const ehl_march *m);
 
 #endif

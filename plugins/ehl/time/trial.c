@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One implicit step in time: its equation, what it begins with, and its film as the newest state.
- */
+/* One implicit step in time: its equation, its initial guess, and the acceptance of its film as the
+   newest state. */
 #include "trial.h"
 
 #include "../contact/lanes.h"
@@ -16,7 +16,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Below this share of the load of the step a film is taken to carry none. */
+/* Below this share of the step's load a film counts as unloaded. */
 static const double NO_LOAD = 1e-3;
 
 void ehl_march_update_mass(ehl_march *m)
@@ -76,8 +76,8 @@ static void combine(size_t n, double a, const double *restrict x1, double b,
 
 /*
  * d(rho h)/dt = rate rho h + past, by backward Euler or by the two-step backward differentiation
- * formula for unequal steps (Hairer, Norsett & Wanner 1993, III.5). With rough flanks it is taken
- * along the path of the oil, and then contains the wedge.
+ * formula for unequal steps (Hairer, Norsett & Wanner 1993, III.5). With rough flanks the
+ * derivative is along the path of the oil, and then includes the wedge.
  */
 static void time_derivative(ehl_march *m, ehl_step *step, const ehl_instant *at)
 {
@@ -96,8 +96,9 @@ static void time_derivative(ehl_march *m, ehl_step *step, const ehl_instant *at)
         combine(n, c[1], one, c[2], two, 0, two, m->past);
 }
 
-/* Keeps an extrapolated pressure above 0 where oil carried some, or statistical asperities did. A
-   film that `shrinks` loses the nodes without: one too many is found at once, as it gains mass. */
+/* Keeps an extrapolated pressure above 0 at nodes where oil, or statistical asperities, carried
+   load before. If the film shrinks (`shrinks`), the nodes with a negative pressure are removed; a
+   node removed by mistake is found at once, since it gains mass. */
 FF_SIMD
 static void keep_carried(size_t n, const double *restrict before, int shrinks, double *restrict p,
                          unsigned char *restrict full)
@@ -112,15 +113,16 @@ static void keep_carried(size_t n, const double *restrict before, int shrinks, d
 }
 
 /*
- * Sets the deflection of the trial, `free` being its pressure before keep_carried: extrapolated
- * like the pressure, and corrected where that was cut off. The rounding errors of such a recursion
- * grow with the square of its steps, and faster where these differ: then, and after MOST of them,
- * it is computed anew.
+ * Sets the deflection of the trial. `free` is its pressure before keep_carried. The deflection is
+ * extrapolated like the pressure, and corrected where the pressure was cut off. The round-off error
+ * of this recursion grows with the square of the number of steps, and faster with unequal steps.
+ * With unequal steps, and after MOST steps, the deflection is recomputed from scratch.
  */
 static void extrapolate_deflection(ehl_march *m, const double c[3], const double *free)
 {
     enum { MOST = 8, MOST_CUT = 32 };
-    const double equal = 8; /* the factors of equal steps are 3, -3 and 1 */
+    const double equal = 8; /* number of steps that count as equal: the factors of extrapolation
+                               are then 3, -3 and 1 */
     const ehl_state *s = m->state;
     ehl_film *film = &m->trial.film;
     size_t n = m->solver->grid->nodes, cut = 0, place[MOST_CUT];
@@ -151,8 +153,9 @@ static size_t end_of_film(const ehl_film *film, size_t nodes)
     return i;
 }
 
-/* Fills the nodes that the end of the film is about to pass, as it moved on in the last step, but
-   for one: a Newton step finds the next one, and cutting one off again costs a convolution. */
+/* Fills the nodes that the end of the film is about to pass, as far as it moved in the last step,
+   except one. A Newton step finds the next node, and removing a superfluous one costs a
+   convolution. */
 static void lengthen(const ehl_march *m, double time, ehl_film *film)
 {
     const ehl_state *s = m->state;
@@ -163,8 +166,8 @@ static void lengthen(const ehl_march *m, double time, ehl_film *film)
         film->full[i] = 1;
 }
 
-/* Sets the trial to a line or parabola in time through the last films; returns 0 while there are
-   too few. */
+/* Sets the trial to a line or parabola in time through the last films. Returns 0 if there are too
+   few. */
 static int extrapolate_films(ehl_march *m, double time, int loaded)
 {
     const ehl_state *s = m->state;
@@ -190,8 +193,8 @@ static int extrapolate_films(ehl_march *m, double time, int loaded)
     return 1;
 }
 
-/* Sets the trial to the last film: without pressure when the contact opens, and with a first guess
-   of the pressure when it closes again. */
+/* Sets the trial to the last film: without pressure when contact is lost, and with a first guess of
+   the pressure when it is regained. */
 static void repeat_last_film(ehl_march *m, const ehl_step *step, const ehl_instant *at)
 {
     const ehl_grid *g = m->solver->grid;
@@ -205,10 +208,11 @@ static void repeat_last_film(ehl_march *m, const ehl_step *step, const ehl_insta
 }
 
 /*
- * Moves the flanks of the last film on at the speed that they had. Where the slope of the load
- * breaks, this speed goes on, since load and film do; flanks that part drive the end of the film
- * back by it. From flanks at rest that end is sought among nodes which only the wedge would fill,
- * and with the pressures cut off there goes the balance of the load.
+ * Extrapolates the flanks of the last film with the speed that they had. This speed is continuous
+ * where the slope of the load has a kink, since load and film are. Flanks that separate move the
+ * end of the film backwards by it. From flanks at rest that end would otherwise be searched among
+ * nodes which only the wedge would fill. The pressures cut off there would destroy the balance of
+ * the load.
  */
 static int move_on_last_film(ehl_march *m, const ehl_step *step, const ehl_instant *at)
 {
@@ -226,14 +230,14 @@ static ff_status solve_with_positive_gap(ehl_march *m, const ehl_step *step, con
 {
     ff_status status = ehl_heat_solve(m, step, &m->trial.film, at->time, limit);
     if (ehl_laws_failed(&m->solver->reynolds->laws))
-        return FF_BUG; /* no shorter step will do */
+        return FF_BUG; /* a shorter step will not help */
     if (status == FF_OK && !(ehl_thinnest(m, at->radius, &m->trial.film) > 0))
         status = FF_NOCONV;
     return status;
 }
 
-/* Continuation in the load, for a sudden load on a film that has no time to give way: goes from the
-   load of the last film to that of the step by ratios, which shrink where a solution fails. */
+/* Continuation in the load, for a sudden load on a film that has no time to yield. It goes from the
+   load of the last film to that of the step by ratios, which shrink if a solution fails. */
 static ff_status continue_in_load(ehl_march *m, const ehl_step *step, const ehl_instant *at)
 {
     enum { MOST_LOADS = 60 };
@@ -257,7 +261,7 @@ static ff_status continue_in_load(ehl_march *m, const ehl_step *step, const ehl_
             ehl_copy_film(kept, film, g->nodes);
         } else {
             ehl_copy_film(film, kept, g->nodes);
-            do /* the same from the same film would fail again */
+            do /* with the same film the same solution would fail again */
                 ratio = sqrt(ratio);
             while (last && fabs(ratio - 1) > 1e-3 &&
                    (ratio > 1 ? reached * ratio >= step->load : reached * ratio <= step->load));
@@ -270,7 +274,7 @@ ff_status ehl_solve_trial(ehl_march *m, ehl_step *step, const ehl_instant *at)
 {
     ff_status status = FF_NOCONV;
     ehl_film *film = &m->trial.film;
-    m->trial.recursion = m->state[0].recursion + 1; /* unless it is computed anew */
+    m->trial.recursion = m->state[0].recursion + 1; /* unless it is computed from scratch */
     time_derivative(m, step, at);
     int carried = m->rough && step->loaded == m->state[0].loaded;
     for (int plain = 0; plain < 2 && status == FF_NOCONV && !(carried && plain); plain++) {
@@ -283,7 +287,8 @@ ff_status ehl_solve_trial(ehl_march *m, ehl_step *step, const ehl_instant *at)
         if (!step->loaded)
             film->h00 = at->gap;
         int limit = carried ? EHL_LIMIT_REPEATED : EHL_LIMIT_GUESSED;
-        if (carried && m->thermal) /* heat makes mobilities of neighbours differ by decades */
+        if (carried && m->thermal) /* with heat the mobilities of neighbouring nodes may differ
+                                      by decades */
             limit = EHL_LIMIT_START;
         status = solve_with_positive_gap(m, step, at, plain ? EHL_LIMIT_PLAIN : limit);
     }
@@ -312,8 +317,8 @@ static void reverse_flags(unsigned char *y, size_t n)
     }
 }
 
-/* The equations assume that the oil runs along the nodes. Where the entrainment changes its sign
-   the states are mirrored; the domain is as long on both sides. */
+/* The equations assume that the oil moves in the direction of the nodes. When the entrainment
+   changes its sign, the states are mirrored; the domain has the same length on both sides. */
 static void mirror_states(ehl_march *m, const ehl_instant *at)
 {
     size_t n = m->solver->grid->nodes;

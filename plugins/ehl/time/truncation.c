@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The truncation of the time steps, and how the film carries its sum through the contact. */
+/* The truncation errors of the time steps, and their sum along the path of the film through the
+   contact. */
 #include "truncation.h"
 
 #include "../contact/lanes.h"
@@ -7,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Truncation counts where the pressure exceeds this share of the highest. */
+/* Truncation errors count where the pressure exceeds this share of the highest pressure. */
 static const double CONTACT_PRESSURE = 0.02;
 
 /* local = scale - (c[0] y0 + c[1] y1 + c[2] y2)/y where p exceeds `least`, and 0 elsewhere. */
@@ -24,9 +25,9 @@ static void fill_local(size_t n, const double *restrict y, const double *restric
     }
 }
 
-/* The error of the difference formula for a polynomial of one order more. Its leading term is the
- * difference between the new film and the extrapolation of the old ones, (y - y_extrapolated)/(rate
- * (t - t_oldest)). */
+/* Estimates the error of the difference formula from a polynomial of the next higher order. Its
+   leading term is the difference between the new film and the extrapolation of the old ones, (y -
+   y_extrapolated)/(rate (t - t_oldest)). */
 void ehl_estimate_truncation(ehl_march *m)
 {
     size_t n = m->solver->grid->nodes, order = m->scheme == EHL_EULER || m->smooth < 2 ? 2 : 3;
@@ -49,9 +50,9 @@ double ehl_march_truncation(const ehl_march *m)
 }
 
 /*
- * Returns the x from which on errors accumulate: half a pressure build-up length upstream of the
- * contact, since further upstream the pressure flow determines the film anew. Without load the film
- * keeps its errors all over the width of the contact.
+ * Returns the x from which errors accumulate: half a pressure build-up length upstream of the
+ * contact. Further upstream the pressure flow determines the film anew. Without load the film keeps
+ * its errors over the whole width of the contact.
  */
 static double start_of_accumulation(const ehl_march *m)
 {
@@ -62,8 +63,8 @@ static double start_of_accumulation(const ehl_march *m)
     return -a - ehl_inlet_buildup(a, radius, h) / 2;
 }
 
-/* Updates the distance over which the film still stems from a jump of the load within a step. Steps
- * of second order do not resolve such a jump. */
+/* Updates the distance over which the film still originates from a jump of the load within a step.
+   Steps of second order do not resolve such a jump. */
 static void detect_load_jump(ehl_march *m, double distance)
 {
     const double leap = 1.2, passage = 3 * m->solver->grid->half_width;
@@ -73,10 +74,10 @@ static void detect_load_jump(ehl_march *m, double distance)
 }
 
 /*
- * Returns the error of a step at a breakpoint of the film. Where the third difference is as large
- * as the second, a breakpoint leaves half of the second as the error, step after step: y' = 0, then
- * v, with equal steps gives 0, 2/3, 14/9, 68/27 v dt for 0, 1, 2, 3, so that the errors add up to v
- * dt/2, whereas those of the third difference take each other off.
+ * Returns the error of a step at a breakpoint of the film. If the third difference is as large as
+ * the second, half of the second difference is the error of every step after a breakpoint. For y' =
+ * 0, then v, with equal steps, y is 0, 2/3, 14/9, 68/27 v dt at 0, 1, 2, 3, so the errors add up to
+ * v dt/2. The errors from the third difference would cancel instead.
  */
 static double error_at_kink(double local, double third, double second)
 {
@@ -92,8 +93,8 @@ static void fill_moved(size_t n, const double *restrict from, double part,
         to[i] = (1 - part) * from[i] + part * from[i - 1] + gain[i] / cells;
 }
 
-/* Fills in the sums of `local` up to each node. The sum that the oil meets on its way is the
- * difference of the sums at the end and at the beginning of the way. */
+/* Fills in the sums of `local` up to each node. The sum along the path of the oil is the difference
+   of the sums at both ends of the path. */
 FF_SIMD
 static void sum_on_way(size_t n, const double *restrict local, double cells, double *restrict sum,
                        double *restrict error)
@@ -105,14 +106,15 @@ static void sum_on_way(size_t n, const double *restrict local, double cells, dou
         error[i] -= sum[i] / cells;
 }
 
-/* Moves the accumulated error on with the film by `cells`, and adds the mean of `local` along that
- * path, downstream of node `first`. Upstream of it no error accumulates. */
+/* Moves the accumulated error with the film by `cells`, and adds the mean of `local` along that
+   path, downstream of node `first`. Upstream of that node no error accumulates. */
 static void advect_and_add(ehl_march *m, size_t first, double cells)
 {
     size_t n = m->solver->grid->nodes, whole = (size_t)fmin(cells, (double)n), start = whole + 1;
     double *sum = m->accumulated_error, *moved = m->deflection, *gain = m->change;
     first = first < n ? first : n;
-    start = start < first ? first : start < n ? start : n; /* what was in front is not known */
+    /* errors from upstream of the first node are not known */
+    start = start < first ? first : start < n ? start : n;
     if (cells > 1)
         sum_on_way(n - first, m->local + first, cells, gain + first, sum + first);
     else

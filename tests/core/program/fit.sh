@@ -56,7 +56,7 @@ for law in barus two-slope doolittle-tait; do
 done
 "$flankfilm" run own.yaml --set film.use=ehl/finite-volume --set film.cells=128 \
     --set discs.load_per_width="900 N/mm" -o past >said 2>&1
-tr '\n' ' ' <said | tr -s ' ' | grep -q "an oil law was continued outside its range"
+tr '\n' ' ' <said | tr -s ' ' | grep -q "an oil law was extrapolated outside its range"
 judge "a run beyond the data is told" $?
 
 # what may be asked

@@ -85,8 +85,9 @@ static void test_false_slopes(void)
     numerics_answers none = hold_slopes(1, 1), a = hold_slopes(1e30, 1), b = hold_slopes(1, 0);
     check_true("right slopes", none.status == FF_OK);
     check_true("an absurd one", a.status == FF_BUG && !strcmp(a.wire, "viscosity"));
-    check_true("its size", !strcmp(a.text, "ln_eta does not follow its slope, which is 1e+30 1/GPa "
-                                           "at 0.3125 GPa"));
+    check_true("its size",
+               !strcmp(a.text, "ln_eta does not agree with its slope, which is 1e+30 1/GPa "
+                               "at 0.3125 GPa"));
     check_true("none", b.status == FF_BUG && !strcmp(b.wire, "density"));
 }
 

@@ -270,7 +270,7 @@ static void test_too_coarse(void)
     c.radius[0] = 44e-3;
     c.load[0] = 4.7e6; /* 2 GPa */
     check_true("no film", line_run(&c, "h_min") == FF_NOCONV);
-    check_true("more cells", strstr(stage_why(c.film), "More cells") != NULL);
+    check_true("more cells", strstr(stage_why(c.film), "more cells") != NULL);
     line_close(&c);
 }
 
