@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Sums eight bytes at a time ("slicing by 8"), with one table of remainders for each of the eight
-   places. */
+   byte positions. */
 #include "checksum.h"
 
-static const uint32_t polynomial = 0xEDB88320; /* the bits in the order in which they are sent */
+static const uint32_t polynomial = 0xEDB88320; /* polynomial with the bits in the order of
+                                                  transmission */
 
 void arrays_checksum_prepare(arrays_checksum *checksum)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* CRC-32 of IEEE 802.3, as zlib, gzip and PNG have it. */
+/* CRC-32 of IEEE 802.3, as in zlib, gzip and PNG. */
 #ifndef ARRAYS_CHECKSUM_H
 #define ARRAYS_CHECKSUM_H
 

@@ -31,7 +31,7 @@ void arrays_reader_close(arrays_reader *reader)
         close_log(reader, i);
 }
 
-/* Opens a file that must be a log; -1 with what is wrong. */
+/* Opens a file that must be a log. Returns -1 with the reason in `why`. */
 static int open_log(int directory, const char *name, off_t *size, char why[ARRAYS_WHY])
 {
     struct stat info;
@@ -53,7 +53,7 @@ static int open_log(int directory, const char *name, off_t *size, char why[ARRAY
     return -1;
 }
 
-/* Returns the index of a log, opened if necessary; -1 with what is wrong. */
+/* Returns the index of a log, and opens it if necessary. Returns -1 with the reason in `why`. */
 static int find_log(arrays_reader *reader, const char *name, char why[ARRAYS_WHY])
 {
     for (int i = 0; i < ARRAYS_MOST_OPEN; i++)
@@ -76,7 +76,8 @@ static int find_log(arrays_reader *reader, const char *name, char why[ARRAYS_WHY
     return (int)at;
 }
 
-/* True if the record lies within the log, whose length is read again since it may have grown. */
+/* Returns whether the record is within the log. The length of the log is read again, since it may
+   have grown. */
 static bool fits(arrays_reader *reader, int log, off_t offset, const arrays_head *head)
 {
     struct stat info;

@@ -36,8 +36,9 @@ static bool write_title(arrays_log *log, int directory)
            arrays_force(log->fd) && sync_names(directory);
 }
 
-/* Cuts off what follows the end. False with what is wrong, which is "" if errno tells it. A log
-   that is shorter than `end`, through no fault of this program, is continued where it stops. */
+/* Cuts off what follows the end. Returns false with the reason in `why`, which is "" if errno
+   contains it. A log that is shorter than `end`, through no fault of this program, is continued at
+   its end. */
 static bool enter_log(arrays_log *log, int directory, off_t end, char why[ARRAYS_WHY])
 {
     struct stat info;

@@ -16,7 +16,7 @@ static const char magic[] = "\x93NUMPY";
 enum {
     MAGIC = sizeof magic - 1,
     PREAMBLE = MAGIC + 4, /* includes the version and the length of the header */
-    ALIGNMENT = 64,       /* of the first number in the file */
+    ALIGNMENT = 64,       /* alignment of the first number in the file */
     LONGEST_HEADER = 1024
 };
 
@@ -41,8 +41,8 @@ size_t arrays_npy_header(const size_t *shape, uint32_t rank, char header[ARRAYS_
         (size_t)snprintf(text, room, "{'descr': '<f8', 'fortran_order': False, 'shape': ");
     length += print_shape(shape, rank, text + length, room - length);
     length += (size_t)snprintf(text + length, room - length, ", }");
-    size_t total = (PREAMBLE + length + ALIGNMENT) / ALIGNMENT * ALIGNMENT; /* includes a line
-                                                                               end */
+    /* includes a line break */
+    size_t total = (PREAMBLE + length + ALIGNMENT) / ALIGNMENT * ALIGNMENT;
     memset(text + length, ' ', total - PREAMBLE - length);
     header[total - 1] = '\n';
     memcpy(header, magic, MAGIC);
@@ -73,7 +73,7 @@ static const char *value_of(const char *header, const char *key)
     return at ? at + strlen(quoted) + strspn(at + strlen(quoted), " ") : "";
 }
 
-/* True if the header's shape is this one; blanks do not matter. */
+/* Returns whether the header's shape is this one; blanks are ignored. */
 static bool is_shape(const char *found, const char *expected)
 {
     while (*expected && *found) {
@@ -87,7 +87,7 @@ static bool is_shape(const char *found, const char *expected)
     return false;
 }
 
-/* Checks a header; false with what is wrong. */
+/* Checks a header. Returns false with the reason in `why`. */
 static bool check_header(const char *header, const char *shape, char why[ARRAYS_WHY])
 {
     const char *type = value_of(header, "descr"), *order = value_of(header, "fortran_order"),
@@ -127,7 +127,7 @@ static bool read_header(int fd, char header[LONGEST_HEADER], size_t *length, cha
     return false;
 }
 
-/* True if the file's size fits its shape. */
+/* Returns whether the size of the file agrees with its shape. */
 static bool check_size(const struct stat *info, size_t before, const size_t *shape, uint32_t rank,
                        char why[ARRAYS_WHY])
 {

@@ -47,7 +47,8 @@ bool arrays_log_check_title(const char title[ARRAYS_LOG_HEAD], char why[ARRAYS_W
     arrays_log_title(expected);
     if (memcmp(title, expected, ARRAYS_LOG_HEAD) == 0)
         return true;
-    memcpy(format, title + START, ARRAYS_LOG_HEAD - START); /* it may lack a terminating zero */
+    /* the text may lack a terminating zero */
+    memcpy(format, title + START, ARRAYS_LOG_HEAD - START);
     format[ARRAYS_LOG_HEAD - START] = '\0';
     format[strcspn(format, " \n")] = '\0';
     if (memcmp(title, title_start, START) != 0)

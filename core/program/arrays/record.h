@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Layout of a record of a log, for its writers and readers. */
+/* Layout of a record of a log, used to write and to read it. */
 #ifndef ARRAYS_RECORD_H
 #define ARRAYS_RECORD_H
 
@@ -17,16 +17,16 @@ enum {
 typedef struct arrays_head {
     char bytes[ARRAYS_RECORD_HEAD];
     size_t size;   /* number of these bytes */
-    size_t count;  /* how many numbers follow */
-    double length; /* length of the record, which may exceed any file */
+    size_t count;  /* number of doubles that follow */
+    double length; /* length of the record; a damaged one may state more than any file can have */
 } arrays_head;
 
-/* Fills the head from the label; `output` and `key` are cut to the room there is. */
+/* Makes the head from the label. `output` and `key` are cut to the available size. */
 void arrays_head_make(arrays_head *head, const arrays_label *label);
 
-/* The text at the start of a log. */
+/* Writes the text at the start of a log. */
 void arrays_log_title(char title[ARRAYS_LOG_HEAD]);
-/* Checks the start of a log; false with what is wrong. */
+/* Checks the text at the start of a log. Returns false with the reason in `why`. */
 bool arrays_log_check_title(const char title[ARRAYS_LOG_HEAD], char why[ARRAYS_WHY]);
 
 #endif

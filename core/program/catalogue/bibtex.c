@@ -17,8 +17,8 @@ typedef struct list {
     size_t count;
 } list;
 
-/* Returns the end of the entry, behind the brace that closes its first one, or the end of the
- * text. */
+/* Returns the end of the entry: after the brace that closes its first one, or the end of the
+   text. */
 static const char *end_of_entry(const char *text)
 {
     int depth = 0;
@@ -30,7 +30,7 @@ static const char *end_of_entry(const char *text)
     return text;
 }
 
-/* Two entries are the same if their keys are, "@article{key", whatever the case of letters. */
+/* Returns whether two entries have the same key, "@article{key", ignoring the case of letters. */
 static bool is_same_entry(const char *a, const char *b)
 {
     const char *x = strchr(a, '{'), *y = strchr(b, '{');
@@ -61,8 +61,8 @@ static void add_entries(list *l, const char *bibtex, const char *user)
     }
 }
 
-/* Adds the entries of a model. Models without BibTeX are named, so that the list is not taken
- * for complete. */
+/* Adds the entries of a model. Models without BibTeX are listed by name, since the list would
+   otherwise look complete. */
 static void add_model(list *l, const catalogue_entry *used)
 {
     const ff_model *model = used->model;

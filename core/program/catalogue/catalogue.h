@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Prints the tables of models for people, editors and other programs. */
+/* Prints the tables of models as text, for editors and for other programs. */
 #ifndef CATALOGUE_H
 #define CATALOGUE_H
 
@@ -12,28 +12,28 @@
 typedef struct catalogue_entry {
     const char *id;
     const ff_model *model; /* NULL: it cannot be loaded */
-    const char *why;       /* why it cannot be loaded; else NULL */
+    const char *why;       /* why it cannot be loaded, or NULL */
     const char *file;      /* path of the plugin; NULL: it cannot be loaded */
-    const char *user;      /* the stage of a pipeline that uses it, or "" */
+    const char *user;      /* name of the stage of a pipeline that uses it, or "" */
 } catalogue_entry;
 
 /* The models to print, sorted by id or in the order in which a pipeline uses them. Starts
- * zeroed. */
+   zeroed. */
 typedef struct catalogue {
     memory_arena arena;
     catalogue_entry *entries;
     size_t count;
 } catalogue;
 
-/* Adds a model. `loaded` is NULL if it could not be loaded, for the reason in the first error of
- * the report. */
+/* Adds a model. `loaded` is NULL if it could not be loaded; the reason is the first error of the
+   report. */
 void catalogue_add(catalogue *c, const char *id, const ff_loaded *loaded, const char *user,
                    const ff_report *report);
 void catalogue_free(catalogue *c);
 
-/* Print to stdout, the schema to `out`; each stands in a file of its own. With `page` the only
- * entry is printed in full, otherwise all are listed. `version` is that of the program, and
- * `commit` that of its sources, "" if it is not known. */
+/* Print to stdout (the schema to `out`). Each function has its own file. With `page` the only entry
+   is printed in full, otherwise all are listed. `version` is that of the program. `commit` is that
+   of its sources, or "" if it is not known. */
 void catalogue_print_text(const catalogue *c, bool page);
 void catalogue_print_markdown(const catalogue *c, bool page);
 void catalogue_print_json(const catalogue *c, bool page, const char *version);

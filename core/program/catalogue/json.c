@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-/* Lists a model; one that cannot be loaded has the reason. */
+/* Lists a model. If it cannot be loaded, the entry contains the reason. */
 static json_t *list_entry(const catalogue_entry *entry)
 {
     json_t *object = json_pack("{s:s}", "id", entry->id);

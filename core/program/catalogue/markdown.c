@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Prints the reference pages of models in Markdown, made from their tables alone. */
+/* Prints the reference pages of models in Markdown. They are generated from the models' tables
+   alone. */
 #include "catalogue.h"
 
 #include <string.h>
 
-/* Prints a cell, and escapes what would end it or begin a tag. */
+/* Prints a cell. Characters that would end the cell or begin a tag are escaped. */
 static void print_cell(const char *text)
 {
     for (; *text; text++)
@@ -93,8 +94,8 @@ static void print_page(const ff_model *model)
     printf("\nVersion %s, licence %s.\n", model->version, model->licence);
 }
 
-/* Prints a line of the list, with a link to the page of the model; `previous` is the id before
- * it, or NULL. */
+/* Prints a line of the list with a link to the page of the model. `previous` is the id before it,
+   or NULL. */
 static void print_line(const catalogue_entry *entry, const char *previous)
 {
     const char *id = entry->id, *summary = entry->model ? entry->model->summary : entry->why;

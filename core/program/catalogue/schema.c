@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Makes the JSON Schema (draft-07) of the YAML files from the tables of all installed models, so
- * that an editor completes and checks the keys and values that the program reads. */
+   that an editor completes and checks the keys and values that the program accepts. */
 #include "catalogue.h"
 
 #include "../study/kinds/kinds.h"
@@ -33,7 +33,7 @@ static void set_limits(json_t *schema, const ff_param *row)
                             json_real(row->max));
 }
 
-/* Requires a text to look like a number with its unit, or to be one of the words. */
+/* Requires that a text is a number with its unit, or one of the words. */
 static void set_pattern(json_t *schema, const ff_param *row, bool bare)
 {
     const char *number = "[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?";
@@ -48,8 +48,8 @@ static void set_pattern(json_t *schema, const ff_param *row, bool bare)
                         json_sprintf("%s%s%s", message, *limits ? ", " : "", limits));
 }
 
-/* Makes a schema for texts, numbers and lists at once: each keyword applies to one of these
- * types alone. */
+/* Makes one schema for texts, numbers and lists: each keyword applies to only one of these
+   types. */
 static json_t *number_schema(const ff_param *row, const char *type)
 {
     bool bare = !row->unit[0] || !strcmp(row->unit, "1");
@@ -123,7 +123,7 @@ static json_t *param_schema(const ff_param *row)
     return schema;
 }
 
-/* Adds a parameter; "atlas.from" is the key "from" of the map "atlas". */
+/* Adds a parameter. "atlas.from" is the key "from" of the map "atlas". */
 static void add_param(json_t *map, const ff_param *row)
 {
     const char *name = row->name, *dot;
@@ -164,7 +164,7 @@ static json_t *model_schema(const ff_model *model)
     return map;
 }
 
-/* Adds the id KIND/auto, once, if the models of the kind can be chosen by the program. */
+/* Adds the id KIND/auto once, if the program can choose among the models of the kind. */
 static void add_auto(json_t *ids, const char *id)
 {
     char *name = memory_print_text("%.*s/auto", (int)catalogue_kind_length(id), id);
@@ -177,8 +177,8 @@ static void add_auto(json_t *ids, const char *id)
     free(name);
 }
 
-/* Whether the model can feed a stage, by data or by a service that some model takes. Other
- * models serve the program, and files do not name them. */
+/* Returns whether the model can feed a stage, by data or by a service that some model uses. Other
+   models serve the program itself, and files do not name them. */
 static bool can_feed(const catalogue *c, const ff_model *model)
 {
     for (size_t i = 0; i < model->output_count; i++)
@@ -195,8 +195,8 @@ static bool can_feed(const catalogue *c, const ff_model *model)
     return false;
 }
 
-/* Returns "#/definitions/kind.name", to be freed. The "/" is replaced, since not all editors
- * read its escape "~1". */
+/* Returns "#/definitions/kind.name", to be freed. The "/" is replaced, since some editors do not
+   decode its escape "~1". */
 static char *place_of(const char *id)
 {
     size_t kind = catalogue_kind_length(id);
@@ -228,7 +228,7 @@ static json_t *stage_schema(const catalogue *c, json_t *definitions)
                      cases);
 }
 
-/* Makes the keys of a kind of study; those that the kind reads itself have no type. */
+/* Makes the keys of a kind of study. Keys that the kind parses itself have no type. */
 static json_t *kind_schema(const study_kind *kind)
 {
     json_t *map = open_map();

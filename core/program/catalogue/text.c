@@ -8,7 +8,7 @@
 
 enum { NAME = 24, LIST_NAME = 30 };
 
-/* Prints a line of the list; the first line of a kind stands below the name of the kind. */
+/* Prints a line of the list. The name of the kind precedes its first line. */
 static void print_entry(const catalogue_entry *entry, const char *before)
 {
     const char *id = entry->id;
@@ -92,7 +92,7 @@ static void print_page(const catalogue_entry *entry)
     printf("\nlicence  %s\nfile     %s\n", model->licence, entry->file);
 }
 
-/* Whether the model serves the program itself and cannot be a stage. */
+/* Returns whether the model serves the program itself and cannot be a stage. */
 static bool is_tool(const char *id)
 {
     static const char *const kinds[] = {"conformance/", "executor/"};

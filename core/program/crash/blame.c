@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unwind.h>
 
-enum { MOST_SERVICES = 16 /* services that themselves use services */ };
+enum { MOST_SERVICES = 16 /* largest depth of services that use services */ };
 
 static _Unwind_Reason_Code add_frame(struct _Unwind_Context *frame, void *argument)
 {
@@ -29,8 +29,8 @@ static const struct link_map *object_of(const void *address)
     return _dl_find_object((void *)(uintptr_t)address, &found) == 0 ? found.dlfo_link_map : NULL;
 }
 
-/* True if the code belongs to the plugin. While an object is being loaded, all code that runs
-   belongs to it. */
+/* Returns whether the code belongs to the plugin. While an object is being loaded, all code that
+   runs counts as its code. */
 static bool is_code_of(const ff_guard_mark *mark, const struct link_map *object)
 {
     return !mark->code || object_of(mark->code) == object;

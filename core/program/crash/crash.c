@@ -18,11 +18,11 @@ static const char crashed[] = " crashed during ", ended[] = " ended the program 
 enum { FAULTS = 5 };
 static const int fault_signals[FAULTS] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 
-/* Bound at program start: if the dynamic linker itself faults over a damaged file, a first call
-   through it would fault again. */
+/* The pointer is resolved at program start. If the dynamic linker faults while it loads a damaged
+   file, resolving it then would fault again. */
 static ff_guard_mark (*volatile const guard_bound)(void) = ff_guard_current;
 
-/* A sentence, built by functions that a signal handler may call. */
+/* A sentence that is built by functions a signal handler may call. */
 typedef struct line {
     char text[CRASH_SENTENCE];
     size_t length;
@@ -47,8 +47,8 @@ static void add_mebibytes(line *l, unsigned long long bytes)
     add(l, " MiB");
 }
 
-/* Adds "; the address space of the process is limited to 98 MiB" if it is. Returns true if it
-   did. */
+/* Adds "; the address space of the process is limited to 98 MiB" if such a limit is set. Returns
+   whether it is. */
 static bool add_limit(line *l)
 {
     struct rlimit limit;
@@ -79,8 +79,8 @@ void crash_starve(unsigned long long bytes)
     crash_say(sentence.text, FF_FAULT_RUN);
 }
 
-/* Makes "oil: the plugin oil.so crashed during evaluate of film: abort". `who` is NULL if the
-   culprit may be any plugin that takes part. */
+/* Makes "oil: the plugin oil.so crashed during evaluate of film: abort". `who` is NULL if any of
+   the plugins involved may be the culprit. */
 static line make_sentence(const ff_guard_mark *running, const ff_guard_mark *who, const char *verb,
                           const char *detail)
 {
@@ -119,7 +119,8 @@ static _Noreturn void die(const ff_guard_mark *running, const ff_guard_mark *who
     crash_say(sentence.text, FF_FAULT_PLUGIN);
 }
 
-/* Reports that a plugin's library called exit(), for want of memory if the memory is limited. */
+/* Reports that a plugin's library called exit(). If the memory is limited, the reason is lack of
+   memory. */
 static _Noreturn void die_of_library(const ff_guard_mark *running, const crash_stack *stack,
                                      const char *library)
 {
@@ -132,8 +133,8 @@ static _Noreturn void die_of_library(const ff_guard_mark *running, const crash_s
     crash_say(sentence.text, limited ? FF_FAULT_RUN : FF_FAULT_PLUGIN);
 }
 
-/* Address of the faulting instruction; after a call of a NULL function the address of its
-   caller. */
+/* Returns the address of the faulting instruction. After a call of a NULL function it is the
+   address of the caller. */
 static const void *place_of(const void *context)
 {
 #ifdef __x86_64__
@@ -146,15 +147,17 @@ static const void *place_of(const void *context)
 #endif
 }
 
-/* True for a trap: the code that enabled it may have returned long before it strikes. */
+/* Returns whether the signal is a floating-point trap. The code that enabled the trap may have
+   returned long before. */
 static bool is_trap(int number, const siginfo_t *info)
 {
     return number == SIGFPE && info->si_code >= FPE_FLTDIV && info->si_code <= FPE_FLTSUB;
 }
 
-/* The plugin at fault, as far as it can be known; NULL if it may be any that takes part. The stack
-   is read only if a function that ends the program was called; after a fault it may be overwritten.
-   A fault in the code of a stage may be caused by what a plugin that serves it has written. */
+/* Returns the plugin at fault as far as it can be determined, or NULL if any of those involved may
+   be it. The stack is read only if a function that ends the program was called, since after a fault
+   it may be overwritten. A fault in the code of a stage may be caused by data that a plugin serving
+   it has written. */
 static const ff_guard_mark *culprit(const ff_guard_mark *running, int number, const void *context)
 {
     crash_stack stack;
@@ -164,8 +167,9 @@ static const ff_guard_mark *culprit(const ff_guard_mark *running, int number, co
     return crash_stack_blame(&stack, running);
 }
 
-/* Writes the sentence that the leading process cannot know, and leaves the rest to that process. If
-   this handler crashes, the leading process still knows which plugin was running. */
+/* Writes the sentence if the leading process cannot determine it, and leaves other cases to that
+   process. If this handler crashes, the leading process still finds out which plugin was
+   running. */
 static void on_fault(int number, siginfo_t *info, void *context)
 {
     ff_guard_mark running = guard_bound();
@@ -178,7 +182,7 @@ static void on_fault(int number, siginfo_t *info, void *context)
         running.path && running.code ? culprit(&running, number, context) : NULL;
     if (who && who != &running)
         die(&running, who, crashed, crash_fault_name(number));
-    /* a faulting instruction faults again on return; a signal that was sent is sent again */
+    /* a faulting instruction faults again on return; a sent signal is sent again here */
     signal(number, SIG_DFL);
     if (info->si_code <= 0)
         raise(number);
@@ -210,8 +214,8 @@ static void on_fork(void)
         die(&running, who, broke, "it called fork()");
 }
 
-/* Ends the process when a plugin ends the main thread by pthread_exit(): the program would wait for
-   the other threads. */
+/* Ends the process when a plugin ends the main thread with pthread_exit(). Otherwise the program
+   would wait for the other threads. */
 static void on_thread_end(void *nothing)
 {
     ff_guard_mark running = ff_guard_current();
@@ -222,7 +226,7 @@ static void on_thread_end(void *nothing)
 
 void crash_install(void)
 {
-    static char stack[65536]; /* a stack overflow leaves no room on the thread's own stack */
+    static char stack[65536]; /* after a stack overflow the thread's own stack has no room */
     stack_t alternative = {.ss_sp = stack, .ss_size = sizeof stack};
     struct sigaction action = {.sa_sigaction = on_fault, .sa_flags = SA_ONSTACK | SA_SIGINFO};
     pthread_key_t key;

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Finds the plugin to blame for a fault or for a call of exit() or fork(), and ends the process
- * with FF_FAULT_PLUGIN and a sentence. lead.h covers the ends that no handler sees.
+ * Finds the plugin that caused a fault, or called exit() or fork(), and ends the process with
+ * FF_FAULT_PLUGIN and a sentence. lead.h handles ends of the process that no handler can catch.
  */
 #ifndef CRASH_CRASH_H
 #define CRASH_CRASH_H
 
-/* Installs the handlers; once, at program start, in the working process. */
+/* Installs the handlers, once, at the start of the working process. */
 void crash_install(void);
 
-/* Ends the process after memory of that size was refused again and again. */
+/* Ends the process after requests for that much memory were refused repeatedly. */
 _Noreturn void crash_starve(unsigned long long bytes);
 
 #endif

@@ -10,11 +10,11 @@
 #include <time.h>
 #include <ucontext.h>
 
-/* A timer looks at the process every LOOK_MICROSECONDS. A look that finds memory refused adds MORE
-   to a count, any other takes one away; at MOST the process starves. */
+/* A timer checks the process every LOOK_MICROSECONDS. If the system has just refused memory, MORE
+   is added to a count, otherwise 1 is subtracted. At MOST the process is ended. */
 enum { LOOK_MICROSECONDS = 20000, MORE = 4, MOST = 200 };
 
-/* Size that mmap has just refused; 0 if it has not. */
+/* Returns the size that mmap has just refused, or 0. */
 static unsigned long long refused(const ucontext_t *context)
 {
 #ifdef __x86_64__
@@ -42,7 +42,7 @@ void crash_hunger_watch(void)
     const struct timespec pause = {.tv_nsec = 1000L * LOOK_MICROSECONDS};
     const struct itimerspec often = {pause, pause};
     struct sigevent event = {.sigev_notify = SIGEV_SIGNAL, .sigev_signo = SIGPROF};
-    timer_t timer; /* POSIX timer: one of setitimer would survive an exec */
+    timer_t timer; /* a POSIX timer; a timer of setitimer would survive an exec */
     struct sigaction action = {.sa_sigaction = look, .sa_flags = SA_SIGINFO | SA_RESTART};
     struct rlimit limit;
     sigemptyset(&action.sa_mask);

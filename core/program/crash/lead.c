@@ -25,14 +25,14 @@
 typedef struct last_words {
     ff_guard_mirror running;
     pid_t child;
-    bool over; /* the child has ended by itself */
+    bool over; /* whether the child has ended by itself */
     crash_end end;
 } last_words;
 
-static last_words *words; /* NULL if no process leads this one */
+static last_words *words; /* NULL if this process has no leading process */
 static ff_guard_mirror own, *running = &own;
 
-/* Used in the leading process. */
+/* Used in the leading process: process id of the child, and the last signal that was forwarded. */
 static volatile sig_atomic_t child, handed_on;
 
 void crash_mark(ff_guard_mirror *mirror)
@@ -64,7 +64,7 @@ void crash_leave(int code)
 static void put(const char *text)
 {
     if (write(STDERR_FILENO, text, strlen(text)) < 0)
-        return; /* stderr is closed; nothing can be done */
+        return; /* stderr is closed, so nothing can be done */
 }
 
 void crash_say(const char *sentence, int code)
@@ -115,15 +115,16 @@ static long long now_ns(void)
     return time.tv_sec * 1000000000LL + time.tv_nsec;
 }
 
-/* Counts copies of one signal. A signal sent to the group arrives twice, at any distance on a busy
-   machine, and three times if its sender addresses the leading process as well, as timeout(1) does.
-   Several threads may receive them at once. */
+/* Returns whether a signal is a copy of one already counted. A signal sent to the group arrives
+   twice, with any delay on a busy machine, and three times if its sender also addresses the leading
+   process, as timeout(1) does. Several threads may receive the copies at once. */
 bool crash_is_echo(const siginfo_t *info)
 {
     enum { SIGNALS = 65 };
     static const long long pair = 1000000000LL, burst = 50000000LL; /* ns */
     static atomic_llong counted[SIGNALS], seen[SIGNALS];
-    static atomic_int came_alone[SIGNALS]; /* signals that arrived here, less those handed on */
+    static atomic_int came_alone[SIGNALS]; /* signals that arrived here, minus those forwarded by
+                                              the leading process */
     const int n = info->si_signo;
     if (info->si_code > 0 || n < 0 || n >= SIGNALS)
         return false;
@@ -141,8 +142,8 @@ bool crash_is_echo(const siginfo_t *info)
     return paired || !atomic_compare_exchange_strong(&counted[n], &last, now);
 }
 
-/* Hands a signal on to the child. A terminal signals the whole group by itself, and a signal that
-   the child sends to its group is not the user's. */
+/* Forwards a signal to the child. A terminal signals the whole group by itself, and a signal that
+   the child sends to its group does not come from the user. */
 static void hand_on(int number, siginfo_t *info, void *context)
 {
     int before = errno;
@@ -170,8 +171,8 @@ static void catch_signals(void)
             sigaction(handed[i], &action, NULL);
 }
 
-/* True if a thread of the stopped child is in a call that sends SIGSTOP, or if the system does not
-   tell. */
+/* Returns true if a thread of the stopped child is in a call that sends SIGSTOP, or if the system
+   does not provide this information. */
 static bool has_stopped_itself(void)
 {
     char path[300];
@@ -197,8 +198,8 @@ static bool has_stopped_itself(void)
     return itself || !known;
 }
 
-/* True if the child remains stopped. A batch system stops all processes of a job and continues them
-   one after the other. */
+/* Returns true if the child remains stopped. A batch system stops all processes of a job and
+   continues them one after the other. */
 static bool stays_stopped(void)
 {
     siginfo_t info;
@@ -213,9 +214,9 @@ static bool stays_stopped(void)
     return true;
 }
 
-/* Waits for the child and returns its status. A child that a plugin has stopped is killed, and the
-   status of the stop returned. If the status is lost, returns the code that the child left in
-   shared memory, or that of a failed run. */
+/* Waits for the child and returns its status. If a plugin has stopped the child, the child is
+   killed, and the status of the stop is returned. If the status is lost, returns the code that the
+   child left in shared memory, or that of a failed run. */
 static int wait_for_child(void)
 {
     assert(child > 0 && words);
@@ -235,7 +236,7 @@ static int wait_for_child(void)
     }
 }
 
-/* Fills code and sentence for a child that ended with this status. */
+/* Sets code and sentence for a child that ended with this status. */
 static void judge(int status, crash_end *end)
 {
     int number = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
@@ -243,7 +244,8 @@ static void judge(int status, crash_end *end)
     end->sentence[sizeof end->sentence - 1] = '\0';
     if (end->sentence[0] && !words->over && !number && WEXITSTATUS(status) == end->code)
         return;
-    end->sentence[0] = '\0';                                 /* a plugin has overwritten it */
+    /* a plugin has overwritten the sentence */
+    end->sentence[0] = '\0';
     end->code = number ? FF_FAULT_RUN : WEXITSTATUS(status); /* a sanitizer may have changed the
                                                                 code */
     if (words->over && !number)
@@ -259,12 +261,12 @@ static void judge(int status, crash_end *end)
     }
 }
 
-/* True under a debugger, which follows one process only, or under valgrind, which counts each
- * process by itself. The file is read without stdio, whose memory would be allocated before the
- * fork and copied after it. */
+/* Returns true under a debugger, which follows only one process, or under valgrind, which counts
+   each process separately. The file is read without stdio, since stdio's memory would be allocated
+   before the fork and copied after it. */
 static bool is_watched(void)
 {
-    char status[1024] = ""; /* long enough for the line, which is near the top */
+    char status[1024] = ""; /* large enough for the line, which is near the top of the file */
     const char *preloaded = getenv("LD_PRELOAD");
     int fd = open("/proc/self/status", O_RDONLY | O_CLOEXEC);
     if (fd >= 0) {
@@ -277,16 +279,16 @@ static bool is_watched(void)
            (preloaded && strstr(preloaded, "vgpreload"));
 }
 
-/* Called in a process that the child forks: no process leads it, and its mark of the running plugin
- * is its own. */
+/* Called in a process that the child forks: it has no leading process, and its record of the
+   running plugin is its own. */
 static void step_down(void)
 {
     words = NULL;
     crash_mark(&own);
 }
 
-/* Gives the child the terminal's foreground group if it may read from a terminal, else a group of
-   its own, so that a signal of a plugin to its group ends no other process. */
+/* Gives the child the terminal's foreground group if it may read from a terminal, otherwise a group
+   of its own, so that a signal from a plugin to its group ends no other process. */
 static void follow(pid_t leader)
 {
     words->child = getpid();
@@ -311,7 +313,7 @@ bool crash_lead(crash_end *end)
     words = words == MAP_FAILED ? NULL : words;
     sigfillset(&all);
     sigprocmask(SIG_SETMASK, &all,
-                &before);     /* no signal arrives before there is a child to receive it */
+                &before);     /* signals are blocked until there is a child to receive them */
     signal(SIGCHLD, SIG_DFL); /* if ignored, the child's status would be lost */
     if (words)
         made = fork();

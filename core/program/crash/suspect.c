@@ -16,13 +16,13 @@ static _Noreturn void test_guards(const char *plugin)
     int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
     for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; stream++)
         dup2(nothing, stream);
-    setenv("FLANKFILM_VERIFY_LIMIT", "2", 1); /* s */
+    setenv("FLANKFILM_VERIFY_LIMIT", "2", 1); /* time limit in s */
     execl("/proc/self/exe", "flankfilm", "verify", plugin, "--only", "guards", (char *)NULL);
     _exit(EXIT_FAILURE);
 }
 
-/* Whether the plugin fails the test of `verify` that finds writes outside of its memory. False also
- * for a plugin without that test. */
+/* Returns whether the plugin fails the test of `verify` that finds writes outside its memory.
+   Returns false also for a plugin without that test. */
 static bool writes_outside(const char *plugin)
 {
     int status = 0;

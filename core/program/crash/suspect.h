@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Which of several plugins overran memory. A law that writes past the arrays it was given ends the
- * stage that gave them, and in the sentence both are named.
+ * Finds out which of several plugins wrote outside its memory. A law that writes past the arrays it
+ * was given makes the stage crash that gave them, and the sentence names both.
  */
 #ifndef CRASH_SUSPECT_H
 #define CRASH_SUSPECT_H
 
 #include <stddef.h>
 
-/* Where the sentence names plugins that serve a stage, has `flankfilm verify` test in processes of
-   their own whether each keeps to its arrays, and adds what came of it. Called in the leading
-   process, after the working one has ended; takes 2 s for each plugin at most. */
+/* If the sentence names plugins that serve a stage, runs `flankfilm verify` for each of them in a
+   separate process to test whether it writes outside its arrays, and adds the result to the
+   sentence. Called in the leading process after the working process has ended. Takes at most 2 s
+   per plugin. */
 void crash_add_suspect(char *sentence, size_t size);
 
 #endif

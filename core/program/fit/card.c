@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The files that a fit leaves: a card for pipelines, and the residuals as a table. */
+/* The result files of a fit: a card for pipelines, and the residuals as a table. */
 #include "fit.h"
 
 #include <math.h>
 #include <string.h>
 
-/* A file name may hold anything; a line end in it would end the comment. */
+/* A file name may contain any character; a line break would end the comment. */
 static void print_name(FILE *out, const char *name)
 {
     for (; *name; name++)

@@ -17,7 +17,8 @@ const fit_law *fit_best(const fit *f)
     return best;
 }
 
-/* A law that cannot be fitted is an error if the user named it, or if no law could be fitted. */
+/* Reports a law that could not be fitted. It is an error if the user named the law, or if no law
+   could be fitted. */
 static bool report_unfitted(const fit *f)
 {
     bool none = !fit_best(f), same = none && f->law_count > 1, good = true;

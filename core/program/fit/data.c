@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reads the measured points: their columns, the conditions that the user asks for, and the rows to
-   be fitted. */
+/* Reads the measured points: their columns, the requested conditions, and the rows to be fitted. */
 #include "fit.h"
 
 #include "../memory/memory.h"
@@ -8,7 +7,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Rows within this many K of one temperature are an isotherm. */
+/* Rows whose temperatures differ by less than this, in K, belong to one isotherm. */
 static const double ISOTHERM = 0.5;
 
 enum { MOST_ROWS = 10000 };
@@ -63,13 +62,14 @@ static void list_isotherms(const double *T, size_t n, char *out, size_t size)
     }
 }
 
-/* Copies the rows at the temperature asked for; all rows if none was asked for. */
+/* Copies the rows at the requested temperature, or all rows if none was requested. */
 static void copy_rows(const fit *f, fit_data *d)
 {
     const double *T = f->table->columns[FIT_TEMPERATURE];
     for (size_t i = 0; i < f->table->row_count; i++) {
         if (T && fabs(T[i] - f->at[FIT_TEMPERATURE]) > ISOTHERM)
-            continue; /* false for NaN: without a temperature asked for no row is left out */
+            continue; /* the comparison is false for NaN, so without a requested temperature no
+                         row is left out */
         d->row[d->n] = i;
         d->p[d->n] = f->table->columns[FIT_PRESSURE][i];
         d->ln_eta[d->n] = log(f->table->columns[FIT_VISCOSITY][i]);
@@ -108,7 +108,7 @@ static void find_temperature(fit_data *d)
     d->temperature = d->T && d->isothermal ? sum / (double)d->n : NAN;
 }
 
-/* Has the sign of the slope of ln(eta) against pressure. */
+/* Returns a number with the sign of the slope of ln(eta) against pressure. */
 static double covariance(const fit_data *d)
 {
     double p = 0, ln_eta = 0, sum = 0;
@@ -209,7 +209,8 @@ void fit_range(const fit *f, size_t column, double *low, double *high)
     }
 }
 
-/* Reads a quantity of --at into the column with its dimension; it must lie inside the data. */
+/* Reads a quantity of --at into the column with its dimension. It must be inside the range of the
+   data. */
 static bool set_condition(fit *f, const char *text)
 {
     char why[300] = "";

@@ -71,7 +71,7 @@ bool fit_add_laws(fit *f, ff_engine *engine, const char *const *names, size_t co
     return good;
 }
 
-/* Holds a parameter at what the user gave. */
+/* Fixes a parameter at the value that the user gave. */
 static bool hold(fit *f, fit_law *law, fit_param *param, const ff_node *node)
 {
     const ff_param *row = param->row;
@@ -93,7 +93,7 @@ static bool hold(fit *f, fit_law *law, fit_param *param, const ff_node *node)
     return status == FF_OK;
 }
 
-/* Applies a setting to all laws that have the parameter, or to `only`. */
+/* Applies a setting to all laws that have the parameter, or only to `only`. */
 static bool set_param(fit *f, const char *name, const ff_node *node, const fit_law *only)
 {
     bool used = false, good = true;
@@ -123,7 +123,7 @@ static const fit_law *find_law(const fit *f, const char *id)
     return NULL;
 }
 
-/* At most one member of a group may be held or free. */
+/* Checks that at most one member of a group is given or free. */
 static bool check_groups(const fit *f, const fit_law *law)
 {
     for (size_t i = 0; i < law->param_count; i++) {
@@ -175,7 +175,7 @@ bool fit_set(fit *f, ff_engine *engine, const char *const *sets, size_t count)
     return good;
 }
 
-/* Gives the law the values that changed. False if it refuses one. */
+/* Passes the changed values to the law. Returns false if it refuses one. */
 static bool set_values(fit_law *law, const double *values)
 {
     bool good = true;

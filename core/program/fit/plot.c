@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Describes the residuals of all laws over pressure, as a figure of the pages. */
+/* Describes the residuals of all laws over pressure as a figure for the report page. */
 #include "fit.h"
 
 #include <math.h>

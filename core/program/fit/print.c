@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Prints the fit for people. */
+/* Prints the fit as text. */
 #include "fit.h"
 
 #include "../terminal/terminal.h"
@@ -80,7 +80,7 @@ static void print_param(const fit_param *param)
     putchar('\n');
 }
 
-/* Prints the remarks on a law, each on lines of its own. */
+/* Prints the remarks on a law, each on a new line. */
 static void print_notes(const char *note)
 {
     while (*note) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Finds parameters and their confidence intervals. The residuals are those of ln(eta), that is
- * relative deviations, as the error of a viscometer is relative.
+ * relative deviations, since the error of a viscometer is relative.
  */
 #include "search.h"
 
@@ -15,9 +15,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* RANK: parameters cannot be told apart if the smallest singular value of the scaled derivatives is
-   below this share of the largest. SHARE: a parameter is one of them if its component in the
-   direction of the smallest is at least this. */
+/* Parameters cannot be distinguished if the smallest singular value of the scaled derivatives is
+   below RANK times the largest. A parameter is one of them if its component in the corresponding
+   singular vector is at least SHARE. */
 static const double RANK = 1e-6, SHARE = 0.05;
 
 static const fit_param *param_of(const fit_search *s, size_t param)
@@ -47,7 +47,7 @@ static bool fail(fit_law *law, const char *format, ...)
     return false;
 }
 
-/* In the row's unit: "1.05 GPa". */
+/* Prints a value in the row's unit: "1.05 GPa". */
 static const char *print_value(const fit_param *param, double si, char out[64])
 {
     bool bare = !strcmp(param->row->unit, "1") || !*param->row->unit;
@@ -61,8 +61,8 @@ static bool same_group(const ff_param *a, const ff_param *b)
     return a->group && b->group && !strcmp(a->group, b->group);
 }
 
-/* True for parameters to be found: those without a preset, and the first number of a required
-   group, unless the user has chosen. */
+/* Returns whether a parameter is to be found: it has no preset, or is the first number of a
+   required group, and the user has not set it. */
 static bool is_free(const fit_law *law, size_t index)
 {
     const fit_param *param = &law->params[index];
@@ -80,8 +80,8 @@ static bool is_free(const fit_law *law, size_t index)
     return required;
 }
 
-/* With data at several temperatures, parameters that describe the oil, such as Roelands' s0, are
-   found as well. */
+/* Returns whether the parameter describes the oil, such as Roelands' s0, and is to be found as well
+   because the data have several temperatures. */
 static bool is_thermal(const fit_data *d, const fit_param *param)
 {
     const ff_param *row = param->row;
@@ -89,8 +89,8 @@ static bool is_thermal(const fit_data *d, const fit_param *param)
            row->preset;
 }
 
-/* True for the reference temperature `at` of a law; its value is the mean temperature of the
-   data. */
+/* Returns whether the parameter is the reference temperature `at` of a law. Its value is the mean
+   temperature of the data. */
 static bool is_reference(const fit_data *d, const fit_param *param)
 {
     return !d->isothermal && param->asked == FIT_PRESET && param->row->type == FF_REAL &&
@@ -105,8 +105,8 @@ static double mean_temperature(const fit_data *d)
     return sum / (double)d->n;
 }
 
-/* Sets up the axes. The law has the values that the user holds. pressure_cap is held at the highest
-   pressure of the data, so that the law itself warns of use beyond it. */
+/* Sets up the free parameters. The law has the values set by the user. pressure_cap is fixed at the
+   highest pressure of the data, so that the law itself warns if it is used beyond it. */
 static bool choose_free(fit_search *s)
 {
     fit_law *law = s->law;
@@ -155,7 +155,8 @@ static bool has_enough_points(const fit_search *s)
                 s->count, s->count + 3, s->count + 1, s->data->n, points);
 }
 
-/* A law without temperature gives the same viscosity at both ends. */
+/* Returns whether the law depends on temperature: without it the viscosity is the same at both
+   ends. */
 static bool depends_on_temperature(fit_search *s, const double *x)
 {
     const fit_data *d = s->data;
@@ -170,7 +171,7 @@ static bool depends_on_temperature(fit_search *s, const double *x)
            fabs(ln_eta[1] - ln_eta[0]) > 1e-9;
 }
 
-/* Takes a parameter out of the search. */
+/* Fixes a parameter, so that the search no longer varies it. */
 static void hold(fit_search *s, size_t axis, double value, fit_state found)
 {
     size_t param = s->axes[axis].param;
@@ -180,7 +181,7 @@ static void hold(fit_search *s, size_t axis, double value, fit_state found)
     s->count--;
 }
 
-/* Holds a parameter whose search ended at a limit. False if there is none. */
+/* Fixes a parameter whose search ended at a limit. Returns false if there is none. */
 static bool hold_limit(fit_search *s, const double *x)
 {
     char text[64];
@@ -233,8 +234,8 @@ static void decompose(fit_search *s, const double *x, decomposition *d)
     gsl_linalg_SV_decomp_jacobi(d->U, d->V, d->S);
 }
 
-/* Holds one of the parameters that the data cannot tell apart: the one with the narrowest
-   calibrated range, at its middle. False if all can be told apart. */
+/* Fixes one of the parameters that the data cannot distinguish: the one with the narrowest
+   calibrated range, at the middle of it. Returns false if all can be distinguished. */
 static bool hold_undetermined(fit_search *s, const decomposition *d)
 {
     size_t last = s->count - 1, narrowest = 0;
@@ -270,8 +271,8 @@ static bool hold_undetermined(fit_search *s, const decomposition *d)
     return true;
 }
 
-/* Covariance of the parameters in the coordinates of the search, without the variance of the data:
-   (J^T J)^-1 = V S^-2 V^T. */
+/* Returns the covariance of two parameters in the coordinates of the search, without the variance
+   of the data: (J^T J)^-1 = V S^-2 V^T. */
 static double covariance(const decomposition *d, size_t i, size_t j)
 {
     double sum = 0;
@@ -303,7 +304,7 @@ static void estimate_intervals(const fit_search *s, const double *x, const decom
     }
 }
 
-/* Names the parameters with an interval wider than 1.5 times their value, and for each the
+/* Adds a remark for each parameter with an interval wider than 1.5 times its value, and names the
    parameter with which it is most correlated. */
 static void note_loose(const fit_search *s)
 {
@@ -346,8 +347,9 @@ typedef struct point {
     double p, residual;
 } point;
 
-/* Counts runs of one sign along the pressure (Wald & Wolfowitz 1940). Fewer runs than chance gives
-   in 99 of 100 cases mean that the law differs in form from the data. */
+/* Counts runs of residuals with one sign along the pressure (Wald & Wolfowitz 1940). If there
+   are fewer runs than in 99 % of random sequences, the form of the law differs from that of the
+   data. */
 static void note_pattern(const fit_data *d, fit_law *law)
 {
     point *points = memory_alloc(d->n * sizeof *points);
@@ -423,7 +425,7 @@ static bool take_result(fit_search *s, const double *x, const decomposition *d)
     return true;
 }
 
-/* Searches until no parameter is at a limit and all free ones can be told apart. */
+/* Searches until no parameter is at a limit and all free ones can be distinguished. */
 static bool search(fit_search *s)
 {
     fit_law *law = s->law;

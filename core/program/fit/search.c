@@ -13,11 +13,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* SAMPLES: points at which the sum of squares is sampled. STARTS: the best of them, from which
-   searches start. ITERATIONS: the most of one search. */
+/* SAMPLES: number of points at which the sum of squares is sampled. STARTS: number of the best of
+   them, from which searches start. ITERATIONS: largest number per search. */
 enum { SAMPLES = 64, STARTS = 4, ITERATIONS = 200 };
 
-/* REFUSED: residual where a law refuses its parameters. PENALTY: slope of the penalty beyond a
+/* REFUSED: residual used where a law refuses its parameters. PENALTY: slope of the penalty beyond a
    limit. */
 static const double REFUSED = 1e3, PENALTY = 10;
 
@@ -34,7 +34,7 @@ fit_axis fit_axis_of(const fit_param *param, size_t index)
         from = axis.log ? 0 : -fabs(param->unit->factor);
         to = fabs(param->unit->factor);
     }
-    if (axis.log) { /* a range that begins at 0 is given three decades */
+    if (axis.log) { /* a range that begins at 0 becomes three decades */
         from = from > 0 ? from : 1e-3 * to;
         min = min > 0 ? min : 1e-9 * from;
         if (row->flags & FF_MIN_OPEN)
@@ -90,8 +90,8 @@ void fit_search_jacobian(fit_search *s, const double *x, double *out)
         moved[j] = x[j] - h;
         bool below = fit_search_residuals(s, moved, down);
         moved[j] = x[j];
-        if (above + below + here < 2) /* beside a refusal the difference is one-sided: two of the
-                                         three points suffice */
+        if (above + below + here < 2) /* next to a refused point the difference is one-sided, so
+                                         two of the three points are enough */
             continue;
         up = above ? up : side;
         down = below ? down : side;
@@ -101,13 +101,13 @@ void fit_search_jacobian(fit_search *s, const double *x, double *out)
     free(side);
 }
 
-/* Distance of x beyond its limits; 0 inside. */
+/* Returns the distance of x beyond its limits, or 0 inside. */
 static double excess(const fit_axis *axis, double x)
 {
     return x < axis->low ? x - axis->low : x > axis->high ? x - axis->high : 0;
 }
 
-/* The n residuals, then one penalty per axis that drives x back into its limits. */
+/* Computes the n residuals, then one penalty per axis that drives x back within its limits. */
 static int residuals_with_penalties(const gsl_vector *x, void *params, gsl_vector *f)
 {
     fit_search *s = params;
@@ -132,8 +132,8 @@ static int jacobian_with_penalties(const gsl_vector *x, void *params, gsl_matrix
     return GSL_SUCCESS;
 }
 
-/* Levenberg-Marquardt with a trust region, from x; writes the minimum to x. Returns the sum of
-   squares, or infinity. */
+/* Minimises by the Levenberg-Marquardt method with a trust region, starting from x, and writes the
+   minimum to x. Returns the sum of squares, or infinity. */
 static double minimise(fit_search *s, double *x)
 {
     gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();

@@ -15,14 +15,14 @@ static bool is_told(const ff_report *report, ff_place place)
     return false;
 }
 
-/* True if a line belongs to the stage that a key names. */
+/* Returns whether a line belongs to the stage named in a key. */
 static bool is_of_stage(const char *line, const char *key)
 {
     const size_t length = strcspn(key, ".");
     return !strncmp(line, key, length) && line[length] == '.';
 }
 
-/* Warns of a key that names no line of its stage; a stage without lines tells nothing. */
+/* Warns of a key that names no line of its stage. A stage without lines gives no information. */
 static void check_key(const char *key, ff_place place, json_t *lines, ff_report *report)
 {
     const char *line, **names = memory_alloc((json_object_size(lines) + 1) * sizeof *names);

@@ -10,9 +10,9 @@
 #include <string.h>
 
 typedef struct asked {
-    double bound; /* SI */
-    bool above;   /* numbers have to be above the bound */
-    bool equal;   /* numbers equal to the bound keep it */
+    double bound; /* in SI units */
+    bool above;   /* whether numbers must be above the bound */
+    bool equal;   /* whether numbers equal to the bound are allowed */
 } asked;
 
 static const ff_node *node_of(const ff_run *run)
@@ -21,7 +21,7 @@ static const ff_node *node_of(const ff_run *run)
     return node && node->kind == FF_MAP ? node : NULL;
 }
 
-/* Reports an unreadable limit. Returns false. */
+/* Reports a limit that cannot be read. Returns false. */
 static bool refuse(const ff_node *node, const char *path, ff_report *report)
 {
     return ff_error(report, FF_FAULT_INPUT, node->place, NULL,
@@ -30,7 +30,7 @@ static bool refuse(const ff_node *node, const char *path, ff_report *report)
                     path);
 }
 
-/* Reads "> 1.5 um" in the unit of the output; false after an error. */
+/* Reads "> 1.5 um" in the unit of the output. Returns false after an error. */
 static bool read_limit(const ff_node *node, const char *path, const ff_port *output, asked *limit,
                        ff_report *report)
 {
@@ -62,7 +62,8 @@ static bool read_limit(const ff_node *node, const char *path, const ff_port *out
     return good;
 }
 
-/* Limit number i of an output, whose limits are one node or a list; NULL after the last. */
+/* Returns limit number i of an output, or NULL after the last. The limits are one node or a
+   list. */
 static const ff_node *limit_at(const ff_node *of, size_t i)
 {
     if (of->kind != FF_SEQUENCE)
@@ -90,7 +91,8 @@ bool limits_check(ff_run *run)
 char *limits_print_key(const ff_run *run)
 {
     const ff_node *node = node_of(run), *item;
-    ff_report *unused = ff_report_new(); /* limits_check has reported unreadable limits already */
+    ff_report *unused = ff_report_new(); /* limits_check has already reported limits that cannot
+                                            be read */
     char *text = NULL;
     size_t length = 0;
     FILE *out = memory_require(open_memstream(&text, &length));
@@ -111,7 +113,8 @@ char *limits_print_key(const ff_run *run)
     return text;
 }
 
-/* Error of number k of an output: measured, or estimated by the stage; NaN: not known. */
+/* Returns the error of number k of an output, as measured or as estimated by the stage; NaN: not
+   known. */
 static double bar_of(const ff_stage *stage, const ff_result *result, size_t k,
                      const accuracy_record *errors)
 {
@@ -122,16 +125,17 @@ static double bar_of(const ff_stage *stage, const ff_result *result, size_t k,
     if (estimate)
         return fabs(estimate->data[k]);
     const double share = accuracy_estimated_share(stage, result);
-    return isinf(share) ? share : share * fabs(result->data[k]); /* of 0, too */
+    return isinf(share) ? share : share * fabs(result->data[k]); /* also if the value is 0 */
 }
 
-/* Distance of a number from the limit, positive on the side that is asked for. */
+/* Returns the distance of a number from the limit, positive on the allowed side. */
 static double margin_of(const asked *limit, double value)
 {
     return limit->above ? value - limit->bound : limit->bound - value;
 }
 
-/* Standing of a number. A number known only from below never meets an upper limit for certain. */
+/* Returns the standing of a number. A number of which only a lower bound is known never certainly
+   meets an upper limit. */
 static limits_standing stand(const asked *limit, double value, double bar, bool at_least)
 {
     const double margin = margin_of(limit, value);

@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Memory of the program: without it the program ends with a message. */
+/* Memory allocation of the program. If memory runs out, the program ends with a message. */
 #ifndef MEMORY_H
 #define MEMORY_H
 
 #include <stddef.h>
 
-void *memory_require(void *memory);             /* returns it, unless it is NULL */
-void *memory_alloc(size_t size);                /* zeroed */
-void *memory_resize(void *memory, size_t size); /* like realloc */
+void *memory_require(void *memory);             /* returns `memory`; ends the program if it is
+                                                   NULL */
+void *memory_alloc(size_t size);                /* returns zeroed memory */
+void *memory_resize(void *memory, size_t size); /* resizes like realloc */
 char *memory_copy_text(const char *text, size_t length);
 char *memory_print_text(const char *format, ...) __attribute__((format(printf, 1, 2)));
-/* Prints behind a text of these functions, which may move. */
+/* Appends printed text to a text allocated by these functions. The text may move. */
 void memory_add_text(char **text, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Sorts items of that size by the double that each begins with. */
+/* Sorts items of that size by the double at their start. */
 void memory_sort(void *items, size_t count, size_t size);
 
 /* Memory of one owner that is freed all at once. Starts zeroed. */
@@ -21,8 +22,9 @@ typedef struct memory_arena {
     struct memory_block *blocks;
 } memory_arena;
 
-void *memory_arena_alloc(memory_arena *arena, size_t size); /* zeroed, for any type */
-/* Makes room for one item more behind `count` of them; returns the array, which may have moved. */
+/* returns zeroed memory, aligned for any type */
+void *memory_arena_alloc(memory_arena *arena, size_t size);
+/* Makes room for one more item after `count` items. Returns the array, which may have moved. */
 void *memory_arena_grow(memory_arena *arena, void *items, size_t count, size_t size);
 char *memory_arena_text(memory_arena *arena, const char *text, size_t length);
 /* Moves a text that was allocated by itself. */

@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 static int file = STDOUT_FILENO;
-static FILE *stream; /* into `text`; NULL: --json was not given */
+static FILE *stream; /* collects the object in `text`; NULL: --json was not given */
 static char *text;
 static size_t length;
 

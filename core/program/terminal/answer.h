@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The one JSON object of --json. It is held until the program ends well, and whatever else is
-   written to standard output, as by a plugin, goes to standard error. */
+/* The one JSON object of --json. It is stored until the program ends successfully. Anything else
+   written to standard output, for instance by a plugin, goes to standard error. */
 #ifndef TERMINAL_ANSWER_H
 #define TERMINAL_ANSWER_H
 
@@ -9,13 +9,14 @@
 
 void terminal_answer_begin(void);
 
-/* Where the object is printed; standard output before the first call. */
+/* Returns the stream to which the object is printed. Before the first call it is standard
+   output. */
 FILE *terminal_answer(void);
 
-/* The file that standard output was. May be called in a handler of signals. */
+/* Returns the descriptor of the original standard output. A signal handler may call it. */
 int terminal_answer_file(void);
 
-/* Writes the object. False, with errno, when it could not be written. */
+/* Writes the object. Returns false with errno if it could not be written. */
 bool terminal_answer_end(void);
 
 #endif

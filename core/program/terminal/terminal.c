@@ -32,7 +32,7 @@ void terminal_print_messages(const ff_report *report, FILE *stream, bool colour)
     ff_free(text);
 }
 
-/* Characters, not bytes, of UTF-8. */
+/* Counts UTF-8 characters, not bytes. */
 static int columns_of(const char *text, size_t length)
 {
     int columns = 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Text for people: lines as wide as the terminal, colour. */
+/* Text output: lines as wide as the terminal, and colour. */
 #ifndef TERMINAL_H
 #define TERMINAL_H
 
@@ -8,18 +8,19 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-/* Columns of stdout: those of the terminal, 100 where it is none. */
+/* Returns the number of columns of stdout, or 100 if it is not a terminal. */
 int terminal_width(void);
 
-/* Whether colour is welcome there: a terminal, and no NO_COLOR. */
+/* Returns whether colour may be used: the stream is a terminal, and NO_COLOR is not set. */
 bool terminal_colour(FILE *stream);
 
-/* Prints the messages, each with its place and its line. */
+/* Prints the messages, each with its place and its line of the file. */
 void terminal_print_messages(const ff_report *report, FILE *stream, bool colour);
 
-/* Prints text and a line end. The cursor stands at `column`; further lines begin at `indent`. */
+/* Prints text and a line break. The text starts at `column`; continuation lines are indented by
+   `indent`. */
 void terminal_print_wrapped(const char *text, int column, int indent);
-/* The same on one line, "..." for what has no room. */
+/* Prints the same on one line. Text that does not fit is replaced by "...". */
 void terminal_print_cut(const char *text, int column);
 
 #endif

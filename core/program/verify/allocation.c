@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Failing allocations. The plugin's own calls of malloc, calloc and realloc are redirected in
- * its table of imported addresses; those of the libraries that it uses are not. */
+/* Makes allocations of the plugin fail, and finds writes past their ends. The plugin's own calls of
+   malloc, calloc and realloc are redirected in its table of imported addresses. Calls of the
+   libraries that it uses are not. */
 #include "private.h"
 
 #include "../memory/memory.h"
@@ -13,19 +14,25 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-enum { ZONE = 256, FILLING = 0xA5 }; /* bytes behind each block, and what fills them */
+enum {
+    ZONE = 256,
+    FILLING = 0xA5
+}; /* ZONE: number of guard bytes after each block; FILLING:
+      their value */
 
 typedef struct block {
     unsigned char *first;
-    size_t size; /* without the zone */
+    size_t size; /* without the guard bytes */
 } block;
 
-/* State of the child process. A model may allocate in several threads at once. */
+/* State of the child process. Several threads of a model may allocate at once, so it is protected
+   by `lock`. */
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static size_t made, failing;
-static block *blocks; /* in use, in the order of their making but for gaps that were filled */
+static block *blocks; /* blocks in use, in the order of allocation, except that freed entries are
+                         reused */
 static size_t block_count, block_room;
-static size_t breached; /* size of a block past whose end the model wrote; 0: of none */
+static size_t breached; /* size of a block after whose end the model wrote; 0: none */
 
 static bool fails(void)
 {
@@ -40,8 +47,8 @@ static size_t with_zone(size_t size)
     return size <= SIZE_MAX - ZONE ? size + ZONE : SIZE_MAX;
 }
 
-/* Drops the blocks that a library has freed, which lie where a new one is. Called with the lock
- * held. */
+/* Removes the blocks that a library has freed: those that overlap a new block. The caller holds the
+   lock. */
 static void drop_blocks_in(const unsigned char *first, size_t size)
 {
     for (size_t i = block_count; i-- > 0;)
@@ -65,7 +72,7 @@ static void *remember(void *memory, size_t size)
     return memory;
 }
 
-/* Called with the lock held. */
+/* Checks the guard bytes of a block. The caller holds the lock. */
 static void look_behind(const block *b)
 {
     unsigned char *zone = b->first + b->size;
@@ -76,7 +83,7 @@ static void look_behind(const block *b)
         }
 }
 
-/* A block that a library of the plugin has allocated is not known here. */
+/* Removes a block. A block allocated by a library of the plugin is not in the list. */
 static void forget(const void *memory)
 {
     pthread_mutex_lock(&lock);
@@ -107,7 +114,7 @@ static void zoned_free(void *memory)
     free(memory);
 }
 
-/* The block stays as it is where there is no memory for the new one. */
+/* If there is no memory for the new block, the old one is kept. */
 static void *zoned_realloc(void *memory, size_t size)
 {
     if (memory && size == 0) {
@@ -158,7 +165,7 @@ static uintptr_t replacement(const char *name)
     return 0;
 }
 
-/* Writes an address into the table, which full RELRO leaves read-only. */
+/* Writes an address into the table, which full RELRO makes read-only. */
 static void put(uintptr_t *slot, uintptr_t address)
 {
     uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE);
@@ -211,7 +218,8 @@ bool verify_allocations_redirect(const ff_model *model)
         redirect(map, calls, calls_size, symbols, names);
     if (others)
         redirect(map, others, others_size, symbols, names);
-    if (model->destroy == free) /* of a table that was filled in while the object was loaded */
+    if (model->destroy == free) /* the address was entered into the plugin's table while the
+                                   object was loaded */
         put((uintptr_t *)(uintptr_t)&model->destroy, (uintptr_t)zoned_free);
     return true;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The context of a test, and its checks of the process. */
+/* The context of a test, and its checks of the state of the process. */
 #include "private.h"
 
 #include "../memory/memory.h"
@@ -54,7 +54,7 @@ void verify_check_process(verify_context *context)
     if (!context->watching)
         return;
     if (getpid() != context->pid)
-        _exit(0); /* The process is a copy of the test that the model has forked. */
+        _exit(0); /* this process is a copy of the test, forked by the model */
     const char *change = ff_environment_restore(context->environment);
     change = change ? change : verify_process_changed(&context->process);
     if (change)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The functions by which the check of a kind works with the model under test. */
+/* The functions that the check of a kind calls to use the model under test. */
 #include "private.h"
 
 #include "../memory/memory.h"
@@ -9,12 +9,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A fixture, and what the check has changed for the instances that it opens. */
+/* A fixture, with the changes of the check for the instances that it opens. */
 typedef struct fixture {
     ff_fixture functions;
     verify_context *context;
-    verify_setup *changed; /* values of size 0 are unchanged */
-    bool *inputs_changed;  /* input rows whose array or service stands in `changed` */
+    verify_setup *changed; /* values with size 0 are not changed */
+    bool *inputs_changed;  /* whether `changed` contains the array or service of an input row */
     bool any_change;
 } fixture;
 
@@ -63,7 +63,7 @@ static int32_t set(void *ctx, const char *param, const char *text)
 {
     fixture *f = ctx;
     int index = ff_model_find_param(f->context->model, param);
-    const char *message; /* true: a check may leave the calibrated range */
+    const char *message; /* whether a check may leave the calibrated range */
     ff_value value;
     if (index < 0 || !verify_read_param(f->context, (size_t)index, text, &value, &message))
         return 0;
@@ -114,7 +114,7 @@ static void clear_group(verify_setup *setup, size_t param)
     }
 }
 
-/* Returns the setup of the user's run, or a random one, with the check's changes. */
+/* Returns the setup of the user's run, or a random one, with the changes of the check. */
 static verify_setup *make_setup(fixture *f)
 {
     verify_context *context = f->context;
@@ -191,7 +191,7 @@ static const void *service(void *ctx, void *instance, uint32_t output)
     return call.table;
 }
 
-/* Returns the words that name a data output, except `refused`. */
+/* Returns the words that name a data output of the model, without those in `refused`. */
 static char *known_words(const ff_model *model, const char *words, const char *refused)
 {
     char *known = memory_copy_text("", 0), word[64];

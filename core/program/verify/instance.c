@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One instance of the model under test, which the engine makes and runs under watch. */
+/* One instance of the model under test. The engine makes and runs it, and the test watches the
+   process meanwhile. */
 #include "private.h"
 
 #include "../memory/memory.h"
@@ -34,8 +35,8 @@ static const char *created(void *ctx, void *self)
     return instance->bare ? "is not needed any further" : NULL;
 }
 
-/* Whether a model owes a reason for this status. It may be stopped, or be doubtful after
- * evaluate, without one. */
+/* Returns whether a model must give a reason for this status. It may be stopped, or be doubtful
+   after evaluate, without a reason. */
 static bool owes_reason(const char *action, ff_status status)
 {
     bool evaluates = !strcmp(action, "evaluate");
@@ -68,8 +69,8 @@ static void log_line(void *ctx, const ff_stage *stage, int32_t level, const char
         breach(ctx, "logged no text");
 }
 
-/* Keeps why the last call failed, for use after the instance is closed; for a fault of the
- * plugin, the whole sentence. */
+/* Stores why the last call failed, for use after the instance is closed. For a fault of the plugin
+   it is the whole sentence. */
 static ff_status note(verify_instance *instance, ff_status status)
 {
     const ff_message *first = ff_report_first(ff_instance_report(instance->made));
@@ -88,7 +89,7 @@ static ff_status set(const verify_instance *instance, const ff_param *row, const
     return ff_instance_set_reals(instance->made, row->name, &number, 1);
 }
 
-/* Gives the instance the arrays of the setup. */
+/* Passes the arrays of the setup to the instance. */
 static ff_status feed(const verify_instance *instance, const verify_setup *setup)
 {
     ff_status status = FF_OK;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a kind offers for tests: its checks, and plain laws. */
+/* What the model conformance/KIND provides for tests: checks of the kind, and simple laws. */
 #include "private.h"
 
 #include "../memory/memory.h"
@@ -41,8 +41,8 @@ void verify_kind_checks_close(verify_kind_checks *checks)
     *checks = (verify_kind_checks){.offer = NULL};
 }
 
-/* Returns the plain law of the first kind that may feed the row and offers one with its
- * interface. */
+/* Returns the simple law of the first kind that may feed the row and provides one with its
+   interface. */
 static const void *plain_law(ff_engine *engine, const ff_port *row)
 {
     ff_report *report = ff_report_new();

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Shared by the files of core/program/verify alone. A child process lives for one test: it frees
-   what is the model's, and little else. */
+/* Declarations shared by the files of core/program/verify only. A child process lives for one test.
+   It frees what belongs to the model, and little else. */
 #ifndef VERIFY_PRIVATE_H
 #define VERIFY_PRIVATE_H
 
@@ -18,18 +18,19 @@
 #include <sys/time.h>
 #include <sys/types.h>
 
-/* kind-checks.c: the model conformance/KIND, which states what models of that kind must do. */
+/* kind-checks.c: the model conformance/KIND, which defines what models of that kind must do. */
 typedef struct verify_kind_checks {
     const ff_conformance *offer;
     ff_instance *instance;
 } verify_kind_checks;
 
-/* False if there is no such model, or with an error. `offer` lives until it is closed. */
+/* Returns false if there is no such model, or with an error. `offer` is valid until it is
+   closed. */
 bool verify_kind_checks_open(verify_kind_checks *checks, ff_engine *engine, const char *kind,
                              ff_report *report);
 void verify_kind_checks_close(verify_kind_checks *checks);
-/* Returns, for each service input of the model, a plain law that the law's kind offers; NULL:
- * none. */
+/* Returns, for each service input of the model, a simple law from the kind of the law; NULL:
+   none. */
 const void **verify_plain_laws(ff_engine *engine, const ff_loaded *loaded);
 
 /* random.c: Splitmix64, which gives the same numbers in every run. */
@@ -40,28 +41,28 @@ typedef struct verify_random {
 double verify_uniform(verify_random *random); /* in [0, 1) */
 size_t verify_below(verify_random *random, size_t count);
 
-/* What a child tells its parent, in memory that both share. */
+/* What a child reports to its parent, in shared memory. */
 typedef struct verify_outcome {
     bool finished;
     verify_finding finding;
     char step[128];          /* the call in progress */
-    ff_guard_mirror running; /* whose code is running */
+    ff_guard_mirror running; /* plugin whose code is running */
     char why[512];
 } verify_outcome;
 
-/* Only the first finding is kept. */
+/* Records a finding. Only the first one is kept. */
 void verify_outcome_set(verify_outcome *outcome, verify_finding finding, const char *why);
 
 enum { VERIFY_SIGNALS = 32, VERIFY_LIMITS = RLIM_NLIMITS };
 
-/* context.c: an engine that finds the plugins of the folder before all others. */
+/* context.c: opens an engine that searches the folder for plugins before all other places. */
 ff_engine *verify_open_engine(const char *root);
 
-/* process.c: state of the process that a model must not change, beside arithmetic and locale. */
+/* process.c: state of the process that a model must not change, besides arithmetic and locale. */
 typedef struct verify_process {
     struct sigaction signals[VERIFY_SIGNALS];
     sigset_t blocked;
-    stack_t stack; /* on which signal handlers run */
+    stack_t stack; /* stack on which signal handlers run */
     struct itimerval timers[3];
     struct stat streams[3];
     char folder[PATH_MAX];
@@ -75,7 +76,7 @@ typedef struct verify_process {
 } verify_process;
 
 void verify_process_look(verify_process *process);
-/* Returns what has changed since, to complete 'the plugin ...'. NULL: nothing. */
+/* Returns what has changed since, to complete 'the plugin ...', or NULL if nothing has. */
 const char *verify_process_changed(const verify_process *was);
 
 /* context.c: one test of one model. */
@@ -83,95 +84,102 @@ typedef struct verify_context {
     const char *root; /* the folder of the plugins */
     ff_engine *engine;
     const ff_loaded *loaded;
-    const ff_model *model; /* under test */
-    const void **laws;     /* a plain law for each service input; NULL: none */
+    const ff_model *model; /* model under test */
+    const void **laws;     /* a simple law for each service input; NULL: none */
     verify_random random;
-    FILE *table;                /* in memory, for a model that reads a table; NULL: none yet */
-    ff_run *user;               /* the user's pipeline; the next member comes from it */
+    FILE *table;                /* table in memory, for a model that reads one; NULL: none yet */
+    ff_run *user;               /* the user's pipeline; `given` comes from it */
     struct verify_setup *given; /* NULL: there is none */
     verify_outcome *outcome;
-    ff_report *messages; /* about the parameter that was read last */
-    bool redirected;     /* its calls of malloc are redirected */
-    bool watching;       /* the model may change nothing of the process */
+    ff_report *messages; /* messages about the parameter that was read last */
+    bool redirected;     /* whether its calls of malloc are redirected */
+    bool watching;       /* whether changes of the process by the model are an error */
     pid_t pid;
-    ff_environment *environment; /* to be kept; NULL: nothing is watched yet */
+    ff_environment *environment; /* environment that must not change; NULL: nothing is watched
+                                    yet */
     verify_process process;
 } verify_context;
 
-/* Begins a test; `loaded` and `outcome` are set. */
+/* Begins a test. `loaded` and `outcome` are already set. */
 void verify_context_begin(verify_context *context, ff_engine *engine);
 void verify_watch(verify_context *context);
-/* Fails if the process has changed or the model has written past its memory; the current step is
- * blamed. */
+/* Fails if the process has changed or the model has written past its memory. The finding names the
+   current step. */
 void verify_check_process(verify_context *context);
 
-/* Names the next call, for findings such as a crash, a hang or a change of the process. */
+/* Sets the name of the next call, for findings such as a crash, a hang or a change of the
+   process. */
 void verify_step(verify_context *context, const char *format, ...) FF_PRINTF(2, 3);
 /* Record a finding; only the first one is kept. Both return false. */
 bool verify_fail(verify_context *context, const char *format, ...) FF_PRINTF(2, 3);
 bool verify_skip(verify_context *context, const char *format, ...) FF_PRINTF(2, 3);
 
-/* Reads a parameter from text as a user writes it; NULL: from its preset. False if it is
- * refused. *message: the first error or warning, valid until the next call, or NULL. */
+/* Reads a parameter from text in the user's notation; NULL: from its preset. Returns false if it is
+   refused. *message is the first error or warning, valid until the next call, or NULL. */
 bool verify_read_param(verify_context *context, size_t param, const char *text, ff_value *value,
                        const char **message);
 
 uint64_t verify_data_outputs(const ff_model *model); /* one bit for each of the first 64 */
 
-/* setup.c: what an instance is made of and fed with. */
+/* setup.c: the parameters and inputs with which an instance is made and evaluated. */
 typedef struct verify_setup {
     verify_context *context;
-    ff_value *values;      /* of each parameter; size 0: not set */
-    ff_array *inputs;      /* of each input row */
+    ff_value *values;      /* one per parameter; size 0: not set */
+    ff_array *inputs;      /* one per input row */
     const void **services; /* tables of the service inputs; NULL: not connected */
     size_t (*shapes)[FF_MAX_RANK];
-    const char *lacks; /* a required file for which no contents could be drawn; NULL: none */
+    const char *lacks; /* a required file for which no contents could be generated; NULL: none */
 } verify_setup;
 
-/* Parameters in their calibrated range; within and at their physical limits; or only the required
- * ones, in their calibrated range. */
+/* Which parameters are drawn: those within the calibrated range; those within and at the physical
+   limits; or only the required ones, within the calibrated range. */
 typedef enum verify_range { VERIFY_CALIBRATED, VERIFY_PHYSICAL, VERIFY_REQUIRED } verify_range;
 
-verify_setup *verify_setup_new(verify_context *context); /* with the plain laws and nothing else */
+/* makes a setup with the simple laws and nothing else */
+verify_setup *verify_setup_new(verify_context *context);
 /* random.c: draws a value of a parameter, in the row's unit. */
 double verify_draw_number(const ff_param *row, verify_random *random, verify_range range);
-/* table.c: returns the path of a file with the columns of the model, with different numbers at
- * each call. It lasts as long as the process. NULL: the model states no columns. */
+/* table.c: returns the path of a file with the columns of the model. Its numbers differ at each
+   call. It exists as long as the process. Returns NULL if the model declares no columns. */
 const char *verify_make_table(verify_context *context);
-/* Whether everything required could be drawn. If not, the test is skipped, unless `quietly`. */
+/* Returns whether everything required could be drawn. If not, the test is skipped, unless
+   `quietly`. */
 bool verify_setup_can_be_used(const verify_setup *setup, bool quietly);
-/* Whether a service that is connected replaces the parameter. */
+/* Returns whether a connected service replaces the parameter. */
 bool verify_setup_is_replaced(const verify_setup *setup, const ff_param *row);
 void verify_setup_draw_params(verify_setup *setup, verify_random *random, verify_range range);
 void verify_setup_draw_inputs(verify_setup *setup, verify_random *random);
 void verify_setup_give(verify_setup *setup, size_t input, const double *data, uint32_t rank,
                        const size_t *shape);
-bool verify_setup_is_complete(const verify_setup *setup); /* every required input is there */
+/* returns whether every required input is set */
+bool verify_setup_is_complete(const verify_setup *setup);
 
-/* user-run.c: takes the parameters of the stage of the user's pipeline that uses the model, and,
- * if `runs`, the arrays that other stages feed it. False with errors in the report. */
+/* user-run.c: takes the parameters of the stage of the user's pipeline that uses the model and, if
+   `runs`, the arrays from other stages. Returns false with errors in the report. */
 bool verify_take_user_run(verify_context *context, const verify_request *request, ff_engine *engine,
                           bool runs);
 
-/* instance.c: one instance of the model, which the engine makes and runs under watch. */
+/* instance.c: one instance of the model. The engine makes and runs it while the process is
+   watched. */
 typedef struct verify_instance {
     verify_context *context;
     ff_instance *made;
-    const ff_model *model; /* as the engine of the instance has it */
+    const ff_model *model; /* descriptor as stored in the engine of the instance */
     ff_hooks hooks;
     bool bare, created;
     void *self;
     size_t room;      /* bytes allocated for `self`; 0: not known */
     char text[700];   /* why the last call failed, or "" */
     char breach[400]; /* how the model broke the interface, to complete 'it ...' */
-    double stop_at;   /* from this time on, progress asks the model to stop */
+    double stop_at;   /* time from which progress asks the model to stop */
     bool asked_to_stop;
 } verify_instance;
 
 /* Makes an instance with the parameters, laws and inputs of the setup, without calling the model
- * yet. It must be closed whatever the status; so must those of the next two functions. */
+   yet. The instance must be closed whatever the status. The same holds for the next two
+   functions. */
 ff_status verify_instance_new(verify_instance *instance, const verify_setup *setup);
-/* Calls create alone, for an instance without parameters. False after a failure. */
+/* Calls only create, for an instance without parameters. Returns false after a failure. */
 bool verify_instance_create(verify_instance *instance, verify_context *context);
 /* Calls create, set, wire and ready. */
 ff_status verify_instance_open(verify_instance *instance, const verify_setup *setup);
@@ -179,50 +187,52 @@ ff_status verify_instance_open(verify_instance *instance, const verify_setup *se
  * does not refuse. */
 ff_status verify_instance_run(verify_instance *instance, const char *outputs,
                               const verify_setup *setup);
-/* Calls work(ctx), which calls that function of the model. */
+/* Calls work(ctx), which calls the model's function named `function`. */
 ff_status verify_instance_call(verify_instance *instance, const char *function,
                                ff_status (*work)(void *ctx), void *ctx);
-/* Fails if a call that gave this status broke the interface, reported a fault of the plugin, or
- * wrote outside its memory. */
+/* Fails if the call that returned this status broke the interface, reported a fault of the plugin,
+   or wrote outside its memory. */
 bool verify_instance_is_sound(const verify_instance *instance, ff_status status);
 void verify_instance_close(verify_instance *instance);
 
-/* search.c: finds parameters and inputs that the model works with. */
+/* search.c: finds parameters and inputs with which the model works. */
 
 static inline bool verify_is_good(ff_status status)
 {
     return status == FF_OK || status == FF_DOMAIN;
 }
 
-/* Opens an instance with inputs and with parameters that the model accepts: the user's, or
- * random ones. NULL if none were found, which skips the test unless `quietly`. */
+/* Opens an instance with inputs and with parameters that the model accepts: the user's, or random
+   ones. Returns NULL if none were found; the test is then skipped, unless `quietly`. */
 verify_setup *verify_open_accepted(verify_context *context, verify_instance *instance,
                                    bool quietly);
-/* Opens an instance and finds inputs that it can work with. *served: the names of the outputs
- * that it then gives. NULL if there are none. */
+/* Opens an instance and finds inputs with which it works. *served: the names of the outputs that it
+   gives with them. Returns NULL if there are none. */
 verify_setup *verify_find_work(verify_context *context, verify_instance *instance, char **served);
-/* The same, trying the outputs one by one until the time is up; false after a failure. */
+/* Does the same, trying the outputs one by one until the time `end`. Returns false after a
+   failure. */
 bool verify_find_served(verify_context *context, verify_instance *instance,
                         const verify_setup *setup, char **served, double end);
-/* Fails unless the outputs of both are the same to the bit. */
+/* Fails unless the outputs of both instances are bitwise equal. */
 bool verify_outputs_agree(verify_context *context, const verify_instance *a,
                           const verify_instance *b, const char *when);
 
 /* fixture.c: runs a check of the model's kind. */
 void verify_run_check(verify_context *context, const ff_check *check);
 
-/* allocation.c: the plugin's own calls of malloc. False when they cannot be redirected. */
+/* allocation.c: redirects the plugin's own calls of malloc. Returns false if that is not
+   possible. */
 bool verify_allocations_redirect(const ff_model *model);
-/* Makes the n-th allocation from now on fail (0: none), and counts allocations. */
+/* Makes the n-th allocation from now on fail (0: none), and starts to count allocations. */
 void verify_allocations_fail(size_t nth);
 size_t verify_allocations_made(void);
-/* Returns the bytes from the address to the end of the block of the plugin that holds it; 0: no
- * such block. */
+/* Returns the number of bytes from the address to the end of its block in the plugin's memory, or 0
+   if no such block exists. */
 size_t verify_allocation_room(const void *memory);
-/* The size of a block past whose end the plugin wrote since the last call; 0: it did not. */
+/* Returns the size of a block past whose end the plugin wrote since the last call, or 0. */
 size_t verify_allocation_breached(void);
 
-/* test-life.c, test-outputs.c: requirements on any model. False after a failure. */
+/* test-life.c, test-outputs.c: requirements on any model. Return false after a failure. */
 bool verify_test_references(verify_context *context);
 bool verify_test_presets(verify_context *context);
 bool verify_test_places(verify_context *context);

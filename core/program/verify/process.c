@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The state of the process that a model must not change, beside arithmetic and locale. */
+/* The state of the process that a model must not change, besides arithmetic and locale. */
 #include "private.h"
 
 #include "../study/store/hash.h"
@@ -22,7 +22,7 @@ static size_t count_threads(void)
     return count;
 }
 
-/* Whether the process has timers of timer_create. */
+/* Returns whether the process has timers made by timer_create. */
 static bool has_timers(void)
 {
     FILE *list = fopen("/proc/self/timers", "re");
@@ -41,8 +41,8 @@ static uint64_t hash_variables(void)
     return hash;
 }
 
-/* Returns the memory of the largest child process that has ended; -1: a child is still there. A
- * change shows that there was another child. */
+/* Returns the memory of the largest child process that has ended, or -1 if a child still runs. A
+   change shows that another child process was started. */
 static long children(void)
 {
     struct rusage usage;
@@ -64,7 +64,7 @@ void verify_process_look(verify_process *process)
     if (!getcwd(process->folder, sizeof process->folder))
         process->folder[0] = 0;
     for (int i = 0; i < 3; i++)
-        fstat(i, &process->streams[i]); /* zeros for a closed stream */
+        fstat(i, &process->streams[i]); /* remains zero for a closed stream */
     for (int i = 0; i < VERIFY_LIMITS; i++)
         getrlimit((__rlimit_resource_t)i, &process->limits[i]);
     for (int i = 0; i < 3; i++)
@@ -76,8 +76,8 @@ void verify_process_look(verify_process *process)
     process->has_timers = has_timers();
 }
 
-/* Whether there are more threads than before. A thread that was joined may still be listed for a
- * moment. */
+/* Returns whether there are more threads than before. A joined thread may still be listed for a
+   short time. */
 static bool has_more_threads(const verify_process *was, const verify_process *is)
 {
     const struct timespec moment = {.tv_nsec = 1000000};

@@ -17,8 +17,8 @@ size_t verify_below(verify_random *random, size_t count)
     return (size_t)(verify_uniform(random) * (double)count);
 }
 
-/* Draws evenly over the numbers, or over their logarithms if the range spans more than two
- * decades. */
+/* Draws uniformly over the numbers, or over their logarithms if the range is more than two
+   decades. */
 static double between(verify_random *random, double low, double high)
 {
     double share = verify_uniform(random);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The list of tests, and the child processes that they run in. */
+/* The list of tests, and the child processes in which they run. */
 #include "private.h"
 
 #include "../crash/lead.h"
@@ -17,19 +17,19 @@
 #include <time.h>
 #include <unistd.h>
 
-/* What a test is about: loading the model, the user's file, rules for any model, rules of its
- * kind. */
+/* Subject of a test: loading the model, the user's file, rules for all models, rules of the model's
+   kind. */
 typedef enum matter { LOADING, USER_FILE, ANY_MODEL, ITS_KIND } matter;
 
-/* Which models a test applies to; those from WITH_DATA on need inputs. */
+/* Models to which a test applies. Tests from WITH_DATA on need inputs. */
 typedef enum concern { ALL, WITH_PARAMS, WITH_PLACES, WITH_DATA } concern;
 
 typedef struct test {
     const char *name, *claim;
     matter matter;
     concern concern;
-    bool (*run)(verify_context *context); /* for ANY_MODEL */
-    const ff_check *check;                /* for ITS_KIND */
+    bool (*run)(verify_context *context); /* set for ANY_MODEL */
+    const ff_check *check;                /* set for ITS_KIND */
 } test;
 
 static const test descriptor = {
@@ -67,9 +67,9 @@ typedef struct session {
     void *ctx;
     size_t number;
     ff_report *report;
-    bool good;     /* the user's file can be used */
-    char *missing; /* a copy of `only`, in which names of existing tests are blanked; NULL: tests
-                      are tried */
+    bool good;     /* whether the user's file can be used */
+    char *missing; /* a copy of `only` in which names of existing tests are blanked; NULL: tests
+                      are run */
 } session;
 
 static bool concerns(const test *t, const ff_model *model)
@@ -87,7 +87,8 @@ static bool concerns(const test *t, const ff_model *model)
     return true;
 }
 
-/* Loads the model. A warning fails the test, too, since the loader has undone what it warns of. */
+/* Loads the model. A warning also fails the test, since the loader has then reverted what the
+   warning is about. */
 static bool load(verify_context *context, ff_engine *engine, const char *id)
 {
     ff_report *report = ff_report_new();
@@ -98,8 +99,8 @@ static bool load(verify_context *context, ff_engine *engine, const char *id)
     return context->loaded && context->outcome->finding == VERIFY_PASSED;
 }
 
-/* Takes the user's pipeline for a test. With `inputs` the pipeline is run; parameters alone need
- * no run. */
+/* Prepares the user's pipeline for a test. With `inputs` the pipeline is run; for parameters alone
+   it need not run. */
 static bool take_user_run(verify_context *context, const verify_request *request, ff_engine *engine,
                           bool inputs)
 {
@@ -117,7 +118,7 @@ static bool take_user_run(verify_context *context, const verify_request *request
 
 static void run_watched(verify_context *context, const test *t, bool watching)
 {
-    context->watching = false; /* other models may have run */
+    context->watching = false; /* other models may have run before */
     verify_step(context, "beginning");
     if (watching)
         verify_watch(context);
@@ -142,10 +143,10 @@ static void try_model(verify_context *context, const session *s, ff_engine *engi
 }
 
 /* Runs the destructors of the plugin. The program skips them, but other users of the library may
- * not. */
+   not. */
 static void run_destructors(verify_context *context)
 {
-#ifndef __SANITIZE_ADDRESS__ /* a sanitizer would count the memory that the test has left */
+#ifndef __SANITIZE_ADDRESS__ /* a sanitizer would count the memory that the test did not free */
     context->watching = false;
     verify_step(context, "running its destructors");
     exit(0);
@@ -154,11 +155,11 @@ static void run_destructors(verify_context *context)
 #endif
 }
 
-static verify_outcome
-    *watched; /* of the test in this process; global since a signal handler takes no argument */
+static verify_outcome *watched; /* context of the test in this process; global, since a signal
+                                   handler takes no argument */
 
-/* Ends the child, since a model that forks at each call would fill the machine with copies of
- * the test. */
+/* Ends the child. Otherwise a model that forks at each call would fill the machine with copies of
+   the test. */
 static void on_fork(void)
 {
     snprintf(watched->why, sizeof watched->why, "started another process while %s", watched->step);
@@ -187,7 +188,7 @@ static _Noreturn void child(const session *s, const test *t, verify_outcome *out
     _exit(0);
 }
 
-/* Writes the first line that the child printed; "" if it printed nothing. */
+/* Writes the first line that the child printed, or "" if it printed nothing. */
 static void first_words(FILE *capture, char *out, size_t size)
 {
     rewind(capture);
@@ -199,7 +200,7 @@ static void first_words(FILE *capture, char *out, size_t size)
 static void conclude(verify_outcome *outcome, int status, bool late, FILE *capture,
                      const verify_request *request, verify_result *result)
 {
-    static const char told[] = "error: "; /* written by the crash handler */
+    static const char told[] = "error: "; /* prefix written by the crash handler */
     char words[380], end[CRASH_SENTENCE];
     first_words(capture, words, sizeof words);
     result->finding = outcome->finding;
@@ -226,8 +227,8 @@ static void conclude(verify_outcome *outcome, int status, bool late, FILE *captu
         snprintf(result->why, sizeof result->why, "printed \"%.100s\"", words);
 }
 
-/* Waits for the child until the limit, and ends the processes that it has started. True if it
- * was late. */
+/* Waits for the child until the limit, and ends the processes that it started. Returns true if the
+   child exceeded the limit. */
 static bool await(pid_t pid, double limit, int *status)
 {
     double end = study_seconds_now() + limit;
@@ -271,7 +272,7 @@ static void run_test(const session *s, const test *t, verify_result *result)
     munmap(outcome, sizeof *outcome);
 }
 
-/* Splits ".../kind/name.so" into root and id, each to be freed. */
+/* Splits ".../kind/name.so" into root and id. Both are to be freed. */
 static bool part(const char *path, char **root, char **id)
 {
     const char *name = strrchr(path, '/');
@@ -290,7 +291,7 @@ static bool part(const char *path, char **root, char **id)
     return good;
 }
 
-/* Returns where the name stands in a comma-separated list; NULL: it does not. */
+/* Returns the position of the name in a comma-separated list, or NULL. */
 static const char *find_among(const char *name, const char *names)
 {
     size_t length = strlen(name);
@@ -309,7 +310,8 @@ static void cross_out(session *s, const char *name)
         memset(s->missing + (at - s->missing), ' ', strlen(name));
 }
 
-/* False, with an error, if a requested name is that of no test, or none is requested. */
+/* Returns false, with an error, if a requested name is not that of a test, or if none is
+   requested. */
 static bool check_asked(session *s)
 {
     const char *only = s->request->only;
@@ -322,7 +324,7 @@ static bool check_asked(session *s)
     return ff_report_errors(s->report) == 0;
 }
 
-/* Tries a test. False if no other can be tried. */
+/* Runs a test. Returns false if no further test can be run. */
 static bool try(session *s, const test *t)
 {
     verify_result result = {.test = t->name, .claim = t->claim, .finding = VERIFY_LISTED};
@@ -330,7 +332,7 @@ static bool try(session *s, const test *t)
     bool asked = !s->request->only || find_among(t->name, s->request->only);
     if (file && !s->request->pipeline)
         return true;
-    if (s->missing) { /* first, the requested names are looked up */
+    if (s->missing) { /* the requested names are looked up first */
         cross_out(s, t->name);
         return true;
     }
@@ -338,7 +340,7 @@ static bool try(session *s, const test *t)
         s->tell(s->ctx, ++s->number, &result);
         return true;
     }
-    if (!asked && !file) /* in the process of each test, the model is loaded again */
+    if (!asked && !file) /* each test loads the model again in its own process */
         return true;
     run_test(s, t, &result);
     if (file && result.finding != VERIFY_PASSED)
@@ -399,7 +401,7 @@ bool verify_plugin(const verify_request *request,
         return ff_error(report, FF_FAULT_INPUT, FF_NOWHERE,
                         "its place must be KIND/NAME.so, as its id says", "%s is not a plugin",
                         request->path);
-    setenv("OPENBLAS_NUM_THREADS", "1", 1); /* so that a thread that remains is the model's own */
+    setenv("OPENBLAS_NUM_THREADS", "1", 1); /* so that any remaining thread is the model's own */
     setenv("OMP_NUM_THREADS", "1", 1);
     s.engine = verify_open_engine(s.root);
     if (request->only && !request->list) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Searches for parameters and inputs that the model works with. */
+/* Searches for parameters and inputs with which the model works. */
 #include "private.h"
 
 #include "../memory/memory.h"
@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PATIENCE = 2 }; /* s, after which a stage is asked to stop */
+enum { PATIENCE = 2 }; /* time in s after which a stage is asked to stop */
 
 verify_setup *verify_open_accepted(verify_context *context, verify_instance *instance, bool quietly)
 {
@@ -50,13 +50,13 @@ bool verify_find_served(verify_context *c, verify_instance *instance, const veri
         if (ff_instance_result(instance->made, row->name, &result) == FF_OK)
             memory_add_text(served, " %s", row->name);
         else if (status != FF_UNSUPPORTED &&
-                 status != FF_STOPPED) /* FF_STOPPED: too slow to tell */
+                 status != FF_STOPPED) /* FF_STOPPED: too slow to decide */
             return verify_fail(c, "\"%s\" cannot be had alone: %s", row->name, instance->text);
     }
     return true;
 }
 
-/* Returns the names of the outputs of the last run. */
+/* Returns the names of the outputs that the last run gave. */
 static char *list_given(const verify_instance *instance)
 {
     const ff_result *result;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Draws random parameters and inputs. */
+/* Draws random parameters and inputs for tests. */
 #include "private.h"
 
 #include "../memory/memory.h"
@@ -74,8 +74,7 @@ static void draw_value(verify_setup *setup, size_t param, verify_random *random,
     }
 }
 
-/* Chooses which member of a group to give, each with equal chance, among those that can be
- * drawn. */
+/* Chooses the member of a group to set, with equal probability among those that can be drawn. */
 static size_t choose_member(const ff_model *model, size_t first, verify_random *random)
 {
     const char *group = ff_model_param(model, first)->group;
@@ -100,7 +99,7 @@ static bool is_first_of_group(const ff_model *model, size_t index)
     return true;
 }
 
-/* Whether no member of the group must be given, since one has a preset. */
+/* Returns whether the group needs no value because a member has a preset. */
 static bool has_preset(const ff_model *model, size_t member)
 {
     const char *group = ff_model_param(model, member)->group;
@@ -137,7 +136,8 @@ bool verify_setup_can_be_used(const verify_setup *setup, bool quietly)
     return !setup->lacks && !law;
 }
 
-/* Connects a service that replaces parameters in every other draw, so that both ways are tried. */
+/* Connects a service that replaces parameters in every second draw, so that both cases are
+   tested. */
 static void draw_replacements(verify_setup *setup, verify_random *random)
 {
     const ff_model *model = setup->context->model;
@@ -195,8 +195,8 @@ static size_t stir(size_t sum, const char *text, size_t length)
     return sum;
 }
 
-/* Returns the length of a dimension: equal for equal names of one wire, and before 1.3 of all
- * wires. */
+/* Returns the length of a dimension. Equal names on one wire have equal lengths; before ABI 1.3
+   equal names on all wires. */
 static size_t length_of(const ff_model *model, const ff_port *row, uint32_t at, size_t seed)
 {
     static const size_t lengths[] = {1, 2, 3, 7, 0};

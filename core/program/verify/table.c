@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Makes a file for a model that reads a table, with the columns that the model states. */
+/* Makes a file for a model that reads a table, with the columns that the model declares. */
 #include "private.h"
 
 #include "../memory/memory.h"

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Tests for any model: its texts, its life, its parameters. */
+/* Tests for all models: their texts, life cycle and parameters. */
 #include "private.h"
 
 #include <malloc.h>
 #include <math.h>
 #include <string.h>
 
-/* Whether the text is "@type{key," with balanced braces, any number of times. */
+/* Returns whether the text consists of entries "@type{key," with balanced braces. */
 static bool is_bibtex(const char *text)
 {
     int depth = 0;
@@ -74,7 +74,7 @@ static ff_status call_services(void *ctx)
     return FF_OK;
 }
 
-/* Goes through create, set, ready, service, destroy; true if all were good. */
+/* Calls create, set, ready, service and destroy. Returns true if all succeeded. */
 static bool live(const verify_setup *setup)
 {
     verify_instance instance;
@@ -97,8 +97,9 @@ bool verify_test_life(verify_context *c)
     bool good = verify_instance_create(&instance, c);
     verify_instance_close(&instance);
     verify_step(c, "create, set, ready, service, destroy");
-    verify_setup *setup = verify_open_accepted(c, &instance, true); /* tries what can be tried */
-    if (setup) { /* two instances at once, of which the older is destroyed first */
+    /* does without what cannot be drawn */
+    verify_setup *setup = verify_open_accepted(c, &instance, true);
+    if (setup) { /* two instances at the same time; the older one is destroyed first */
         ff_status status = verify_instance_open(&second, setup);
         verify_instance_close(&instance);
         verify_instance_close(&second);
@@ -109,7 +110,7 @@ bool verify_test_life(verify_context *c)
     return good;
 }
 
-/* Returns the memory in use according to the allocator; 0 if it does not count. */
+/* Returns the memory in use according to the allocator, or 0 if the allocator does not count it. */
 static size_t in_use(void)
 {
     struct mallinfo2 info = mallinfo2();

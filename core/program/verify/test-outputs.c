@@ -5,7 +5,7 @@
 #include <pthread.h>
 #include <stdlib.h>
 
-enum { PATIENCE = 2 }; /* s, after which a stage is asked to stop */
+enum { PATIENCE = 2 }; /* time in s after which a stage is asked to stop */
 
 bool verify_test_inputs(verify_context *c)
 {
@@ -56,8 +56,8 @@ static void *work(void *argument)
     return NULL;
 }
 
-/* Runs two instances at the same time, unless the model forbids it. The process is not watched,
- * since it has one more thread. */
+/* Runs two instances at the same time, unless the model forbids it. Changes of the process are not
+   checked meanwhile, since it has one more thread. */
 static void work_twice(verify_context *c, shift *here, shift *there)
 {
     pthread_t thread;
@@ -79,7 +79,7 @@ bool verify_test_repeat(verify_context *c)
     verify_setup *setup = verify_find_work(c, &instance, &served);
     if (!setup)
         return false;
-    verify_context other = *c; /* each thread has an engine of its own */
+    verify_context other = *c; /* each thread has its own engine */
     verify_setup there_setup = *setup;
     other.watching = false;
     other.engine = verify_open_engine(c->root);

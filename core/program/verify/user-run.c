@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Returns the name of the stage that uses the model; NULL after an error. */
+/* Returns the name of the stage that uses the model, or NULL after an error. */
 static const char *find_stage(ff_run *user, const char *id)
 {
     const ff_node *stages = ff_node_get(ff_run_root(user), "pipeline");
@@ -25,7 +25,7 @@ static const char *find_stage(ff_run *user, const char *id)
     return NULL;
 }
 
-/* Whether something feeds the wire of that name. */
+/* Returns whether the wire of that name is connected. */
 static bool is_connected(const ff_stage *stage, const char *wire)
 {
     for (size_t i = 0; i < stage->wire_count; i++)
@@ -34,8 +34,8 @@ static bool is_connected(const ff_stage *stage, const char *wire)
     return false;
 }
 
-/* Whether the result depends on the oil. The tests replace the laws of the file, so such a
- * result would not agree with them. */
+/* Returns whether the result depends on the oil. The tests replace the laws of the file, so that
+   such a result would contradict them. */
 static bool is_of_oil(const ff_pipeline *pipeline, const ff_result *result)
 {
     for (size_t i = 0; i < pipeline->count; i++) {
@@ -48,8 +48,8 @@ static bool is_of_oil(const ff_pipeline *pipeline, const ff_result *result)
     return false;
 }
 
-/* Takes the parameters of the stage and what feeds it, with plain laws in place of the stages
- * that give services. */
+/* Takes the parameters of the stage and its inputs. Simple laws replace the stages that provide
+   services. */
 static bool take_stage(verify_context *context, const ff_pipeline *pipeline, const char *name)
 {
     const ff_model *model = context->model;

@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-/* Returns the gap without roughness and what has yielded of it. */
+/* Returns the gap without roughness and without its plastic part. */
 static double smooth_gap(const ehl_march *m, size_t i)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -14,7 +14,7 @@ static double smooth_gap(const ehl_march *m, size_t i)
     return eq->h[i] + (eq->rough ? eq->rough[i] : 0) - (plastic ? plastic[i] : 0);
 }
 
-/* Returns the same of all nodes. */
+/* Returns the same for all nodes. */
 static const double *smooth_gaps(ehl_balance *b, const ehl_march *m)
 {
     if (!m->solver->reynolds->rough && !m->state[0].film.plastic)
@@ -25,11 +25,12 @@ static const double *smooth_gaps(ehl_balance *b, const ehl_march *m)
 }
 
 typedef struct moments {
-    double load, moment, arm; /* of p, x p and |x p| */
-    double rise;              /* of p times what the gap rises by over both cells */
+    double load, moment, arm; /* sums of p, x p and |x p| */
+    double rise;              /* sum of p times the increase of the gap over both cells */
 } moments;
 
-/* Returns these sums over the nodes that have one on each side, the first of which is at x. */
+/* Returns these sums over the nodes that have a neighbour on each side. The first of them is at
+   x. */
 FF_SIMD
 static moments moments_of(size_t n, const double *restrict p, const double *restrict gap, double x,
                           double dx)
@@ -45,7 +46,7 @@ static moments moments_of(size_t n, const double *restrict p, const double *rest
         rise += here * (behind - before);
         here *= place;
         moment += here;
-        arm += (ehl_lanes)((ehl_lanes_bits)here & INT64_MAX); /* without its sign */
+        arm += (ehl_lanes)((ehl_lanes_bits)here & INT64_MAX); /* absolute value */
     }
     moments sum = {ehl_lanes_sum(&load), ehl_lanes_sum(&moment), ehl_lanes_sum(&arm),
                    ehl_lanes_sum(&rise)};
@@ -59,9 +60,9 @@ static moments moments_of(size_t n, const double *restrict p, const double *rest
     return sum;
 }
 
-/* Checks -int h dp/dx dx = int p dh/dx dx, p being 0 at both ends, against the moment of the
-   pressure, (1/R) int x p dx: the deflection by a pressure adds nothing to it. The first and the
-   last gap are not those of the flanks where they are rough. */
+/* Checks -int h dp/dx dx = int p dh/dx dx (p is 0 at both ends) against the moment of the pressure,
+   (1/R) int x p dx: the deflection by a pressure does not contribute. With rough flanks the first
+   and the last gap are not those of the flanks. */
 void ehl_balance_moment(ehl_balance *b, const ehl_march *m)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -71,12 +72,12 @@ void ehl_balance_moment(ehl_balance *b, const ehl_march *m)
     b->load = (sum.load + p[0] + p[b->nodes - 1]) * eq->dx + m->state[0].film.ahead;
     b->moment = sum.moment;
     b->arm = sum.arm;
-    if (!(b->arm <= 0)) /* as well where it is no number */
+    if (!(b->arm <= 0)) /* also if it is not a number */
         ehl_worse(&b->worst.moment, fabs(sum.rise / 2 - scale * b->moment) / (scale * b->arm));
 }
 
-/* Returns how far h is off the shape of the flanks, rough ones where their traces stand, except for
-   a part that is the same at all nodes, m. */
+/* Returns the difference of h from the shape of the flanks (including the current position of their
+   roughness), except for a constant that is equal at all nodes, m. */
 static double gap_off_shape(const ehl_balance *b, const ehl_march *m, size_t i)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -97,7 +98,7 @@ void ehl_balance_gap(ehl_balance *b, const ehl_march *m)
     for (double h = ehl_least(b->nodes - 2, eq->h + 1); eq->h[least] > h;)
         least++;
     double there = gap_off_shape(b, m, least);
-    if (!m->solver->outside) /* whose h00 may be counted from elsewhere */
+    if (!m->solver->outside) /* the discretisation of another stage may define h00 differently */
         ehl_worse(&b->worst.gap, fabs(there - m->state[0].film.h00) / eq->h[least]);
     for (size_t k = 0; k < sizeof places / sizeof places[0]; k++) {
         double node = (places[k] * fmax(a, 4 * g->dx) - eq->first) / eq->dx;

@@ -39,8 +39,8 @@ void ehl_balance_destroy(ehl_balance *b)
     b->memory = NULL;
 }
 
-/* Returns where the time lies between row b->row and the next, 0 to 1; below 0 where the history
- * jumps. */
+/* Returns the position of the time between row b->row and the next row, 0 to 1, or a negative
+   number where the history jumps. */
 static double share_of_row(ehl_balance *b, const ehl_history *h, double time)
 {
     size_t i = b->row >= h->count || time < h->time[b->row] ? 0 : b->row;
@@ -83,7 +83,8 @@ static int is_void(const ehl_reynolds *eq, const ehl_film *film, size_t i)
     return eq->conserving && !film->full[i] && i > 0 && i + 1 < eq->nodes;
 }
 
-/* Factors on density and carried mass of a film with temperatures across it (thermal.h). */
+/* Return the factors on density and on transported mass of a film with temperatures across it
+   (thermal.h). */
 static double swelling(const ehl_reynolds *eq, size_t i)
 {
     return eq->swell ? eq->swell[i] : 1;
@@ -94,7 +95,8 @@ static double carrying(const ehl_reynolds *eq, size_t i)
     return eq->carry ? eq->carry[i] : 1;
 }
 
-/* Computes the masses of state k from its pressure and gap; for the newest state b->rho, too. */
+/* Computes the masses of state k from its pressure and gap, and for the newest state also
+   b->rho. */
 static void compute_mass(const ehl_balance *b, const ehl_march *m, size_t k)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -113,8 +115,8 @@ static void compute_mass(const ehl_balance *b, const ehl_march *m, size_t k)
         b->mass[k][i] *= is_void(eq, film, i) ? 1 : eq->swell[i];
 }
 
-/* Checks the masses that the next step starts from. Where asperities are in contact, mass may be
- * missing. */
+/* Checks the masses from which the next step starts. Where asperities are in contact, mass may be
+   missing. */
 static void check_kept_oil(ehl_balance *b, const ehl_march *m)
 {
     const ehl_state *s = &m->state[0];
@@ -240,8 +242,8 @@ static void balance_intervals(ehl_balance *b, const ehl_march *m)
 }
 
 /* Returns the largest sum of the imbalances of the volumes from `first` to another node, downstream
- * with way = 1 and upstream with -1. It is relative to the flow there: the entrained oil, and the
- * pressure flow of `per_cell`, the pressure over a cell. */
+   with way = 1 and upstream with -1. The sum is relative to the flow at that node: the entrained
+   oil, plus the pressure flow of `per_cell`, a pressure over a cell. */
 static double largest_left(const ehl_balance *b, const ehl_march *m, double flow_scale,
                            double per_cell, size_t first, int way)
 {
@@ -257,8 +259,8 @@ static double largest_left(const ehl_balance *b, const ehl_march *m, double flow
     return isfinite(sum) ? most : NAN;
 }
 
-/* Returns the largest mass that the volumes between the highest pressure and any other node do not
- * balance. The pressure is only known to a share of p_max. */
+/* Returns the largest imbalance of mass of the volumes between the highest pressure and any other
+   node. The pressure is accurate only to a share of p_max. */
 static double check_mass(ehl_balance *b, const ehl_march *m, double flow_scale, size_t peak)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -269,8 +271,8 @@ static double check_mass(ehl_balance *b, const ehl_march *m, double flow_scale, 
     return most;
 }
 
-/* Checks cells without pressure. A cell that gains oil should have a pressure, about as much as
-   moves that oil on by a cell; a cavitated cell must hold no more than its gap. */
+/* Checks cells without pressure. A cell that gains oil should have a pressure: about the pressure
+   that moves this oil by one cell. A cavitated cell must not contain more oil than its gap. */
 static void check_cavitated(ehl_balance *b, const ehl_march *m, double p_max)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -293,7 +295,8 @@ static void integrate_volume(ehl_balance *b, const ehl_march *m)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     const double *p = ehl_fluid(eq, &m->state[0].film);
-    double *half = b->mass[1], *volume = b->volume; /* the change of the masses is known */
+    /* the array is free, since the change of the masses is already known */
+    double *half = b->mass[1], *volume = b->volume;
     for (size_t i = 0; i < b->nodes; i++)
         half[i] = p[i] / 2;
     eq->laws.density->eval(eq->laws.density->self, b->nodes, half, NULL, volume, NULL, NULL);
@@ -303,8 +306,8 @@ static void integrate_volume(ehl_balance *b, const ehl_march *m)
 
 /*
  * Checks (7.14): the balances of the volumes, weighted by P, add up to the energy balance of the
- * pressure flow. There the entrainment works on the upstream rho h; its work on h differs from that
- * by an error of the cells. Shorter steps than that part of a passage change the film by less than
+ * pressure flow. There the entrainment does work on the upstream rho h. Its work on h differs from
+ * that by an error due to the cells. Steps much shorter than a passage change the film by less than
  * the tolerance of its solution.
  */
 static void check_energy(ehl_balance *b, const ehl_march *m)
@@ -321,7 +324,7 @@ static void check_energy(ehl_balance *b, const ehl_march *m)
     double off = ehl_dot(b->nodes - 2, b->volume + 1, b->left + 1),
            stored = ehl_dot(b->nodes - 2, b->volume + 1, b->change + 1) * eq->dx;
     work *= m->step.entrainment;
-    /* what p and the flow at the first node bring, when the oil there has a pressure */
+    /* contribution of p and the flow at the first node, if the oil there has a pressure */
     double enters = eq->wedge == 2 ? (b->mass[0][0] + b->mass[0][1]) / 2 : b->mass[0][0];
     double brought = b->volume[0] * (m->step.entrainment * enters - b->face[0]);
     b->unbalanced = fabs(D - work + stored - brought);
@@ -332,10 +335,10 @@ static void check_energy(ehl_balance *b, const ehl_march *m)
         ehl_worse(&b->worst.energy, fabs(off) / scale);
 }
 
-/* Two faces, and the nodes whose mobility the flow through each takes. */
+/* Two faces, and the largest number of nodes whose mobility the flow through a face depends on. */
 enum { FACES = 2, MOST_OF_FACE = 3 };
 
-/* Fills in f of (7.1) at n nodes, with rho h by the masses. */
+/* Computes f of (7.1) at n nodes, with rho h from the masses. */
 static void fill_mobilities(const ehl_march *m, size_t n, const size_t *node, double *f)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -356,7 +359,7 @@ static void fill_mobilities(const ehl_march *m, size_t n, const size_t *node, do
     }
 }
 
-/* Returns the oil that leaves the volume of node i, with the mobilities from there on. */
+/* Returns the oil that leaves the volume of node i; `f` contains the mobilities from there on. */
 static double outflow(const ehl_march *m, size_t i, const double *f)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -385,8 +388,8 @@ static double gain_between(const ehl_march *m, size_t first, size_t last)
 }
 
 /*
- * Checks the oil between x = -a and x = 0: what came and left since the last instant, by the
- * trapezoidal rule, against the change of what is there. An error leaves with the oil, in a
+ * Checks the oil between x = -a and x = 0: inflow and outflow since the last instant, by the
+ * trapezoidal rule, against the change of the stored oil. An error leaves with the oil within one
  * passage.
  */
 static void check_content(ehl_balance *b, const ehl_march *m)
@@ -412,7 +415,7 @@ static void check_content(ehl_balance *b, const ehl_march *m)
     double dt = c->time - before.time,
            way = m->step.entrainment * dt / ((double)(last - first) * eq->dx);
     double rest =
-        way > 0 ? -expm1(-way) / way : 1; /* share of the oil of this step that has not left yet */
+        way > 0 ? -expm1(-way) / way : 1; /* share of the oil of this step that is still there */
     double missing = dt * (c->gain + before.gain) / 2 - (c->mass - before.mass);
     c->off = before.off * exp(-way) + rest * missing;
     ehl_worse(&b->worst.history, fabs(c->off) / c->mass);

@@ -19,15 +19,15 @@ int ehl_carrying_order(const ehl_reynolds *eq)
     return eq->asymmetric && eq->conserving ? 1 : eq->wedge;
 }
 
-/* Factors of the nodes i-3 to i+3. */
+/* Weights of the nodes i-3 to i+3. */
 typedef struct stencil {
     double of[7];
 } stencil;
 
-/* Returns the error that the upwind difference adds to the film while the oil moves by a cell: the
- * slope by differences of sixth order less the slope by that difference. For volumes from node to
- * node, whose change in time is that of both nodes, it is the leading error: dx^2/12 h_xxx, or dx/2
- * h_xx. */
+/* Returns the error that the upwind difference adds to the film while the oil moves by one cell:
+   the slope from differences of sixth order minus the slope from the upwind difference. For volumes
+   from node to node, whose change in time includes both nodes, it is the leading error: dx^2/12
+   h_xxx, or dx/2 h_xx. */
 static stencil local_error(const ehl_reynolds *eq)
 {
     if (eq->asymmetric && eq->conserving)
@@ -53,9 +53,9 @@ static void add_local(size_t n, const double *restrict mass, double cells, const
     }
 }
 
-/* Adds to each node the errors that its oil has met over the last `cells` cells, of which node j
- * adds local[j]. Oil from upstream of the stretch has met only errors inside it. Replaces `local`
- * by its running sums. */
+/* Adds to each node the errors that its oil has accumulated over the last `cells` cells; node j
+   contributes local[j]. Oil from upstream of the stretch has only errors from inside it. Replaces
+   `local` by its running sums. */
 static void add_way(size_t n, double *restrict local, double cells, double *restrict error)
 {
     const size_t whole = (size_t)fmin(cells, (double)n);
@@ -71,7 +71,7 @@ static void add_way(size_t n, double *restrict local, double cells, double *rest
     }
 }
 
-/* Adds the errors that the cells make while the oil moves by so many of them. */
+/* Adds the errors due to the cells while the oil moves by that number of cells. */
 static void add_moved(ehl_carried *c, const double *mass, double cells, const stencil *s)
 {
     const size_t n = c->end - c->first;
@@ -84,10 +84,10 @@ static void add_moved(ehl_carried *c, const double *mass, double cells, const st
     add_way(n, c->room, cells, c->error + c->first);
 }
 
-/* Sets the nodes of the stretch; all errors in front of it are 0 then. */
+/* Sets the nodes of the stretch. All errors upstream of it are 0. */
 static void place(ehl_carried *c, const ehl_stretch *s, size_t nodes)
 {
-    enum { REACH = 3 }; /* of the stencil */
+    enum { REACH = 3 }; /* number of nodes of the stencil on either side */
     double first = fmax(ceil(s->begin), REACH), end = fmin(s->end, (double)nodes - REACH);
     size_t before = c->first;
     c->first = end > first ? (size_t)first : 0;
@@ -96,8 +96,8 @@ static void place(ehl_carried *c, const ehl_stretch *s, size_t nodes)
         memset(c->error + before, 0, (c->first - before) * sizeof *c->error);
 }
 
-/* The errors fill dips of few cells. They move with the oil by whole cells, so that they do not
- * spread. */
+/* The errors are large in dips that are a few cells wide. They move with the oil by whole cells, so
+   that they do not spread. */
 void ehl_carried_add(ehl_carried *c, const ehl_march *m, const ehl_stretch *s)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -123,7 +123,7 @@ double ehl_carried_to(const ehl_carried *c, size_t node)
     return c->end > 0 ? c->error[node < c->end ? node : c->end - 1] : 0;
 }
 
-/* Returns the least of h (1 - error). */
+/* Returns the smallest value of h (1 - error). */
 FF_SIMD
 static double least_without(size_t n, const double *restrict h, const double *restrict error)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Estimates the errors of p_max by the time steps, and those of extremes that lie between two
-   instants. */
+/* Estimates the errors of p_max due to the time steps, and the errors of extremes that lie between
+   two instants. */
 #include "time-error.h"
 
 #include "../contact/grid.h"
@@ -12,8 +12,8 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* Fills in (a^2 - s^2)^(1/2) d'(s) dx/(x - s) for n cells. e and h are those of the nodes, s is the
- * middle of the first cell. */
+/* Computes (a^2 - s^2)^(1/2) d'(s) dx/(x - s) for n cells. e and h are values at the nodes, s is
+   the middle of the first cell. */
 FF_SIMD
 static void fill_parts(size_t n, const double *restrict e, const double *restrict h, double a,
                        double s, double dx, double x, double *restrict part)
@@ -29,7 +29,8 @@ double ehl_pressure_of_error(const ehl_reynolds *eq, const double *error, double
                              double x)
 {
     enum { AT_ONCE = 64 };
-    const double inside = (a - eq->first) / eq->dx - 0.5; /* cells whose middle is in front of a */
+    /* number of cells whose middle is upstream of a */
+    const double inside = (a - eq->first) / eq->dx - 0.5;
     size_t i = (size_t)fmax(0, ceil((-a - eq->first) / eq->dx - 0.5)),
            end = (size_t)fmax(0, fmin((double)eq->nodes - 1, ceil(inside)));
     double sum = 0, part[AT_ONCE];
@@ -58,9 +59,9 @@ void ehl_results_peak_in_time(ehl_results *r, const ehl_march *m, size_t peak, d
     ehl_worse(&r->highest_in_time, p_max + off);
 }
 
-/* Returns how far a parabola exceeds both values in the middle, between t[1] and t[2]. Two
- * parabolas go through three of the four neighbours; the flatter one counts. At a peak both are
- * bent. If the value drops or turns at an instant, the flatter one is that of the smooth side. */
+/* Returns by how much a parabola exceeds both values between t[1] and t[2]. Two parabolas pass
+   through three of the four neighbours; the flatter one counts. At a smooth peak both are curved.
+   If the value drops or has a kink at an instant, the flatter one is that of the smooth side. */
 static double beyond_both(const double t[4], const double y[4])
 {
     double slope[3], within = t[2] - t[1];
@@ -72,7 +73,7 @@ static double beyond_both(const double t[4], const double y[4])
     return rise > 0 ? rise * rise / (2 * bend) : 0;
 }
 
-/* Whether a row is of the same engagement as the row before, and later. */
+/* Returns whether a row belongs to the same engagement as the previous row, and is later. */
 static int goes_on(const double *row)
 {
     const double *before = row - EHL_SERIES;

@@ -41,8 +41,8 @@ typedef struct relaxation {
     double *p_step, *v_step, *h_step;
     double missing;           /* missing load over dx */
     int whole;                /* 1: the last sweeps converged */
-    int sweeps, sweeps_fresh; /* of the last film, and with a new matrix */
-    unsigned char *made_full; /* number of sweeps of the last solution, and with a new matrix */
+    int sweeps, sweeps_fresh; /* number of sweeps of the last solution, and with a new matrix */
+    unsigned char *made_full; /* film boundary for which the matrix was made */
     int made, made_loaded;
     int flips;              /* consecutive alternations of the film boundary in this solution */
     size_t end, end_before; /* last full node after the last two steps */

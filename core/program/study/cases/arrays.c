@@ -23,8 +23,8 @@ bool study_is_array(const ff_result *result)
     return result->rank > 1 || (result->rank == 1 && result->count != 1);
 }
 
-/* Returns the largest end of this log that a journal names. The lines are searched and not
- * parsed: an invalid line can only raise the end, so that less is cut off. */
+/* Returns the largest end of this log that a journal states. The lines are searched, not parsed: an
+   invalid line can only raise the end, so that less is cut off. */
 static off_t find_end(int directory, const study_run *run, const char *name)
 {
     char journal[STUDY_NAME_SIZE], *line = NULL;
@@ -46,9 +46,9 @@ static off_t find_end(int directory, const study_run *run, const char *name)
     return end;
 }
 
-/* Opens a log that no other process writes to. The holder of the journal's lock numbers the logs
- * of its workers. Under an executor, processes do not know each other, and workers of an earlier
- * run may still be running elsewhere, so each process creates a new log. */
+/* Opens a log to which no other process writes. The process that holds the journal's lock numbers
+   the logs of its workers. Under an executor, processes do not know about each other, and workers
+   of an earlier run may still be running elsewhere. Each process then creates a new log. */
 static bool open_log_in(int directory, study_arrays *arrays, char why[ARRAYS_WHY])
 {
     const study_run *run = arrays->run;
@@ -103,7 +103,7 @@ static json_t *describe(const study_run *run, const ff_pipeline *pipeline, const
     return entry;
 }
 
-/* Appends an array and describes it; false with the reason in `why`. */
+/* Appends an array and describes it. Returns false with the reason in `why`. */
 static bool keep_one(study_arrays *arrays, const study_case *c, const ff_stage *stage,
                      size_t output, json_t *all, bool *open, char why[ARRAYS_WHY])
 {

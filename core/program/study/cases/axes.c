@@ -14,11 +14,11 @@ enum { MOST_CASES = 1000000 };
 typedef struct reading {
     study_definition *study;
     ff_report *report;
-    bool single;        /* a single value counts as a list of one */
-    bool sampled;       /* ranges without "points" are sampled, on axis 0 */
-    uint32_t dimension; /* the next free dimension of the sample */
+    bool single;        /* whether a single value counts as a list of one */
+    bool sampled;       /* whether ranges without "points" are sampled, on axis 0 */
+    uint32_t dimension; /* next free dimension of the sample */
     uint64_t seed;
-    ff_place place; /* of the path that is being read */
+    ff_place place; /* place of the path that is being read */
 } reading;
 
 static bool refuse(reading *r, ff_place place, const char *hint, const char *what, const char *name)
@@ -51,7 +51,7 @@ static const char *assignment_of(reading *r, const char *path, const ff_node *va
     return memory_arena_take(&r->study->arena, study_yaml_assignment(path, value));
 }
 
-/* A list, or a map whose keys name the values. */
+/* Adds a list, or a map whose keys name the values. */
 static void add_list(reading *r, const char *path, const ff_node *list, size_t axis)
 {
     study_varied *varied = add_varied(r, path, axis);
@@ -62,12 +62,12 @@ static void add_list(reading *r, const char *path, const ff_node *list, size_t a
         varied->names = (const char **)list->keys;
 }
 
-/* Names a file by its name without directories and ending, when no other file of the list has that
-   name; else by its whole path. */
+/* Returns a name for a file: without directories and extension if no other file of the list has
+   that name, otherwise its whole path. */
 static char *file_name(const ff_node *list, size_t at)
 {
     char *name = NULL;
-    for (size_t i = list->count + 1; i-- > 0;) { /* the file's own path comes first */
+    for (size_t i = list->count + 1; i-- > 0;) { /* the file's own path is compared first */
         const char *path = list->items[i < list->count ? i : at]->text;
         const char *slash = strrchr(path, '/'), *stem = slash ? slash + 1 : path;
         size_t length = strcspn(stem, ".");
@@ -81,8 +81,8 @@ static char *file_name(const ff_node *list, size_t at)
     return name;
 }
 
-/* Adds files to be included over the file of the study, one in each case; `path` is only a name
- * for the choice. */
+/* Adds files that are included after the file of the study, one in each case. `path` is only a name
+   for the choice. */
 static bool add_files(reading *r, const char *path, const ff_node *map)
 {
     const ff_node *list = map->items[0];
@@ -106,7 +106,7 @@ static bool add_files(reading *r, const char *path, const ff_node *map)
     return true;
 }
 
-/* Reads the direction of the chains along the next axis; "up" goes towards larger values. */
+/* Reads the direction of the chains along the next axis. "up" runs towards larger values. */
 static bool read_follow(reading *r, const ff_node *node, const char *path, bool falling)
 {
     study_definition *study = r->study;
@@ -129,7 +129,7 @@ static bool read_follow(reading *r, const ff_node *node, const char *path, bool 
     return true;
 }
 
-/* A span of values: the numbers of `from` and `to`, both in the unit of `from`. */
+/* A range of values: the numbers `from` and `to`, both in the unit of `from`. */
 typedef struct span {
     double from, to;
     const char *unit;
@@ -176,8 +176,8 @@ static bool read_span(reading *r, const ff_node *map, const char *path, span *s)
     return true;
 }
 
-/* Returns the assignment of the value at a share from 0 to 1 of the span. It has 12 digits,
- * which hides the rounding of the division. */
+/* Returns the assignment of the value at a fraction from 0 to 1 of the range. It has 12 digits,
+   which removes round-off of the division. */
 static const char *span_text(reading *r, const char *path, const span *s, double share)
 {
     double value =
@@ -238,7 +238,7 @@ static bool read_range(reading *r, const ff_node *map, const char *path)
         return refuse(r, follow->place, NULL, "a range that is drawn from cannot be followed",
                       path);
     if (points && too_many(r, points->place, cases_of(r->study) * (double)count))
-        return false; /* too many, refused before memory is allocated for them */
+        return false; /* refused before memory for so many cases is allocated */
     if (follow && !read_follow(r, follow, path, s.to < s.from))
         return false;
     size_t axis = drawn ? 0 : add_axis(r, (size_t)count);
@@ -251,7 +251,7 @@ static bool read_range(reading *r, const ff_node *map, const char *path)
     return true;
 }
 
-/* Whether all values of the map are maps, so that its keys name them. */
+/* Returns whether all values of the map are maps, so that its keys are names. */
 static bool is_named(const ff_node *map)
 {
     size_t maps = 0;
@@ -332,7 +332,7 @@ static bool read_sample(reading *r, const ff_node *map)
     return true;
 }
 
-enum { LEAST_MEMORY = 16 /* MiB, needed for what a worker keeps between cases */ };
+enum { LEAST_MEMORY = 16 /* MiB, needed for what a worker stores between cases */ };
 
 bool study_read_limits(study_definition *study, const ff_node *node, ff_report *report)
 {
@@ -427,7 +427,7 @@ study_definition *study_read(const ff_node *node, ff_report *report)
     reading r = {.study = study, .report = report};
     if (study_read_limits(study, node, report) && read_all(&r, node))
         return study;
-    if (study->rows) /* messages quote the table, so it stays */
+    if (study->rows) /* the table is kept, since messages quote it */
         return study;
     study_definition_free(study);
     return NULL;

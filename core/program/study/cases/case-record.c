@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Writes the text as one word for a shell. */
+/* Writes the text so that a shell reads it as one word. */
 static void put_quoted(FILE *out, const char *text)
 {
     fputc('\'', out);
@@ -21,7 +21,7 @@ static void put_quoted(FILE *out, const char *text)
     fputc('\'', out);
 }
 
-/* Returns the command that runs the case again, alone unless it starts from its neighbour. */
+/* Returns the command that runs the case again: alone, unless it starts from its neighbour. */
 static json_t *command_of(const study_run *run, size_t index)
 {
     const study_definition *study = run->study;
@@ -110,8 +110,8 @@ static const char *status_of(const study_definition *study, const ff_report *rep
                                     : "plugin fault";
 }
 
-/* Adds the warnings about the case's own values and models, if there are any. Warnings of unused
- * settings are left out, since they hold for the whole study. */
+/* Adds the warnings about the case's own values and models, if there are any. Warnings about unused
+   settings are left out, since they apply to the whole study. */
 static void add_warnings(json_t *record, const ff_report *report, json_t *logged)
 {
     json_t *warnings = json_array();
@@ -126,9 +126,8 @@ static void add_warnings(json_t *record, const ff_report *report, json_t *logged
     json_decref(warnings);
 }
 
-/* Adds {stage: {name: [value, limit, verdict, text, reason for accepting it, true if it is about
- * a model's range]}} without absent members, and the outputs of which only a lower bound is
- * known. */
+/* Adds {stage: {name: [value, limit, verdict, text, reason for accepting it, true if it is about a
+   model's range]}} without absent members, and the outputs of which only a lower bound is known. */
 static void add_quality(json_t *record, const ff_pipeline *pipeline)
 {
     json_t *all = json_object();
@@ -160,7 +159,7 @@ json_t *study_json_seconds(double seconds)
     return json_real(round(seconds * 1e6) / 1e6);
 }
 
-/* Adds the requested scalars, and for each stage its time, or that it was reused. */
+/* Adds the requested scalars, and for each stage its time, or that its result was reused. */
 static void add_results(json_t *record, const ff_pipeline *pipeline)
 {
     json_t *outputs = json_object(), *seconds = json_object(), *reused = json_object();
@@ -214,7 +213,7 @@ static void add_limits(json_t *record, const study_case *c, const accuracy_recor
     limits_free(&verdict);
 }
 
-/* Adds the results to the record, and keeps arrays. False after an error. */
+/* Adds the results to the record, and stores arrays. Returns false after an error. */
 static bool keep_results(study_case *c, const study_run *run, size_t index, json_t *record,
                          study_memory *memory)
 {

@@ -18,7 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Adds everything that the file has under a key. */
+/* Adds the contents of the file under a key to the hash. */
 static uint64_t hash_node(uint64_t hash, const ff_node *node)
 {
     hash = study_hash_text(hash, node->text ? node->text : "");
@@ -30,8 +30,8 @@ static uint64_t hash_node(uint64_t hash, const ff_node *node)
     return hash;
 }
 
-/* Adds what the case is judged by: limits by their meaning, reasons for accepting a doubt by
- * their text. */
+/* Adds the criteria by which the case is judged to the hash: the meaning of limits, and the text of
+   reasons for accepting a doubt. */
 static uint64_t hash_judging(uint64_t hash, const ff_run *run)
 {
     const ff_node *accept = ff_node_get(ff_run_root(run), "accept");
@@ -43,8 +43,8 @@ static uint64_t hash_judging(uint64_t hash, const ff_run *run)
     return accept ? hash_node(study_hash_text(hash, "accept"), accept) : hash;
 }
 
-/* Hashes the assignments of a case that cannot be built, which has no resolved parameters for a
- * key. */
+/* Hashes the assignments of a case that cannot be built. It has no resolved parameters from which a
+   key could be made. */
 static uint64_t hash_assignments(const study_definition *study, size_t index)
 {
     uint64_t hash = study_hash_text(STUDY_HASH_START,
@@ -69,8 +69,8 @@ void study_kept_free(study_kept *kept)
     *kept = (study_kept){.keys = kept->keys};
 }
 
-/* Whether both paths lead to the same place, or one lies below the other, so that their order
- * matters. */
+/* Returns whether two paths lead to the same place, or one is below the other, so that their order
+   matters. */
 static bool paths_meet(const char *one, const char *other)
 {
     static const char top[] = "pipeline.";
@@ -80,7 +80,8 @@ static bool paths_meet(const char *one, const char *other)
     return !strncmp(one, other, shorter) && (a == b || (a < b ? other : one)[shorter] == '.');
 }
 
-/* Lists the values in which two cases differ; false if they differ in more than values. */
+/* Lists the values in which two cases differ. Returns false if they also differ in anything
+   else. */
 static bool list_changes(const study_definition *study, size_t from, size_t to, const char **list,
                          size_t *count)
 {
@@ -101,8 +102,8 @@ static bool list_changes(const study_definition *study, size_t from, size_t to, 
     return true;
 }
 
-/* Reuses the run of the previous case with other values; false if there is none or it cannot be
- * reused. */
+/* Reuses the run of the previous case with other values. Returns false if there is none or it
+   cannot be reused. */
 static bool take_kept(study_case *c, const study_run *run, size_t index, study_kept *kept)
 {
     enum { MOST_CHANGES = 200 };
@@ -161,8 +162,8 @@ void study_case_open(study_case *c, const study_run *run, size_t index, study_ke
 
 void study_case_close(study_case *c)
 {
-    /* A pipeline with messages is not kept: messages of an unchanged stage would not be
-     * repeated. */
+    /* A pipeline with messages is not reused, since messages of an unchanged stage would not be
+       repeated. */
     if (c->kept && c->pipeline && ff_report_count(c->report) == 0) {
         c->kept->run = c->run;
         c->kept->index = c->index;
@@ -181,7 +182,7 @@ static void note_warning(void *ctx, const ff_stage *stage, int32_t level, const 
         json_array_append_new(reuse->warnings, json_sprintf("%s: %s", stage->name, text));
 }
 
-/* Runs the case, and sets its pipeline to the one that gave the answer. */
+/* Runs the case, and sets its pipeline to the one that gave the result. */
 static void compute(study_case *c, const study_run *run, study_reuse *reuse,
                     accuracy_record *errors)
 {
@@ -212,7 +213,7 @@ json_t *study_case_run(study_case *c, const study_run *run, size_t index, study_
     accuracy_record errors = {.count = 0};
     ff_pipeline *asked = c->pipeline;
     double start = study_seconds_now();
-    /* before running, which may drop outputs that a model refuses */
+    /* determined before the run, which may drop outputs that a model refuses */
     json_t *parameters = study_case_parameters(c, memory->seen);
     if (study_case_is_good(c))
         compute(c, run, &reuse, &errors);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * A chain holds the cases that differ along the followed axis alone. Each starts from the final
- * states of its neighbour's stages, which the journal keeps in the neighbour's record.
+ * A chain consists of the cases that differ only along the followed axis. Each case starts from the
+ * final states of its neighbour's stages, which are in the neighbour's record in the journal.
  */
 #include "chain.h"
 
@@ -71,8 +71,8 @@ static int digit_of(char c)
     return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
 }
 
-/* Reads a state from two hexadecimal digits for each byte. Another text, which this program
- * never writes, gives an empty state. */
+/* Reads a state from two hexadecimal digits for each byte. Any other text gives an empty state;
+   this program never writes one. */
 static void read_state(ff_stage *stage, const char *text)
 {
     size_t size = strlen(text) / 2;

@@ -18,7 +18,7 @@ static bool is_blank(char c)
     return c == ' ' || c == '\t' || c == '\r';
 }
 
-/* Reads the whole file. Returns NULL, or why it cannot be read. */
+/* Reads the whole file. Returns NULL, or the reason why it cannot be read. */
 static const char *read_file(int fd, ff_source *source)
 {
     struct stat info;

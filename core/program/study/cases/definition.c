@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Answers questions about the cases of a study that has been read. */
+/* Functions that look up the cases of a study after it has been read. */
 #include "rows.h"
 #include "spectrum.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* Lists the possible keys, as far as they fit. */
+/* Lists the possible keys, as many as fit. */
 static void list_keys(char *text, size_t size, const char *const *known)
 {
     size_t length = (size_t)snprintf(text, size, "it takes ");

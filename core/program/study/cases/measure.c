@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Records the work of the stages in which measured cases differ, and keeps the series against
- * which requested series are plotted. */
+/* Records the work of the stages in which measured cases differ, and stores the series over which
+   requested series are plotted. */
 #include "case.h"
 
 #include "../../accuracy/axis.h"
@@ -29,15 +29,16 @@ void study_measure_pin(void)
     sched_setaffinity(0, sizeof set, &set); /* if it fails, the measured costs only scatter more */
 }
 
-/* Returns the result "stage.name" if the stage runs; NULL if there is none, or it is a service. */
+/* Returns the result "stage.name" if the stage runs, or NULL if there is none or it is a
+   service. */
 static ff_result *find_result(const ff_pipeline *pipeline, const char *path, const ff_stage **stage)
 {
     ff_result *result = run_output(pipeline, path, stage);
     return result && (*stage)->needed && !result->row->service ? result : NULL;
 }
 
-/* Whether the output `of` may be plotted against the row: against the series that the file
- * names, if it names one. */
+/* Returns whether the output `of` may be plotted over the row: over the series that the file names,
+   if it names one. */
 static bool may_be_axis(const study_measure *m, const ff_port *row, const ff_port *of)
 {
     bool along = row != of && of->dims && !strpbrk(of->dims, " ");
@@ -86,8 +87,8 @@ static ff_result *find_axis(const study_measure *m, const ff_stage *stage, const
     return axis && may_be_axis(m, axis->row, self->row) ? (ff_result *)(size_t)axis : NULL;
 }
 
-/* Adds {output: name of the series of its stage against which it is plotted}, and keeps that
- * series. */
+/* Adds {output: name of the series of its stage over which it is plotted}, and stores that
+   series. */
 static void add_axis(const study_measure *m, const ff_pipeline *pipeline, const char *path,
                      json_t *all)
 {

@@ -14,7 +14,8 @@
 enum { MOST_ROWS = 1000000, LONGEST_ROW = 1 << 20, MOST_ERRORS = 20, BLOCK = 1 << 16 };
 
 typedef struct column {
-    size_t varied; /* SIZE_MAX: a column of the user's own, or the duration of the row */
+    size_t varied; /* index of the path; SIZE_MAX: a column of the user's own, or the duration of
+                      the row */
     bool time;
     char *unit; /* the unit for numbers without one, or "" */
 } column;
@@ -25,9 +26,9 @@ struct study_rows {
     column *columns;
     size_t column_count;
     size_t room;
-    /* these members are for standard input alone */
+    /* these members are used only for standard input */
     bool streams, ended, cut;
-    char **texts; /* of the rows, for other processes */
+    char **texts; /* texts of the rows, for other processes */
     char *buffer;
     size_t length, taken;
 };
@@ -114,7 +115,7 @@ static bool read_heads(study_rows *rows, ff_report *report)
             refuse(rows, NULL, report, NULL, "no column names a path of the pipeline"));
 }
 
-/* Makes room for a row with that number. */
+/* Makes room for the row with that number. */
 static void make_room(study_rows *rows, size_t index)
 {
     study_definition *study = rows->study;
@@ -161,7 +162,7 @@ static const char *assignment_of(const study_rows *rows, const column *c, const 
     return memory_arena_take(&rows->study->arena, text);
 }
 
-/* Takes the duration of the row; *empty: it lasts no time, so it is no case. */
+/* Reads the duration of the row. *empty: it is 0, so the row is not a case. */
 static bool take_time(const study_rows *rows, bool *empty, ff_report *report)
 {
     const study_csv *l = &rows->table;
@@ -199,7 +200,8 @@ static bool check_row(const study_rows *rows, ff_report *report)
                     why);
 }
 
-/* Takes the assignments of the line into the row with that number; none if the line is no case. */
+/* Stores the assignments of the line as the row with that number, or no assignments if the line is
+   not a case. */
 static void take_row(study_rows *rows, size_t index)
 {
     const study_csv *l = &rows->table;
@@ -289,8 +291,8 @@ static bool read_table(study_definition *study, const ff_node *node, ff_report *
     return good;
 }
 
-/* Whether the node stands for "-": without quotes behind `--set study.cases=`, YAML takes it for
- * a list with an empty item. */
+/* Returns whether the node is "-". In `--set study.cases=-` without quotes, YAML reads it as a list
+   with an empty item. */
 static bool is_dash(const ff_node *node)
 {
     const ff_node *only = node->kind == FF_SEQUENCE && node->count == 1 ? node->items[0] : NULL;
@@ -315,7 +317,7 @@ bool study_rows_read(study_definition *study, const ff_node *node, ff_report *re
     return true;
 }
 
-/* Takes the next line out of the buffer; NULL if it is not complete yet. */
+/* Takes the next line from the buffer. Returns NULL if it is not complete yet. */
 static char *take_line(study_rows *rows)
 {
     const char *from = rows->buffer ? rows->buffer + rows->taken : "";
@@ -326,7 +328,7 @@ static char *take_line(study_rows *rows)
     size_t length = end ? (size_t)(end - from) : left;
     char *text = memory_copy_text(from, length);
     for (size_t i = 0; i < length; i++)
-        /* a zero byte becomes another one that no value may contain */
+        /* a zero byte is replaced by a byte that no value may contain */
         text[i] = text[i] ? text[i] : '\1';
     rows->taken += length + (end != NULL);
     rows->table.line++;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Records the settings that the program chose for the accuracy. */
+/* Records the settings that the program chose to reach the requested accuracy. */
 #include "study.h"
 
 #include "../../memory/memory.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Describes each stage with its model once in the journal, so that a later run can say what has
+/* Describes each stage with its model once in the journal. A later run can then report what has
    changed. */
 #include "case.h"
 
@@ -45,7 +45,7 @@ static json_t *describe_setup(const ff_stage *stage)
     return values;
 }
 
-/* Notes each stage with its model; false if `seen` has all of them. */
+/* Adds each stage with its model to `seen`. Returns false if all are already there. */
 static bool is_new(const study_case *c, json_t *seen)
 {
     bool any = false;
@@ -75,7 +75,7 @@ json_t *study_case_parameters(const study_case *c, json_t *seen)
     return parameters;
 }
 
-/* Whether the study varies the parameter of the stage. */
+/* Returns whether the study varies the parameter of the stage. */
 static bool is_varied(const study_definition *study, const char *stage, const char *name)
 {
     char path[400], whole[420];
@@ -87,7 +87,7 @@ static bool is_varied(const study_definition *study, const char *stage, const ch
     return found;
 }
 
-/* Writes a line for each value that differs and that the study does not vary. */
+/* Writes a line for each value that differs, except those that the study varies. */
 static void write_changes(FILE *out, const study_definition *study, const char *stage,
                           const json_t *before, const json_t *now)
 {
@@ -108,8 +108,8 @@ static void write_changes(FILE *out, const study_definition *study, const char *
     }
 }
 
-/* Returns the description of the stage with its model, or with its last model if this one was
- * not described. */
+/* Returns the description of the stage with its model, or with its last model if this one was not
+   described. */
 static const json_t *find_described(const json_t *described, const ff_stage *stage)
 {
     const char *name;
@@ -149,7 +149,7 @@ void study_setup_compare(const study_case *c, const study_definition *study,
               out);
 }
 
-/* Returns {model: {build of its plugin: true}} for everything that the records describe. */
+/* Returns {model: {build of its plugin: true}} for everything described in the records. */
 static json_t *builds_of(const study_records *records)
 {
     json_t *builds = json_object(), *stages, *values;

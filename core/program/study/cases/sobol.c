@@ -4,7 +4,7 @@
 
 enum { BITS = 32, LONGEST = 6 };
 
-/* A primitive polynomial of `degree` with inner coefficients `inner`, and the first m_k. */
+/* A primitive polynomial with its degree, its inner coefficients as bits, and the first m_k. */
 static const struct {
     uint8_t degree, inner, m[LONGEST];
 } polynomials[STUDY_SOBOL_DIMENSIONS - 1] = {
@@ -57,7 +57,7 @@ double study_sobol(uint32_t index, uint32_t dimension, uint64_t seed)
     for (uint32_t k = 0; k < BITS; k++)
         if (gray >> k & 1)
             x ^= v[k];
-    if (seed) /* a digital shift, which keeps the points evenly spread */
+    if (seed) /* a digital shift, which keeps the points evenly distributed */
         x ^= (uint32_t)(scramble(scramble(seed) + dimension) >> 32);
     return (double)x / 4294967296.0;
 }

@@ -18,12 +18,13 @@ const char study_time_name[] = "time";
 
 enum { MOST_VALUES = 1000 }; /* beyond this many rows, only the sums are listed */
 
-/* Shares that miss 100 % by more than this lack a class, even if they are given with few digits. */
+/* If the shares differ from 100 % by more than this, a load class is missing, even if they are
+   given with few digits. */
 static const double most_rounding = 1e-2;
 
 static const char expected[] = "expected a share such as 12 %, or a time such as 300 h, 0 or above";
 
-/* Half a unit of the last digit of a share. */
+/* Returns half a unit of the last digit of a share. */
 static double rounding_of(const char *text, double share)
 {
     const char *end, *point = strpbrk(text, ".eE");
@@ -37,7 +38,7 @@ static double rounding_of(const char *text, double share)
     return 0.5 * pow(10, exponent - digits) * share / number;
 }
 
-/* Reads a quantity in a unit; false if it has another dimension. */
+/* Reads a quantity in a unit. Returns false if it has another dimension. */
 static bool read_in(const char *text, const char *unit, double *value, char *why, size_t size)
 {
     ff_unit row;
@@ -115,7 +116,7 @@ bool study_spectrum_finish(study_definition *study, const ff_node *cases, const 
     return !below || read_below(study, below, report);
 }
 
-/* Returns the unit of a requested output; NULL if it is not requested. */
+/* Returns the unit of a requested output, or NULL if it is not requested. */
 static const char *find_unit(const ff_pipeline *pipeline, const char *path)
 {
     const ff_stage *stage;
@@ -165,7 +166,7 @@ static void add_value(sum *of, double value, double time, size_t row)
     }
 }
 
-/* The numbers of all rows, with one slot for each output. */
+/* The numbers of all rows, with one entry for each output. */
 typedef struct reading {
     const study_definition *study;
     json_t *names; /* {output: [index, unit]} */

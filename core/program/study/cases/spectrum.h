@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A load spectrum: each row of a study lasts for a time, over which results are summed. The
- * column "time" of a table, or that key of a listed row, holds shares such as 12 %, which sum to
- * 100 % within rounding, or times such as 300 h. A row that lasts no time is left out. */
+/* A load spectrum: each row of a study has a duration, over which results are summed. The column
+   "time" of a table, or that key of a listed row, contains shares such as 12 %, which must sum to
+   100 % within rounding, or times such as 300 h. A row with the duration 0 is ignored. */
 #ifndef STUDY_SPECTRUM_H
 #define STUDY_SPECTRUM_H
 
@@ -11,29 +11,29 @@
 
 extern const char study_time_name[]; /* "time" */
 
-/* An entry of `below`: asks for how long a scalar is below the limit. */
+/* An entry of `below`: the time during which a scalar is below the limit is requested. */
 typedef struct study_limit {
     const char *output, *text;
-    ff_place place, at; /* of the name and of the limit */
+    ff_place place, at; /* place of the name and of the limit */
 } study_limit;
 
 struct study_spectrum {
-    double *times; /* of each row: shares of 1, or s */
-    size_t empty;  /* number of rows that last no time */
+    double *times; /* duration of each row: share (1), or s */
+    size_t empty;  /* number of rows with the duration 0 */
     double rounding,
-        stated; /* of the shares: the rounding that their digits allow, and their sum as given */
+        stated; /* for shares: the rounding error that their digits allow, and their sum as given */
     size_t count, room;
     bool shares;
     study_limit *below;
     size_t below_count;
 };
 
-/* Takes the duration of the next row. A duration of 0 sets *empty. False after an error at the
-   place of the text. */
+/* Adds the duration of the next row. A duration of 0 sets *empty. Returns false after an error at
+   the place of the text. */
 bool study_spectrum_add(study_definition *study, const char *text, ff_place place, bool *empty,
                         ff_report *report);
-/* Reads `below`. Once all rows are read, checks that the shares sum to 1 within rounding, and
- * scales them to 1. */
+/* Reads `below`. After all rows are read, checks that the shares sum to 1 within rounding, and
+   scales them to 1. */
 bool study_spectrum_finish(study_definition *study, const ff_node *cases, const ff_node *below,
                            ff_report *report);
 /* Checks that the pipeline gives the outputs of `below` in their units. */

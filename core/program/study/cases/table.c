@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Writes table.csv: a row for each case with the varied values and the scalar results. */
+/* Writes table.csv: one row per case, with the varied values and the scalar results. */
 #include "table.h"
 
 #include "csv.h"
@@ -14,8 +14,8 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-/* Returns the unit behind a number, and sets the length of the number; NULL if there is no
- * number. */
+/* Returns the unit after a number, and sets the length of the number. Returns NULL if there is no
+   number. */
 static const char *unit_of(const char *value, size_t *digits)
 {
     double number;
@@ -26,8 +26,8 @@ static const char *unit_of(const char *value, size_t *digits)
     return end + strspn(end, " ");
 }
 
-/* Returns the unit that all values share; NULL if their units differ or one of them is not a
- * number. */
+/* Returns the unit common to all values, or NULL if their units differ or one of them is not a
+   number. */
 static const char *common_unit(const study_definition *study, const study_varied *varied)
 {
     size_t digits;
@@ -41,7 +41,7 @@ static const char *common_unit(const study_definition *study, const study_varied
     return unit;
 }
 
-/* Writes a further cell; NULL leaves it empty. */
+/* Writes the next cell; NULL leaves it empty. */
 static void put_text(FILE *out, const char *text)
 {
     fputc(',', out);
@@ -57,10 +57,11 @@ static void put_name(FILE *out, const char *name, const char *unit)
     free(head);
 }
 
-/* What at least one case has, which decides the columns of the table. */
+/* What at least one case contains. It decides which columns the table has. */
 typedef struct table_has {
-    json_t *columns;    /* {name: unit} of the outputs, in the order in which cases bring them */
-    bool limits, range; /* some case is judged by limits; uses a model outside of its range */
+    json_t *columns;    /* {name: unit} of the outputs, in the order in which they first appear */
+    bool limits, range; /* whether some case is judged by limits; whether some case uses a model
+                           outside its range */
     json_t *lines;      /* {"STAGE.LINE": true} for the quality lines */
 } table_has;
 
@@ -80,14 +81,14 @@ static void put_head(FILE *out, const study_definition *study, const char *const
             found->range ? ",range" : "");
 }
 
-/* Writes a further cell and frees the text. */
+/* Writes the next cell and frees the text. */
 static void put_made(FILE *out, char *text)
 {
     put_text(out, text);
     free(text);
 }
 
-/* Writes two or three cells, empty for a case that has not run. */
+/* Writes two or three cells; they are empty for a case that has not run. */
 static void put_judgement(FILE *out, const study_judgement *judgement, bool range)
 {
     fprintf(out, ",%s", judgement ? study_verdict_name(judgement->verdict) : "");
@@ -172,7 +173,7 @@ static table_has find_columns(const study_definition *study, study_records *reco
     return found;
 }
 
-/* Writes the head and a row for each case, and counts the verdicts. Returns what the cases have. */
+/* Writes the head and one row per case, and counts the verdicts. Returns what the cases contain. */
 static table_has put_table(FILE *out, const study_definition *study, study_records *records,
                            char (*keys)[STUDY_KEY_SIZE], study_tally *tally)
 {
@@ -227,7 +228,7 @@ bool study_table_write(const study_run *run, char (*keys)[STUDY_KEY_SIZE], study
     char *marker = memory_print_text("%s/%s", run->directory, study_marker);
     int lock = open(marker, O_RDONLY | O_CLOEXEC);
     if (lock >= 0)
-        /* If several shards end together, the last one writes the table with all cases. */
+        /* If several shards end at the same time, the last one writes the table with all cases. */
         flock(lock, LOCK_EX);
     study_records *own = records ? NULL : study_records_open(run->directory, false);
     study_tally tally = {.cases = NULL};

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Writes the files of a study that are made from its records. */
+/* Writes the files of a study that are derived from its records. */
 #ifndef STUDY_TABLE_H
 #define STUDY_TABLE_H
 
 #include "study.h"
 
-/* Writes the description of the study beside its journal; `tally` as in study_run.describe. */
+/* Writes the description of the study next to its journal. `tally` as in study_run.describe. */
 bool study_describe(const study_run *run, const study_tally *tally, ff_report *report);
 
-/* Writes table.csv, and the description with the verdicts; needs the keys of all cases.
- * `records`: the contents of the journals; NULL: they are read once no other shard is writing
- * the table. */
+/* Writes table.csv, and the description with the verdicts. It needs the keys of all cases.
+   `records`: the contents of the journals; NULL: they are read when no other shard is writing the
+   table. */
 bool study_table_write(const study_run *run, char (*keys)[STUDY_KEY_SIZE], study_records *records,
                        ff_report *report);
 

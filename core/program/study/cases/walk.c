@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Builds the cases of a study one after the other. */
+/* Builds the cases of a study one after another. */
 #include "walk.h"
 
 #include "chain.h"
@@ -31,7 +31,7 @@ static void begin_chain(study_walk *walk, size_t chain)
     walk->states = json_object();
 }
 
-/* Makes the open case part of its chain; its key then depends on all cases before it. */
+/* Makes the open case part of its chain. Its key then depends on all cases before it. */
 static void enter_chain(study_walk *walk)
 {
     study_case *c = &walk->c;
@@ -56,7 +56,8 @@ static void open_case(study_walk *walk, study_kept *kept)
     walk->open = true;
 }
 
-/* Moves on from a case. A failed case hands on the states that it started from. */
+/* Leaves a case and passes its final states on. A failed case passes on the states from which it
+   started. */
 static void pass(study_walk *walk, const char *key, const json_t *record)
 {
     json_t *states = json_object_get(record, "state");
@@ -77,7 +78,7 @@ void study_walk_leave(study_walk *walk, const json_t *record)
     walk->open = false;
 }
 
-/* Leaves the open case, if there is one, and passes on its record from an earlier run. */
+/* Leaves the open case, if there is one, and passes on its states from an earlier run. */
 static void leave_known(study_walk *walk)
 {
     if (!walk->open)

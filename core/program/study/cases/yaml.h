@@ -7,11 +7,11 @@
 
 #include <stdio.h>
 
-/* The first writes the node on one line that reads as the same node; the second writes a key or
- * a text. */
+/* The first writes the node on one line, which reads as the same node. The second writes a key or a
+   text. */
 void study_yaml_print(const ff_node *node, FILE *out);
 void study_yaml_print_text(const char *text, bool quoted, FILE *out);
-/* Returns "path=node", as --set takes it, to be freed. */
+/* Returns "path=node", as in --set, to be freed. */
 char *study_yaml_assignment(const char *path, const ff_node *value);
 
 #endif

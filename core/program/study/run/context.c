@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Functions with which drivers read their keys and print. */
+/* Functions with which drivers read their keys and print lines. */
 #include "context.h"
 
 #include <stdarg.h>

@@ -25,7 +25,7 @@ static bool has_input(int fd, int milliseconds)
     return poll(&polled, 1, milliseconds) > 0;
 }
 
-/* Opens the pool at the first chain, when the leading process has made the directory. */
+/* Opens the pool at the first chain, after the leading process has made the directory. */
 static void open_pool(study_pool *pool, const study_run *run, int from, int to)
 {
     study_pool_open(pool, run, study_records_open(run->directory, true));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Finds the finished cases of a large study, in a process of its own. */
+/* Finds the finished cases of a large study in a separate process. */
 #include "known.h"
 
 #include "workers.h"
@@ -17,8 +17,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* Separates this process, so that nothing that a plugin prints or changes in it has an effect
- * outside. */
+/* Separates this process, so that output and changes by a plugin have no effect outside. */
 static void set_apart(void)
 {
     int null = open("/dev/null", O_RDWR);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Finds the cases of a large study that an earlier run has finished. Building a case calls its
- * plugins, so this is done in a process of its own. If a case crashes it, later cases are not
- * found here; a worker recognises them. */
+   plugins, so this is done in a separate process. If a case crashes that process, later cases are
+   not found here; a worker then finds them. */
 #ifndef STUDY_KNOWN_H
 #define STUDY_KNOWN_H
 
@@ -20,10 +20,10 @@ typedef struct study_search {
     FILE *from;
 } study_search;
 
-/* Continues the walk in a process of its own, which closes the two descriptors that plugins must
- * not reach. False: the process could not be started. */
+/* Continues the iteration in a separate process, which closes the two descriptors that plugins must
+   not reach. Returns false if the process could not be started. */
 bool study_search_start(study_search *search, study_walk *walk, const int hidden[2]);
-/* Reads the next finished case; false after the last one. */
+/* Reads the next finished case. Returns false after the last one. */
 bool study_search_next(study_search *search, study_known *known);
 void study_search_end(study_search *search);
 

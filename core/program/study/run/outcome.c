@@ -30,7 +30,7 @@ static const double *read_array(study_context *context, arrays_reader *reader, c
     return values;
 }
 
-/* Reads a scalar, or an array with the series against which it is plotted. */
+/* Reads a scalar, or an array with the series over which it is plotted. */
 static study_output read_output(study_context *context, arrays_reader *reader, const json_t *record,
                                 const char *name)
 {
@@ -90,7 +90,7 @@ static void read_quality(study_context *context, const json_t *record, study_out
 }
 
 /* Sums the processor time of the stages in which cases differ, and the wall time of the shared
- * stages, also if an earlier case has computed these. */
+   stages, including those that an earlier case has computed. */
 static void read_costs(const json_t *record, study_outcome *outcome)
 {
     json_t *work = json_object_get(json_object_get(record, "measured"), "work"), *value;

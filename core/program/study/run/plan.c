@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Finds what a run would do, and how much earlier runs have saved. */
+/* Determines what a run would do, and how much earlier runs have saved. */
 #include "run.h"
 
 #include "../cases/chain.h"
@@ -14,16 +14,16 @@
 /* A case of an earlier run, found by its assignments. */
 typedef struct earlier_case {
     uint64_t set;  /* hash of the assignments */
-    uint64_t rank; /* rank of its record */
+    uint64_t rank; /* position of its record */
     char key[STUDY_KEY_SIZE];
 } earlier_case;
 
-/* Counts, case by case, what is done. */
+/* Counts, case by case, what is already done. */
 typedef struct survey {
     const study_run *run;
     study_plan *plan;
     study_records *records;
-    earlier_case *earlier; /* sorted; made once a case is found whose key has changed */
+    earlier_case *earlier; /* sorted; made when the first case with a changed key is found */
     size_t earlier_count;
 } survey;
 
@@ -59,7 +59,8 @@ static void index_earlier(survey *s)
     qsort(s->earlier, s->earlier_count, sizeof *s->earlier, by_set);
 }
 
-/* Returns the last record with the assignments of the case, to be released; NULL: there is none. */
+/* Returns the last record with the assignments of the case, to be released, or NULL if there is
+   none. */
 static json_t *find_earlier(survey *s, size_t index)
 {
     json_t *set = study_case_set(s->run->study, index);
@@ -88,8 +89,8 @@ static void count_seconds(survey *s, const json_t *record)
     s->plan->timed += seconds != NULL;
 }
 
-/* Counts a case that was done with the same assignments but now has another key. For the first
- * such case, prints what has changed. */
+/* Counts a case that was done with the same assignments but now has another key. For the first such
+   case, prints what has changed. */
 static void explain_change(survey *s, const study_case *c)
 {
     json_t *record = find_earlier(s, c->index);
@@ -105,7 +106,7 @@ static void explain_change(survey *s, const study_case *c)
         }
         size_t length = strnlen(s->plan->changed, sizeof s->plan->changed - 1);
         while (length > 0 && s->plan->changed[length - 1] != '\n')
-            length--; /* drops an incomplete last line */
+            length--; /* removes an incomplete last line */
         s->plan->changed[length] = '\0';
     }
     json_decref(record);
@@ -113,7 +114,10 @@ static void explain_change(survey *s, const study_case *c)
 
 static void count_case(survey *s, study_walk *walk)
 {
-    enum { TIMED = 10000 }; /* records that are read to estimate the duration of a case */
+    enum {
+        TIMED = 10000
+    }; /* largest number of records that are read to estimate the duration
+          of a case */
     study_plan *plan = s->plan;
     if (study_records_state(s->records, walk->c.key) == STUDY_UNKNOWN)
         study_walk_make(walk);

@@ -31,7 +31,8 @@ void study_pool_close(study_pool *pool)
         if (worker->pid) {
             close(worker->to);
             worker->to = -1;
-            kill(worker->pid, SIGCONT); /* a worker that a plugin has stopped would never end */
+            kill(worker->pid, SIGCONT); /* otherwise a worker that a plugin has stopped would
+                                           never end */
             free(study_worker_reap(worker));
         }
         free(worker->line);
@@ -54,7 +55,7 @@ void study_pool_kill(const study_pool *pool)
             study_worker_kill(&pool->workers[i]);
 }
 
-/* Gives the worker the next case of its chain. */
+/* Sends the next case of its chain to the worker. */
 static void send_next_case(study_pool *pool, study_worker *worker)
 {
     const study_definition *study = pool->run->study;
@@ -106,7 +107,7 @@ static bool sync_logs(study_pool *pool)
     return true;
 }
 
-/* Ensures that the worker's answer is held until its arrays are on the disk. */
+/* Holds the worker's answer back until its arrays are on the disk. */
 static void settle_arrays(study_pool *pool, const study_worker *worker)
 {
     if (!study_worker_is_ahead(worker))
@@ -122,8 +123,8 @@ static void settle_arrays(study_pool *pool, const study_worker *worker)
     pool->answer = NULL;
 }
 
-/* Returns for how many s answers may still be held: long enough that syncs take at most a tenth
- * of the time, but at most a moment, and not if there is nothing else to do. */
+/* Returns for how many s answers may still be held back: long enough that syncs take at most a
+   tenth of the time, but only a short time, and not at all if there is nothing else to do. */
 static double time_to_hold(const study_pool *pool)
 {
     const double longest = 0.2;
@@ -134,7 +135,8 @@ static double time_to_hold(const study_pool *pool)
     return idle || pool->ending ? 0 : end - study_seconds_now();
 }
 
-/* Hands out the next held answer. After a write error, all held answers carry the error. */
+/* Releases the next answer that was held back. After a write error, all these answers carry the
+   error. */
 static bool release_answer(study_pool *pool)
 {
     if (pool->held_count == 0 || (pool->released == 0 && time_to_hold(pool) > 0))
@@ -167,7 +169,7 @@ static int finish_case(study_pool *pool, study_worker *worker, char verdict, con
     return pool->answer ? FF_TASK_ANSWER : FF_TASK_NONE;
 }
 
-/* Keeps the record of a line, since another worker may have to continue the chain. */
+/* Stores the record of a line, since another worker may have to continue the chain. */
 static void keep_record(study_pool *pool, const char *key, const char *line)
 {
     if (study_chain_length(pool->run->study) == 1)
@@ -248,7 +250,7 @@ static int check_time(study_pool *pool, study_worker *worker, size_t *task)
                         task);
 }
 
-/* Looks at one worker. `quiet`: no worker has written anything. */
+/* Checks one worker. `quiet`: no worker has written anything. */
 static int poll_worker(study_pool *pool, size_t i, bool quiet, size_t *task)
 {
     study_worker *worker = &pool->workers[i];

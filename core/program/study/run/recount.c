@@ -26,8 +26,8 @@ static void count_rows(const study_run *run, study_records *records, char (*keys
         }
 }
 
-/* A case that ran again and failed keeps the row of an earlier success, if there is one. The
- * failure is counted nevertheless. */
+/* If a case ran again and failed, the row of an earlier success is kept, if there is one. The
+   failure is counted nevertheless. */
 bool study_recount(const study_run *run, study_records *records, char (*keys)[STUDY_KEY_SIZE],
                    study_counters *counters, ff_report *report)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Runs a study: hands out cases and writes their answers to the journal. */
+/* Runs a study: distributes cases and writes their answers to the journal. */
 #include "run.h"
 
 #include "known.h"
@@ -25,15 +25,15 @@ typedef struct execution {
     study_counters *counters;
     study_journal journal;
     bool open;           /* true once the journal is open */
-    study_records *done; /* of earlier runs, and of this run if cases form chains */
+    study_records *done; /* records of earlier runs, and of this run if cases form chains */
     char (*keys)[STUDY_KEY_SIZE];
-    size_t room;                   /* room for keys, for rows from standard input */
-    study_pool pool;               /* if there is no executor: the workers of this process */
-    study_fork_server fork_server; /* if there is an executor */
-    size_t next;    /* the next chain to hand out, which is one task of the executor */
-    bool searched;  /* finished cases have been searched for */
-    bool ending;    /* no more cases are handed out */
-    bool no_memory; /* memory ran out, and the executor was told to end */
+    size_t room;                   /* number of keys allocated, for rows from standard input */
+    study_pool pool;               /* without an executor: the workers of this process */
+    study_fork_server fork_server; /* with an executor */
+    size_t next;    /* next chain to distribute; a chain is one task of the executor */
+    bool searched;  /* whether finished cases have been searched for */
+    bool ending;    /* whether no more cases are distributed */
+    bool no_memory; /* whether memory ran out and the executor was told to end */
     double start, reported;
 } execution;
 
@@ -42,7 +42,7 @@ static size_t end_of_chains(const study_run *run)
     return run->end ? run->end : study_chains(run->study);
 }
 
-/* Removes kept results of stages before the first case if all cases are to run again. */
+/* If all cases are to run again, removes stored results of stages before the first case. */
 static void begin_results(execution *r)
 {
     study_setup_warn_rebuilt(r->run, r->done, r->report);
@@ -52,8 +52,8 @@ static void begin_results(execution *r)
         study_reuse_clear(r->journal.directory);
 }
 
-/* Runs a function that an executor calls. If memory runs out, the function is left, and the
- * executor is told to end. */
+/* Runs a function that an executor calls. If memory runs out, the function is aborted, and the
+   executor is told to end. */
 static bool protect(execution *r, void (*function)(void *ctx), void *ctx)
 {
     bool done = ff_protected(function, ctx) == FF_OK;
@@ -96,7 +96,7 @@ static int32_t begin_leading(void *ctx)
     return protect(r, open_journal, r) && r->open ? 0 : -1;
 }
 
-/* Takes the next row from standard input, if it has come. */
+/* Takes the next row from standard input, if one has arrived. */
 static void take_row(execution *r)
 {
     const study_definition *study = r->run->study;
@@ -109,7 +109,7 @@ static void take_row(execution *r)
     r->counters->total = study->count;
 }
 
-/* Whether the only case of a chain is answered already. */
+/* Returns whether the only case of a chain is already answered. */
 static bool is_answered(const execution *r, size_t chain)
 {
     return r->searched && r->keys[chain][0];
@@ -152,7 +152,7 @@ static void check_plugins(execution *r)
         end_written_over(r, over->path);
 }
 
-/* Loads models that only a worker has used so far, so that their files are watched, too. */
+/* Loads models that only a worker has used so far, so that their files are watched too. */
 static void watch_models(const execution *r, const json_t *record)
 {
     ff_report *unheard = ff_report_new();
@@ -167,8 +167,8 @@ static void watch_models(const execution *r, const json_t *record)
     ff_report_free(unheard);
 }
 
-/* Counts an answer and adds it to the journal; `text` is what follows the verdict. False if no
- * further cases are to run. */
+/* Counts an answer and adds it to the journal. `text` is what follows the verdict. Returns false if
+   no further cases are to run. */
 static bool record_answer(execution *r, size_t index, const char *key, char verdict,
                           const char *text)
 {
@@ -260,7 +260,7 @@ static void show_progress(execution *r)
 }
 
 /* Ends this process after a second signal, with all workers and the processes that they have
- * started. */
+   started. */
 static _Noreturn void end_at_once(execution *r)
 {
     study_pool_kill(&r->pool);
@@ -307,7 +307,7 @@ static bool expects_row(const execution *r)
            !study_rows_ended(study->rows);
 }
 
-/* Waits for a row; false if none will come. */
+/* Waits for a row. Returns false if there will be none. */
 static bool await_row(const execution *r)
 {
     if (!expects_row(r))
@@ -316,10 +316,13 @@ static bool await_row(const execution *r)
     return true;
 }
 
-/* Answers all finished cases here, without asking a worker for each of them. */
+/* Answers all finished cases here, without passing each of them to a worker. */
 static void answer_known(execution *r)
 {
-    enum { FEW = 1000 }; /* for fewer cases, a further process is not worth its start */
+    enum {
+        FEW = 1000
+    }; /* below this number of cases, a separate process costs more than it
+          saves */
     const study_run *run = r->run;
     study_search search = {.pid = 0};
     study_known known;
@@ -386,8 +389,8 @@ static ff_status call_executor(void *ctx)
                                                   : FF_BUG;
 }
 
-/* Runs the cases by an executor. An error that was reported meanwhile says more than the
- * executor's status. */
+/* Runs the cases with an executor. An error that was reported meanwhile is more specific than the
+   executor's status. */
 static bool run_elsewhere(execution *r, ff_tasks *tasks)
 {
     ff_instance *executor = r->run->executor;
@@ -425,8 +428,8 @@ static bool run_cases(execution *r)
     return good;
 }
 
-/* Builds the cases that did not run here to find their keys, under which the journals hold the
- * cases of other shards. */
+/* Builds the cases that did not run here to find their keys. The journals contain the cases of
+   other shards under these keys. */
 static void find_keys(execution *r)
 {
     study_walk walk = study_walk_begin(r->run, r->done);
@@ -440,7 +443,7 @@ static void find_keys(execution *r)
     study_walk_end(&walk);
 }
 
-/* Ends the run in the leading process once all cases are answered. */
+/* Ends the run in the leading process after all cases are answered. */
 static void finish_run(execution *r)
 {
     const study_run *run = r->run;

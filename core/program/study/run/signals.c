@@ -12,7 +12,7 @@ static void on_interrupt(int number, siginfo_t *info, void *context)
 {
     static const char text[] = "\nfinishing the cases at hand; once more to end at once\n";
     (void)context;
-    if (info->si_pid == getpid() && ff_guard_current().path) { /* sent by a plugin */
+    if (info->si_pid == getpid() && ff_guard_current().path) { /* the signal was sent by a plugin */
         signal(number, SIG_DFL);
         raise(number);
         return;
@@ -22,7 +22,7 @@ static void on_interrupt(int number, siginfo_t *info, void *context)
     last_signal = number;
     interrupts = interrupts + 1;
     if (interrupts > 1) {
-        signal(number, SIG_DFL); /* an executor may never return to look at the count */
+        signal(number, SIG_DFL); /* if an executor never returns, the count would not be checked */
         if (!leading)
             raise(number);
     }

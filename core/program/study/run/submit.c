@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Keeps the cases that a driver submits as a study with one growing axis. */
+/* Stores the cases that a driver submits as a study with one growing axis. */
 #include "context.h"
 #include "run.h"
 
@@ -100,8 +100,8 @@ bool study_run_submitted(study_context *context, size_t begin, size_t end)
     return good;
 }
 
-/* Drops cases that have not run, and their keys, from the list. Called once no more cases are
- * submitted. */
+/* Removes cases that have not run, and their keys, from the list. Called when no more cases are
+   submitted. */
 static void drop_cases_not_run(study_context *context)
 {
     size_t left = 0;

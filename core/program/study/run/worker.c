@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A worker process takes numbers of cases and answers with lines for the journal, so that a
- * crashing model ends only this process. Three answers are not lines for the journal: "=" for a
- * case that is done already, "!text" if the study cannot continue, and "?path" for a plugin
- * whose file was overwritten. */
+/* A worker process receives numbers of cases and answers with lines for the journal. A crashing
+   model therefore ends only this process. Three answers are not lines for the journal: "=" for a
+   case that is already done, "!text" if the study cannot continue, and "?path" for a plugin whose
+   file was overwritten. */
 #include "workers.h"
 
 #include "../../arrays/log.h"
@@ -30,11 +30,11 @@
 #include <unistd.h>
 
 enum { MOST_STAGES = 1000, LONGEST_ANSWER = 1 << 24 };
-/* How often a worker may be found stopped before it is ended. A batch system that has stopped
- * all processes of a job lets them continue one by one. */
+/* Number of times in a row that a worker may be found stopped before it is ended. A batch system
+   that has stopped all processes of a job continues them one by one. */
 enum { MOST_STOPS = 5 };
 
-/* Limits how much further memory the process may take. */
+/* Limits how much further memory the process may allocate. */
 static void limit_memory(const study_run *run)
 {
     unsigned long pages = 0;
@@ -55,8 +55,8 @@ static void limit_memory(const study_run *run)
         setrlimit(RLIMIT_AS, &limit);
 }
 
-/* Limits the number of processes and threads of the user, counted from those that the machine
- * has now, so that a plugin cannot start processes without end. */
+/* Limits the number of processes and threads of the user, relative to the current number, so that a
+   plugin cannot start processes without end. */
 static void limit_processes(void)
 {
     enum { MORE = 4096 };
@@ -83,8 +83,8 @@ bool study_open_pipes(int to[2], int from[2])
     return false;
 }
 
-/* Adds processor times in s: of the whole case, and of its reused stages when they were
- * computed. */
+/* Adds processor times in s to the record: of the whole case, and of its reused stages when they
+   were computed. */
 static void add_costs(const study_case *c, double spent, json_t *record)
 {
     double saved = 0;
@@ -101,7 +101,7 @@ static char *tell_written_over(const study_run *run)
     return over ? memory_print_text("%c%s\n", STUDY_VERDICT_WRITTEN_OVER, over->path) : NULL;
 }
 
-/* Returns the answer to the open case, and sets the record that is handed on, to be released. */
+/* Returns the answer to the open case, and sets the record that is passed on, to be released. */
 static char *answer_case(study_walk *walk, size_t index, study_memory *memory, clock_t start,
                          json_t **record)
 {
@@ -126,7 +126,7 @@ static bool run_case(const study_worker *worker, study_walk *walk, size_t index,
 {
     json_t *record;
     study_walk_to(walk, index);
-    clock_t start = clock(); /* the process does nothing but the case */
+    clock_t start = clock(); /* processor time, since the process does nothing but the case */
     study_walk_next(walk);
     memcpy(worker->shared->key, walk->c.key, sizeof walk->c.key);
     char *line = answer_case(walk, index, memory, start, &record);
@@ -137,8 +137,8 @@ static bool run_case(const study_worker *worker, study_walk *walk, size_t index,
     return sent;
 }
 
-/* Makes the allocator keep freed memory for the next case, since the system would hand it out
- * again page by page. */
+/* Makes the allocator keep freed memory for the next case. Otherwise the system would provide it
+   again page by page. */
 static void keep_memory(void)
 {
     enum { TRIM = 1 << 28, TOP_PAD = 1 << 20, MMAP = 1 << 25 };
@@ -185,7 +185,7 @@ static _Noreturn void serve_cases(const study_worker *worker, const study_run *r
     if (run->study->measure)
         study_measure_pin();
     char *path = memory_print_text("%s/stages", run->directory);
-    mkdir(path, 0777); /* it may exist */
+    mkdir(path, 0777); /* the directory may already exist */
     int stages = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     free(path);
     study_memory memory = {
@@ -200,7 +200,8 @@ static _Noreturn void serve_cases(const study_worker *worker, const study_run *r
     walk.end = SIZE_MAX; /* rows may still come from standard input */
     const ff_environment *environment = ff_environment_keep();
     while (take_case(run, from, &index)) {
-        ff_environment_restore(environment); /* a plugin's destroy may have changed it */
+        ff_environment_restore(environment); /* the destroy function of a plugin may have changed
+                                                it */
         if (ftruncate(worker->captured, 0) != 0 || !run_case(worker, &walk, index, &memory, to))
             break;
     }
@@ -214,8 +215,8 @@ static void close_files(study_worker *worker)
     close(worker->captured);
 }
 
-/* Closes in a worker the descriptors that belong to others. Otherwise the other workers would
- * not see the end of their input, and a plugin could write into the journal. */
+/* Closes, in a worker, the descriptors that belong to others. Otherwise the other workers would not
+   see the end of their input, and a plugin could write into the journal. */
 static void close_others(const study_worker *worker, const study_pool *pool)
 {
     for (size_t i = 0; i < pool->run->jobs; i++) {
@@ -261,7 +262,8 @@ bool study_worker_start(study_worker *worker, const study_pool *pool)
     worker->busy = false;
     worker->length = 0;
     if (worker->pid > 0) {
-        setpgid(worker->pid, worker->pid); /* the worker may not have done it yet */
+        setpgid(worker->pid, worker->pid); /* done here too, since the worker may not have done
+                                              it yet */
         return true;
     }
     worker->pid = 0;
@@ -300,7 +302,7 @@ int study_worker_read(study_worker *worker)
     return worker->line[worker->length - 1] == '\n';
 }
 
-static const char told[] = "error: "; /* written by the worker itself */
+static const char told[] = "error: "; /* prefix written by the worker itself */
 
 /* Returns the first line that begins with "error: ", without that prefix, or else the first
  * line, since libraries may have written before the program did. */
@@ -359,7 +361,7 @@ char *study_worker_reap(study_worker *worker)
     off_t begin = end > (off_t)sizeof tail - 1 ? end - (off_t)sizeof tail + 1 : 0;
     while (waitid(P_PID, (id_t)worker->pid, &info, WEXITED | WNOWAIT) < 0 && errno == EINTR)
         ;
-    /* before it is reaped, while its number cannot be another process's */
+    /* before it is reaped, so that its process id cannot be reused meanwhile */
     kill(-worker->pid, SIGKILL);
     while (waitpid(worker->pid, &status, 0) < 0 && errno == EINTR)
         ;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reads an array of a case, by its record in the journal, from its log. */
+/* Reads an array of a case from its log. The record in the journal gives its place. */
 #include "array-read.h"
 
 const double *study_array_read(arrays_reader *reader, const json_t *record, const char *name,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Arrays of cases in their logs. */
+/* Reads the arrays of cases from their logs. */
 #ifndef STUDY_ARRAY_READ_H
 #define STUDY_ARRAY_READ_H
 
@@ -8,8 +8,8 @@
 
 #include <jansson.h>
 
-/* Reads an array of a case from its log. NULL if there is none, or with a message if it cannot
- * be read. */
+/* Reads an array of a case from its log. Returns NULL if there is none, or with a message if it
+   cannot be read. */
 const double *study_array_read(arrays_reader *reader, const json_t *record, const char *name,
                                memory_arena *arena, size_t *rank, size_t *count,
                                char why[ARRAYS_WHY]);

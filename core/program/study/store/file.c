@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Writes files of a study beside its journal. If writing fails, the earlier file stays. */
+/* Writes files of a study next to its journal. If writing fails, the earlier file is kept. */
 #include "journal.h"
 
 #include "../../memory/file.h"
@@ -19,7 +19,8 @@ study_file study_file_begin(const char *directory, const char *name)
     study_file file = {.path = memory_print_text("%s%s%s", directory ? directory : "",
                                                  directory ? "/" : "", name)};
     file.part = memory_print_text("%s.%ld.part", file.path,
-                                  (long)getpid()); /* other shards may write the same file */
+                                  /* part of the name, since other shards may write the same file */
+                                  (long)getpid());
     file.out = fopen(file.part, "we");
     file.cause = errno;
     return file;
@@ -28,7 +29,7 @@ study_file study_file_begin(const char *directory, const char *name)
 bool study_file_end(study_file *file, const char *hint, ff_report *report)
 {
     FILE *out = file->out;
-    errno = out ? EIO : file->cause; /* the reason of an earlier write error may be lost */
+    errno = out ? EIO : file->cause; /* the cause of an earlier write error may be lost */
     bool good = out && fflush(out) == 0 && !ferror(out) && fsync(fileno(out)) == 0;
     int cause = errno;
     if (out && fclose(out) != 0 && good) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Writes and restores records by their forms. */
+/* Writes records without their forms, and restores them from their forms (form.h). */
 #include "form.h"
 
 #include "hash.h"
@@ -15,7 +15,7 @@ static bool is_one_of(const char *name, const char *const *names)
     return *names != NULL;
 }
 
-/* Members that stand in each line and not in the form. */
+/* Members that are stored in each line and not in the form. */
 static const char *const beside[] = {"case", "key", "status", "log", "parameters", NULL};
 
 static bool is_beside(const char *name)
@@ -23,7 +23,7 @@ static bool is_beside(const char *name)
     return is_one_of(name, beside);
 }
 
-/* Members whose texts differ from case to case. */
+/* Returns whether the texts of a member differ from case to case. */
 static bool has_own_texts(const char *name)
 {
     static const char *const names[] = {"set", "reason", "command", "from", "state", NULL};
@@ -35,7 +35,7 @@ static bool is_own(const json_t *value, bool own_texts)
     return !json_is_object(value) && !json_is_array(value) && (own_texts || !json_is_string(value));
 }
 
-/* Returns the form of a value. */
+/* Returns the form of a value: the value with null in place of its numbers. */
 static json_t *empty(json_t *value, bool own_texts)
 {
     const char *name;
@@ -51,7 +51,7 @@ static json_t *empty(json_t *value, bool own_texts)
     return form;
 }
 
-/* Hashes the form of a value without making it. */
+/* Hashes the form of a value without constructing it. */
 static uint64_t hash_form(uint64_t hash, json_t *value, bool own_texts)
 {
     const char *name;
@@ -93,7 +93,7 @@ static void put_value(const json_t *value, FILE *out)
         json_dumpf(value, out, JSON_COMPACT | JSON_ENCODE_ANY);
 }
 
-/* Writes the values that the form lacks, with a comma before each but the first. */
+/* Writes the values that are not in the form, with a comma before each but the first. */
 static void put_values(json_t *value, bool own_texts, bool *any, FILE *out)
 {
     const char *name;
@@ -112,7 +112,8 @@ static void put_values(json_t *value, bool own_texts, bool *any, FILE *out)
  * make all later lines unreadable. */
 enum { LINES_OF_A_FORM = 256 };
 
-/* Writes the name of the form, and the form itself unless one of the last lines has it. */
+/* Writes the name of the form, and also the form itself unless one of the last lines contains
+   it. */
 static void put_form(json_t *record, json_t *said, FILE *out)
 {
     const char *member;
@@ -161,8 +162,8 @@ void study_form_write(json_t *record, json_t *said, FILE *out)
     }
 }
 
-/* Returns a copy of the form filled with the next values. If there are too few, *next ends
- * beyond their number. */
+/* Returns a copy of the form, filled with the next values. If there are too few values, *next is
+   set beyond their number. */
 static json_t *fill(const json_t *form, const json_t *values, size_t *next)
 {
     const char *name;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Hashes of what results depend on. */
+/* Hashes everything on which results depend. */
 #include "hash.h"
 
 #include <string.h>
@@ -22,7 +22,7 @@ static uint64_t hash_number(uint64_t hash, uint64_t number)
     return study_hash(hash, &number, sizeof number);
 }
 
-/* Hashes the contents of a file. If it cannot be read, the model reports that. */
+/* Hashes the contents of a file. If the file cannot be read, the model reports that. */
 static uint64_t hash_file(uint64_t hash, const char *path)
 {
     unsigned char block[4096];
@@ -76,8 +76,8 @@ static uint64_t hash_feedback(uint64_t hash, const ff_feedback *feedback)
     return study_hash(hash, &feedback->relaxation, sizeof feedback->relaxation);
 }
 
-/* Returns the place, from 1, in the stage's loop of the stage that feeds the wire; 0: that stage
- * is outside the loop. */
+/* Returns the position, from 1, in the stage's loop of the stage that feeds the wire, or 0 if that
+   stage is outside the loop. */
 static size_t place_in_loop(const ff_pipeline *pipeline, const ff_stage *stage, const ff_wire *wire)
 {
     for (size_t i = 0; stage->loop && wire->stage >= 0 && i < stage->loop->count; i++)
@@ -86,7 +86,7 @@ static size_t place_in_loop(const ff_pipeline *pipeline, const ff_stage *stage, 
     return 0;
 }
 
-/* Hashes the wires of a stage, by what feeds them. */
+/* Hashes the wires of a stage by the outputs that feed them. */
 static uint64_t hash_wires(uint64_t hash, const ff_pipeline *pipeline, const ff_stage *stage,
                            const uint64_t *fingerprints)
 {
@@ -99,7 +99,7 @@ static uint64_t hash_wires(uint64_t hash, const ff_pipeline *pipeline, const ff_
     return hash;
 }
 
-/* Gives all stages of a loop the same fingerprint, since a change in one affects all. */
+/* Sets the same fingerprint for all stages of a loop, since a change in one of them affects all. */
 static void mark_loop(const ff_pipeline *pipeline, const ff_loop *loop, uint64_t *fingerprints)
 {
     const size_t *members = &pipeline->order[loop->first];
@@ -137,7 +137,7 @@ uint64_t study_fingerprint(const ff_pipeline *pipeline, uint64_t *fingerprints)
     return whole;
 }
 
-/* Returns the wire of an input row; NULL: the stage has none. */
+/* Returns the wire of an input row, or NULL if the stage has none. */
 static const ff_wire *find_wire(const ff_stage *stage, const char *input)
 {
     for (size_t i = 0; i < stage->wire_count; i++)
@@ -147,7 +147,8 @@ static const ff_wire *find_wire(const ff_stage *stage, const char *input)
     return NULL;
 }
 
-/* Hashes the arrays that feed the stage; for one from its own loop, which stage gives it. */
+/* Hashes the arrays that feed the stage. For an array from its own loop, hashes which stage gives
+   it. */
 static uint64_t hash_inputs(uint64_t hash, const ff_pipeline *pipeline, const ff_stage *stage,
                             const uint64_t *fingerprints)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Hashes of what results depend on. */
+/* Hashes everything on which results depend. */
 #ifndef STUDY_HASH_H
 #define STUDY_HASH_H
 
@@ -10,12 +10,12 @@
 
 uint64_t study_hash(uint64_t hash, const void *data, size_t length);
 uint64_t study_hash_text(uint64_t hash, const char *text); /* NULL differs from "" */
-/* Hashes what the case depends on: models, parameters in SI, contents of files, wires, and
- * requested outputs. Sets the same hash for each needed stage in `fingerprints`. */
+/* Hashes everything on which the case depends: models, parameters in SI, contents of files, wires,
+   and requested outputs. Sets the hash of each needed stage in `fingerprints`. */
 uint64_t study_fingerprint(const ff_pipeline *pipeline, uint64_t *fingerprints);
-/* Hashes what the results of a stage depend on, just before it is evaluated: as above, but with
- * the values that feed it in place of the stages that feed it. The hash of a stage in a loop
- * covers the whole loop. */
+/* Hashes everything on which the results of a stage depend, just before the stage is evaluated: as
+   above, but with the values of its inputs in place of the stages that feed it. The hash of a stage
+   in a loop covers the whole loop. */
 uint64_t study_hash_evaluation(const ff_pipeline *pipeline, const ff_stage *stage,
                                const uint64_t *fingerprints);
 

@@ -91,8 +91,8 @@ bool study_make_path(const char *path)
     return made;
 }
 
-/* Checks that the directory is marked as that of a study; an empty one is marked now. False with
- * errno 0 if it belongs to something else. */
+/* Checks that the directory is marked as that of a study, and marks it if it is empty. Returns
+   false with errno 0 if it belongs to something else. */
 static bool mark_directory(const char *path)
 {
     DIR *list = opendir(path);
@@ -117,7 +117,7 @@ static bool mark_directory(const char *path)
     return marked;
 }
 
-/* Drops what follows the last complete line. */
+/* Removes what follows the last complete line. */
 static bool drop_torn_tail(study_journal *journal)
 {
     char c;
@@ -134,7 +134,7 @@ static bool drop_torn_tail(study_journal *journal)
 
 enum lock { LOCK_TAKEN, LOCK_BUSY, LOCK_REFUSED /* the file system has no locks */ };
 
-/* Tries for half a second, since a killed run may still hold the lock for a moment. */
+/* Tries for half a second, since a killed run may hold the lock for a short time after its end. */
 static enum lock lock_file(int fd, int how)
 {
     const struct timespec nap = {0, 20000000};
@@ -164,7 +164,7 @@ void study_journal_name(size_t shard, size_t shards, char name[STUDY_NAME_SIZE])
         snprintf(name, STUDY_NAME_SIZE, "journal.%zu-of-%zu.jsonl", shard, shards);
 }
 
-/* Opens the journal without following a link in its place or waiting for a pipe. */
+/* Opens the journal. A link is not followed, and a pipe is not waited for. */
 static bool open_journal(study_journal *journal, ff_report *report)
 {
     struct stat info;
@@ -218,7 +218,7 @@ bool study_journal_open(study_journal *journal, const char *directory, size_t sh
     return good;
 }
 
-/* Returns what somebody else has done to the journal; NULL: it is unchanged. */
+/* Returns how another process has changed the journal, or NULL if it is unchanged. */
 static const char *find_change(const study_journal *journal)
 {
     struct stat own, named, directory, path;

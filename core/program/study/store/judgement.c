@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Judges cases by their records, and counts the verdicts of many. */
+/* Judges cases by their records, and counts the verdicts of many cases. */
 #include "judgement.h"
 
 #include "../../accuracy/lines.h"
@@ -37,7 +37,7 @@ const char *study_verdict_name(int verdict)
                                            : ff_verdict_name(verdict);
 }
 
-/* Writes the name of a quality line in words: inlet_heating gives "inlet heating". */
+/* Writes the name of a quality line in words: inlet_heating becomes "inlet heating". */
 static char *words_of(const char *name)
 {
     char *words = memory_copy_text(name, strlen(name));
@@ -53,8 +53,8 @@ static double beyond_limit(double value, double limit)
     return value > 0 && limit > 0 && isfinite(value) ? fabs(log(value / limit)) : HUGE_VAL;
 }
 
-/* Adds a reason and takes ownership of its words. Lines with the same name from several stages
- * become one, the worst. */
+/* Adds a reason and takes ownership of its text. Lines with the same name from several stages are
+   combined to the worst one. */
 static void add_reason(doubts *all, doubt made)
 {
     for (size_t i = 0; i < all->count; i++) {
@@ -83,9 +83,9 @@ bool study_warning_of_range(const char *text)
     return strstr(text + strcspn(text, ":"), " is outside the calibrated range") != NULL;
 }
 
-/* Shortens a warning so that equal ones of different cases can be counted: "film.z: 3 is outside
- * the calibrated range, ..." gives "film.z outside its calibrated range"; any other gives its
- * first clause. */
+/* Shortens a warning so that equal warnings of different cases can be counted: "film.z: 3 is
+   outside the calibrated range, ..." becomes "film.z outside its calibrated range". Any other
+   warning is shortened to its first clause. */
 static char *words_of_warning(const char *text)
 {
     size_t name = strcspn(text, ":");
@@ -97,14 +97,14 @@ static char *words_of_warning(const char *text)
     return memory_copy_text(text, length);
 }
 
-/* Adds a reason that does not change the verdict, and takes ownership of its words. */
+/* Adds a reason that does not change the verdict, and takes ownership of its text. */
 static void add_words(doubts *all, char *words)
 {
     add_reason(all, (doubt){words, FF_GOOD, STUDY_REASONS, 0});
 }
 
-/* Adds an output of which only a lower bound is known, so that the reasons appear wherever its
- * value does. */
+/* Adds an output of which only a lower bound is known, so that this is shown wherever its value is
+   shown. */
 static void add_least(doubts *all, const char *name)
 {
     add_words(all, memory_print_text("%s known from below alone", name));
@@ -126,8 +126,8 @@ static void put_words(study_words *list, char *words)
     list->words[list->count++] = words;
 }
 
-/* Makes the judgement, and takes ownership of the lines. `failure` is the first reason of a
- * failed case, or NULL. */
+/* Makes the judgement, and takes ownership of the lines. `failure` is the first reason of a failed
+   case, or NULL. */
 static study_judgement judge(doubts *all, bool failed, const char *failure)
 {
     study_judgement judgement = {.verdict = failed ? STUDY_CASE_FAILED : FF_GOOD};
@@ -176,7 +176,8 @@ void study_judge_record(json_t *record)
     json_array_foreach(json_object_get(record, "at_least"), i, name_of)
         add_least(&all, json_is_string(name_of) ? json_string_value(name_of) : "an output");
     bool plain = !status || !strcmp(status, "failed") ||
-                 !strcmp(status, study_refused); /* "refused" alone says nothing about the cause */
+                 /* the word "refused" alone does not tell the cause */
+                 !strcmp(status, study_refused);
     study_judgement judgement =
         judge(&all, !status || strcmp(status, "ok") != 0, plain ? NULL : status);
     if (status && !strcmp(status, study_refused))
@@ -431,7 +432,7 @@ static int by_number(const void *a, const void *b)
     return first < second ? -1 : first > second;
 }
 
-/* Returns the cases in their order; null if there are too many. */
+/* Returns the cases in their order, or null if there are too many. */
 static json_t *list_cases(const study_tally *tally)
 {
     size_t count = json_array_size(tally->cases);

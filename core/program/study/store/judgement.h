@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How far a run, or a case of a study, can be trusted, in two verdicts. The verdict of the
- * numbers is the worst one of the quality lines about numbers; its reasons are the lines that
- * are not good, and the warnings. A failed case has no better verdict. The verdict of the range
- * says which models are used outside their range. */
+/* Judges how reliable the results of a run, or of a case of a study, are. There are two verdicts.
+   The verdict of the numbers is the worst one of the quality lines about numbers; its reasons are
+   the lines that are not good, and the warnings. A failed case has the verdict "failed", or "bad"
+   if one of its lines is bad. The verdict of the range says which models are used outside their
+   range. */
 #ifndef STUDY_JUDGEMENT_H
 #define STUDY_JUDGEMENT_H
 
@@ -24,29 +25,28 @@ typedef struct study_words {
 typedef struct study_judgement {
     int verdict;
     study_words lists[STUDY_LISTS];
-    size_t
-        limits; /* whether the case meets the limits of the file: 1 + limits_standing; 0: unknown */
+    size_t limits; /* how the case meets the limits of the file: 1 + limits_standing; 0: unknown */
 } study_judgement;
 
-double study_json_number(const json_t *value); /* NaN if it is no number */
+double study_json_number(const json_t *value); /* returns NaN if it is not a number */
 extern const char study_refused[];           /* "refused": status of such a row, and its verdict */
 const char *study_verdict_name(int verdict); /* "good", "doubtful", "bad", "refused", "failed" */
 
-/* Judges the record of a case by its status, quality lines, warnings, and outputs of which only
- * a lower bound is known. Adds the judgement to the record. */
+/* Judges the record of a case by its status, quality lines, warnings, and outputs of which only a
+   lower bound is known. Adds the judgement to the record. */
 void study_judge_record(json_t *record);
-/* Whether a warning says that a parameter is outside the range that a model is made for. */
+/* Returns whether a warning is about a parameter outside the range for which a model is made. */
 bool study_warning_of_range(const char *text);
-/* Whether a quality line [value, limit, verdict, ..., true] of a record is about the range of a
- * model. */
+/* Returns whether a quality line [value, limit, verdict, ..., true] of a record is about the range
+   of a model. */
 bool study_line_of_range(const json_t *line);
-/* Reads what study_judgement_add has added, and whether limits are met. False if there is no
- * verdict, as for a failed case. */
+/* Reads what study_judgement_add has added, and whether limits are met. Returns false if there is
+   no verdict, as for a failed case. */
 bool study_judgement_read(study_judgement *judgement, const json_t *object);
 /* Returns the names of the requested outputs of which only a lower bound is known:
  * ["film.p_max_highest"]. */
 json_t *study_list_least(const ff_pipeline *pipeline);
-/* Judges the results of a pipeline; `failed`: the run ended with an error. */
+/* Judges the results of a pipeline. `failed`: the run ended with an error. */
 study_judgement study_judge_pipeline(const ff_pipeline *pipeline, bool failed);
 void study_judgement_free(study_judgement *judgement);
 /* Returns one of the lists as "a, b", to be freed. */
@@ -58,18 +58,18 @@ void study_judgement_add(const study_judgement *judgement, json_t *object);
 enum { STUDY_MOST_JUDGED = 10000 }; /* at most this many cases are listed one by one */
 typedef struct study_tally {
     size_t counts[STUDY_VERDICTS];
-    size_t limits[LIMITS_STANDINGS]; /* number of cases by how they meet their limits; the worst
-                                        limit counts */
+    size_t limits[LIMITS_STANDINGS]; /* number of cases for each standing; the worst limit of a
+                                        case counts */
     json_t *reasons[STUDY_VERDICTS]; /* {reason: number of cases}; NULL if there are none */
     size_t cases_of[STUDY_LISTS];    /* number of cases with an entry in that list */
     json_t *words_of[STUDY_LISTS];   /* {entry: number of cases}, for the other lists; or NULL */
     json_t *cases;                   /* [{case, key, verdict, reasons}]; NULL if there are none */
 } study_tally;
 
-/* Adds a case by its number, from 1, and its key. */
+/* Adds a case with its number, from 1, and its key. */
 void study_tally_add(study_tally *tally, size_t number, const char *key,
                      const study_judgement *judgement);
-/* Adds the cases of `part`, which becomes empty. */
+/* Adds the cases of `part`, and empties `part`. */
 void study_tally_merge(study_tally *tally, study_tally *part);
 void study_tally_free(study_tally *tally);
 /* Returns the counts as a text, to be freed, with the most frequent reasons first: "12 good, 4

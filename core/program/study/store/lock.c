@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Locks by files, for file systems that have no locks. */
+/* Locks by files, for file systems without locks. */
 #include "journal.h"
 
 #include "../../memory/memory.h"
@@ -38,7 +38,7 @@ static void read_lock(const study_journal *journal, const char *name, char text[
         close(fd);
 }
 
-/* Whether the process that a lock names was on this machine and has ended. */
+/* Returns whether the process named in a lock was on this machine and has ended. */
 static bool is_left_behind(const char *text)
 {
     char own[LOCK_TEXT], *end;
@@ -61,7 +61,7 @@ static bool refuse(const study_journal *journal, const char *name, const char *t
     return false;
 }
 
-/* Makes the lock file. One that an ended process has left behind is replaced. */
+/* Makes the lock file. A lock file left by an ended process is replaced. */
 static bool make_lock(const study_journal *journal, const char *name, ff_report *report)
 {
     char text[LOCK_TEXT], other[LOCK_TEXT];
@@ -87,7 +87,8 @@ static bool make_lock(const study_journal *journal, const char *name, ff_report 
                             strerror(cause));
 }
 
-/* Whether a lock excludes the one of this journal. A run of all cases excludes every other run. */
+/* Returns whether a lock excludes that of this journal. A run of all cases excludes every other
+   run. */
 static bool excludes(const char *name, const char *own, bool alone)
 {
     size_t length = strlen(name), end = sizeof lock_end - 1;

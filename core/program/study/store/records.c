@@ -16,19 +16,19 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* The place of a record. */
+/* The position of a record in a journal. */
 typedef struct entry {
     uint64_t key;
     uint64_t offset;
-    uint32_t form; /* counted from 1; 0: the line has the whole record */
+    uint32_t form; /* index of the form, from 1; 0: the line contains the whole record */
     uint16_t file;
     uint8_t state; /* STUDY_UNKNOWN: the slot is empty */
 } entry;
 
 typedef struct journal_file {
-    int fd; /* -1: opened for each record */
+    int fd; /* descriptor; -1: opened for each record */
     char name[STUDY_NAME_SIZE];
-    bool formless; /* a line came before its form, or the line with the form is lost */
+    bool formless; /* whether a line came before its form, or the line with the form is lost */
 } journal_file;
 
 typedef struct form {
@@ -37,7 +37,7 @@ typedef struct form {
 } form;
 
 struct study_records {
-    entry *slots; /* a power of two, at least half of them free */
+    entry *slots; /* number of slots: a power of two; at least half of them are free */
     size_t room, count;
     struct journal_file *files;
     size_t file_count;
@@ -51,8 +51,8 @@ struct study_records {
 
 enum { MOST_FILES = UINT16_MAX };
 
-/* Returns the number that a key stands for. A case that ended before it had a key has another
- * kind of key, which is hashed. */
+/* Returns the number that identifies a key. A case that ended before it had a key has another kind
+   of key, which is hashed. */
 static uint64_t number_of(const char *key)
 {
     char *end;
@@ -91,7 +91,7 @@ static void add(study_records *r, const entry *found)
         *slot = *found;
 }
 
-/* Returns the number of the form, from 1; 0: it is not known. */
+/* Returns the index of the form, from 1, or 0 if it is not known. */
 static uint32_t find_form(const study_records *r, const char *name)
 {
     size_t i = r->form_count;
@@ -144,7 +144,7 @@ static const char *word_after(const char *at, const char *head, char *word, size
     return at + length + 1;
 }
 
-/* Notes the parameters that a record describes. */
+/* Stores the parameters that a record describes. */
 static void note_described(study_records *r, const json_t *record)
 {
     json_t *values;
@@ -162,8 +162,8 @@ static void note_described(study_records *r, const json_t *record)
     }
 }
 
-/* Checks that a log which the line names is at least as long as it says. Returns what follows
- * the name; NULL: the log is shorter, or the line is damaged. */
+/* Checks that the log named in the line is at least as long as the line states. Returns what
+   follows the name, or NULL if the log is shorter or the line is damaged. */
 static const char *pass_log(study_records *r, int directory, const char *at)
 {
     static const char head[] = ",\"log\":[\"";
@@ -206,7 +206,7 @@ enum study_state study_line_state(const char *line)
     return state;
 }
 
-/* Adds the place of a complete line to the index. False if its form is not known yet. */
+/* Adds the position of a complete line to the index. Returns false if its form is not known yet. */
 static bool add_line(study_records *r, int directory, const char *line, size_t length,
                      uint16_t file, uint64_t offset)
 {
@@ -228,8 +228,8 @@ static bool add_line(study_records *r, int directory, const char *line, size_t l
     return known;
 }
 
-/* A lost block may join several lines to one. Returns where the last of them begins; the length
- * if there is none. */
+/* If a block of the file is lost, several lines may be joined to one. Returns the start of the last
+   of them, or the length if there is none. */
 static size_t find_last(const char *line, size_t length)
 {
     static const char head[] = "{\"case\":";
@@ -240,7 +240,7 @@ static size_t find_last(const char *line, size_t length)
     return at;
 }
 
-/* Opens a journal; a link, a pipe or a device in its place has no records. */
+/* Opens a journal. A link, a pipe or a device with its name counts as a journal without records. */
 static int open_journal(int directory, const char *name)
 {
     struct stat info;
@@ -309,7 +309,7 @@ study_records *study_records_open(const char *directory, bool whole)
     while (list && (item = readdir(list)))
         if (is_journal(item->d_name))
             read_journal(r, dirfd(list), item->d_name);
-    for (size_t i = 0; i < r->file_count; i++) /* once more, with the forms found further on */
+    for (size_t i = 0; i < r->file_count; i++) /* read once more with the forms found further on */
         if (r->files[i].formless)
             read_lines(r, dirfd(list), (uint16_t)i);
     if (list)
@@ -356,7 +356,7 @@ enum study_state study_records_state(const study_records *r, const char *key)
     return slot_of(r, number_of(key))->state;
 }
 
-/* Opens the journal of an entry if it was closed, to be closed afterwards. */
+/* Opens the journal of an entry if it was closed. The caller closes it again. */
 static int reopen(const study_records *r, const entry *e)
 {
     int directory = open(r->directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);

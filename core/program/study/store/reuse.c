@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Keeps results of stages on the disk. While a process computes a stage, its file is locked and
- * others wait for it. A checksum distinguishes a complete file from an interrupted one. */
+/* Stores results of stages on the disk for reuse. While a process computes a stage, it locks the
+   file of the stage, and others wait for it. A checksum distinguishes a complete file from an
+   incomplete one. */
 #include "reuse.h"
 
 #include "hash.h"
@@ -17,12 +18,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static const double worth_keeping = 2e-3; /* s; writing a file takes a tenth of that */
+static const double worth_keeping = 2e-3; /* Least time of an evaluation, s, for which its result
+                                             is stored; writing a file takes a tenth of that. */
 enum {
-    FORM = 2, /* version of the file's form; a file with another one counts as damaged */
+    FORM = 2, /* version of the file format; a file of another version counts as damaged */
     LARGEST = 1 << 26,
-    /* bytes of a file */ MOST_IDLE =
-        1 << 26 /* bytes kept without being reused, after which the stage is not kept any more */
+    /* bytes of a file */ MOST_IDLE = 1 << 26 /* number of bytes stored without being reused, after
+                                                 which results of the stage are no longer stored */
 };
 
 static void write_text(FILE *out, const char *text)
@@ -33,11 +35,11 @@ static void write_text(FILE *out, const char *text)
         fwrite(text, 1, length, out);
 }
 
-/* The unread part of a file, whose contents are not trusted. */
+/* The unread part of a file. Its contents are not trusted. */
 typedef struct kept_bytes {
     const char *at;
     size_t left;
-    bool good; /* nothing was missing so far */
+    bool good; /* false once data were missing */
 } kept_bytes;
 
 static const char *take_bytes(kept_bytes *in, size_t size)
@@ -60,7 +62,7 @@ static void read_bytes(kept_bytes *in, void *data, size_t size)
         memset(data, 0, size);
 }
 
-/* Reads a text; NULL if it is empty. */
+/* Reads a text. Returns NULL if it is empty. */
 static char *read_text(kept_bytes *in)
 {
     size_t length;
@@ -69,8 +71,8 @@ static char *read_text(kept_bytes *in)
     return from && length ? memory_copy_text(from, length) : NULL;
 }
 
-/* Returns stage `i` of those that are kept together, the stages of a loop or the stage alone;
- * NULL: there are no more. */
+/* Returns stage `i` of those stored in the same file: the stages of a loop, or a single stage.
+   Returns NULL after the last. */
 static ff_stage *together(const ff_pipeline *pipeline, const ff_stage *stage, size_t i)
 {
     if (stage->loop && i < stage->loop->count)
@@ -102,7 +104,7 @@ static void write_results(const ff_stage *stage, FILE *out)
     }
 }
 
-/* Reads the numbers of an output; `fill`: stores them in the stage. */
+/* Reads the numbers of an output. `fill`: copies them to the stage. */
 static void read_output(ff_stage *stage, size_t output, uint32_t rank, bool fill, kept_bytes *in)
 {
     size_t shape[FF_MAX_RANK], count = 1;
@@ -118,8 +120,8 @@ static void read_output(ff_stage *stage, size_t output, uint32_t rank, bool fill
         memcpy(ff_result_fill(stage, output, rank, shape), from, count * sizeof(double));
 }
 
-/* Reads what write_results has written; `fill`: stores it in the stage. False if a wanted result
- * is missing, or the file is not one of these. */
+/* Reads what write_results has written. `fill`: copies it to the stage. Returns false if a
+   requested result is missing, or if the file has another format. */
 static bool read_results(ff_stage *stage, bool fill, kept_bytes *in)
 {
     bool all = true;
@@ -128,7 +130,7 @@ static bool read_results(ff_stage *stage, bool fill, kept_bytes *in)
     for (size_t i = 0; i < stage->loaded->model->output_count && in->good; i++) {
         int32_t rank;
         read_bytes(in, &rank, sizeof rank);
-        /* rank below 0: the model may not have given the output */
+        /* rank below 0: the model did not give the output */
         all = all && (rank >= 0 || !stage->results[i].wanted);
         if (rank >= 0)
             read_output(stage, i, (uint32_t)rank, fill, in);
