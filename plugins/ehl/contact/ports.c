@@ -253,7 +253,7 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
                   .dims = "t"},
     [EHL_H_MIN] = {.name = "h_min",
                    .unit = "m",
-                   .doc = "smallest film thickness (parabola through the lowest nodes)",
+                   .doc = "least film thickness (parabola through the lowest nodes)",
                    .dims = "t",
                    .max = INFINITY},
     [EHL_P_MAX] =
@@ -511,11 +511,8 @@ const ff_port ehl_estimate_inputs[EHL_ESTIMATE_INPUTS] = {
 const ff_port ehl_estimate_outputs[EHL_ESTIMATE_OUTPUTS] = {
     COMMON_OUTPUTS(EHL_ESTIMATE),
     [EHL_ESTIMATE_TIME] = {.name = "time", .unit = "s", .doc = "times of the results", .dims = "t"},
-    [EHL_ESTIMATE_H_MIN] = {.name = "h_min",
-                            .unit = "m",
-                            .doc = "smallest film thickness",
-                            .dims = "t",
-                            .max = INFINITY},
+    [EHL_ESTIMATE_H_MIN] =
+        {.name = "h_min", .unit = "m", .doc = "least film thickness", .dims = "t", .max = INFINITY},
     [EHL_ESTIMATE_P_MAX] = {.name = "p_max",
                             .unit = "Pa",
                             .doc = "Hertz pressure of the load",
