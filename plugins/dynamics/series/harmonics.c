@@ -344,8 +344,8 @@ static double norm_of(const double *x, size_t count)
     return sqrt(sum);
 }
 
-/* Solves for Newton's correction, in place of the residual. The correction is to be subtracted from
-   the series. */
+/* Solves for Newton's correction, which replaces the residual. The correction is to be subtracted
+   from the series. */
 static int solve_correction(dynamics_harmonics *b)
 {
     lapack_int size = (lapack_int)series_size(b);

@@ -221,8 +221,8 @@ static void call_flow(ehl_energy *e, size_t from, size_t end, const double *T)
     }
 }
 
-/* Means across the film: of the shear rate, and of its derivative with respect to stress times 1
-   and times z - h/2, over h. */
+/* Means across the film of three quantities: the shear rate, its derivative with respect to stress,
+   and this derivative times (z - h/2)/h. */
 typedef struct means {
     double gamma, slope, tilt;
 } means;

@@ -31,8 +31,8 @@ void ehl_half_space_create(ehl_half_space *f, double B, double shortest, double 
         f->lambda[k + 1] = exp(y);
         f->weight[k + 1] = step * exp(y / 2) / sqrt(pi);
     }
-    /* sums of the rule over all slower modes, of e^(y/2) and e^(3y/2), and over all faster ones, of
-       e^(-y/2) */
+    /* geometric sums: of e^(y/2) and e^(3y/2) over all slower modes, and of e^(-y/2) over all
+       faster ones */
     double ratio = exp(-step / 2), cubed = ratio * ratio * ratio;
     double slow = f->weight[1] * ratio / (1 - ratio);
     double decay = f->weight[1] * f->lambda[1] * cubed / (1 - cubed);

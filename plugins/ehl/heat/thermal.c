@@ -37,8 +37,8 @@ static const double SLOW_SWEEP = 0.9;
    tenth of the bound for rough films changes h_min of ten random ones by at most 1.6e-3, of eight
    by less than 3e-4, and friction by less than 3.3e-4 of its largest value. */
 static const double SETTLED = 1e-4, SETTLED_STEADY = 1e-5, SETTLED_ROUGH = 1e-3;
-/* Rounds of a steady film before its factors are accelerated, and the share of their change that is
-   mixed in then. */
+/* Number of rounds of a steady film before its factors are accelerated (Anderson), and the share of
+   their change that an accelerated round mixes in. */
 static const int PLAIN_ROUNDS = 12;
 static const double MIXED = 0.5;
 /* While changes do not shrink by this factor, a smaller share of them is taken, down to
@@ -126,7 +126,7 @@ ff_status ehl_thermal_create(ehl_thermal *t, const ff_host *host, ehl_march *m,
     if (status != FF_OK)
         return status;
     double lasts = h->time[h->count - 1] - h->time[0] + length / most;
-    if (m->rough) /* and their travel into the contact: start.c */
+    if (m->rough) /* plus the travel of the flanks into the contact (start.c) */
         lasts += length / most;
     double longest = least * lasts > length ? length / least : lasts;
     for (size_t k = 0; k < 2; k++) {
@@ -190,7 +190,8 @@ void ehl_thermal_restart(ehl_march *m)
     take_factors(t, heat);
 }
 
-/* Extrapolates n values linearly in time from the last two states, within their bounds. */
+/* Extrapolates n values linearly in time from the last two states, and limits them to the range
+   from `least` to `most`. */
 FF_SIMD
 static void go_on(size_t n, const double *restrict one, const double *restrict two, double ahead,
                   double least, double most, double *restrict now)

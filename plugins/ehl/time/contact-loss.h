@@ -9,9 +9,9 @@
    of forces. */
 ff_status ehl_solve_contact_loss(ehl_march *m, ehl_step *step, const ehl_instant *at);
 
-/* For use if not even the shortest step to `at` converges: while the contact is lost the film then
-   follows the prescribed gap without pressure. Returns FF_OK, or FF_NOCONV with the reason in
-   `why`. */
+/* Advances without pressure, with the flanks at the prescribed gap, while the contact is lost. It
+   is used if not even the shortest step to `at` converges. Returns FF_OK, or FF_NOCONV with the
+   reason in `why`. */
 ff_status ehl_march_without_load(ehl_march *m, const ehl_instant *at);
 
 #endif

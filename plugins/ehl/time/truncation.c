@@ -63,8 +63,8 @@ static double start_of_accumulation(const ehl_march *m)
     return -a - ehl_inlet_buildup(a, radius, h) / 2;
 }
 
-/* Updates the distance over which the film still originates from a jump of the load within a step.
-   Steps of second order do not resolve such a jump. */
+/* Updates the length of film that still comes from within a step in which the load jumped. Steps of
+   second order do not resolve such a jump. */
 static void detect_load_jump(ehl_march *m, double distance)
 {
     const double leap = 1.2, passage = 3 * m->solver->grid->half_width;

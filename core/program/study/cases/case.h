@@ -80,8 +80,8 @@ json_t *study_case_run(study_case *c, const study_run *run, size_t index, study_
 json_t *study_case_set(const study_definition *study, size_t index); /* {path: value} */
 /* returns whether the case can be run */
 bool study_case_is_good(const study_case *c);
-/* Returns whether a row of a spectrum cannot be computed only because its numbers are beyond
-   limits. */
+/* Returns whether a row of a spectrum cannot be computed, and the only reason is that its numbers
+   are beyond limits. */
 bool study_case_is_refused(const study_definition *study, const ff_report *report);
 /* Returns a record without outputs or judgement. `reason` may be NULL. */
 json_t *study_case_record(const study_run *run, size_t index, const char *key, const char *status,

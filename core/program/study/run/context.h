@@ -81,7 +81,8 @@ typedef struct study_context {
     /* The driver sets these before anything runs. */
     bool measured;       /* whether costs are measured: cases run one by one on one core, and what
                             differs between them is computed in each; if false, outputs are scalars */
-    const char *further; /* which cases may follow: "then halvings"; "" if none */
+    const char *further; /* text about the cases that may follow, such as "then halvings"; "" if
+                            none */
     const char *const *paths; /* paths that cases assign: the columns of table.csv */
     size_t path_count;
     /* a study whose cases come first; NULL if the first cases form a plain list */
