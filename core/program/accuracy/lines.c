@@ -185,17 +185,35 @@ char *accuracy_print_goal(const accuracy_error *e)
     return isnan(e->goal) ? memory_print_text("%s", "") : print_error(e, e->goal, 3);
 }
 
-static void add_line(const accuracy_error *e, bool checked, ff_stage *stage)
+char *accuracy_print_check(const accuracy_record *record, const accuracy_error *e)
+{
+    if (record->unchecked)
+        return memory_print_text("the finer run failed: %s", record->unchecked);
+    if (isnan(e->apart))
+        return memory_print_text("it cannot be compared with a finer run");
+    char *apart = accuracy_print_error(e, e->apart);
+    char *text = memory_print_text("%s from a twin a level finer%s%s", apart,
+                                   record->told_by_finer ? ", which has also told the error" : "",
+                                   isnan(e->reached)        ? "; the error itself is not known"
+                                   : e->apart <= e->reached ? ""
+                                                            : ": more than the error told");
+    free(apart);
+    return text;
+}
+
+static void add_line(const accuracy_record *record, const accuracy_error *e, ff_stage *stage)
 {
     double limit = isnan(e->goal) ? doubtful_above : e->goal;
-    const bool held = !checked || e->apart <= e->reached;
+    const bool held = !record->checked || e->apart <= e->reached; /* not if one is NaN */
     char *name = memory_print_text("%s_error", e->result->row->name);
     char *error = accuracy_print_reached(e), *rest = accuracy_describe(e);
-    char *text = memory_print_text("measured: %s%s%s%s", error, *rest ? "; " : "", rest,
-                                   held ? "" : "; a finer twin is farther away");
+    char *check = held ? memory_print_text("%s", "") : accuracy_print_check(record, e);
+    char *text = memory_print_text("measured: %s%s%s%s%s", error, *rest ? "; " : "", rest,
+                                   held ? "" : "; ", check);
     ff_add_quality(stage, name, e->reached, limit,
                    held && e->reached <= limit ? FF_GOOD : FF_DOUBTFUL, text);
     free(text);
+    free(check);
     free(rest);
     free(error);
     free(name);
@@ -205,6 +223,6 @@ void accuracy_tell(const accuracy_record *record, const ff_pipeline *answer)
 {
     drop_estimates(record, answer);
     for (size_t i = 0; i < record->count; i++)
-        add_line(&record->errors[i], record->checked,
+        add_line(record, &record->errors[i],
                  &answer->stages[record->errors[i].stage - answer->stages]);
 }

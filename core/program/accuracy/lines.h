@@ -19,6 +19,8 @@ char *accuracy_print_goal(const accuracy_error *error);
 /* Prints "at few points up to 3 %; film.cells 0.3 %, tooth.points 0.1 %; order 2.1", or the parts
    of it that exist; to be freed. */
 char *accuracy_describe(const accuracy_error *error);
+/* Prints how far the answer is from a finer twin, or why that is not known; to be freed. */
+char *accuracy_print_check(const accuracy_record *record, const accuracy_error *error);
 /* The stage's measured output whose error the line of this name estimates; NULL if it is another
    kind of line. */
 const ff_result *accuracy_estimated(const ff_stage *stage, const char *line);

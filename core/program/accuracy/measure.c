@@ -287,6 +287,13 @@ double accuracy_distance(const ff_pipeline *pipeline, const ff_stage *stage,
     return accuracy_relative(off, &answer, &largest);
 }
 
+/* Why there is no finer twin: what was noted when it was run here, or what an earlier run said. */
+static const char *why_not(accuracy_record *record, const accuracy_twin *finer)
+{
+    const char *said = record->told_by_finer ? accuracy_twin_reason(finer) : record->failure;
+    return memory_arena_text(&record->arena, said, strlen(said));
+}
+
 bool accuracy_check_twin(accuracy_record *record, const ff_run *run, ff_engine *engine,
                          const ff_observer *watch)
 {
@@ -295,16 +302,23 @@ bool accuracy_check_twin(accuracy_record *record, const ff_run *run, ff_engine *
         .record = record,
         .answer = record->answer,
         .scene = {.file = file, .engine = engine, .start = record->answer, .watch = watch}};
-    accuracy_twin finer = {.good = false};
-    accuracy_twins_run_finer(&t, &finer);
-    record->checked = finer.good;
-    for (size_t i = 0; finer.good && i < record->count; i++) {
+    accuracy_twin own = {.good = false};
+    const char *before = record->failure;
+    record->failure = NULL;
+    const accuracy_twin *finer = accuracy_twins_find_finer(&t, &own);
+    record->checked = true;
+    record->told_by_finer = finer != &own;
+    if (!finer->good)
+        record->unchecked = why_not(record, finer);
+    record->failure = before ? before : record->failure;
+    for (size_t i = 0; i < record->count; i++) {
         accuracy_error *e = &record->errors[i];
-        e->apart =
-            accuracy_distance(t.answer, e->stage, e->result, e, finer.pipeline, &record->arena);
+        e->apart = finer->good ? accuracy_distance(t.answer, e->stage, e->result, e,
+                                                   finer->pipeline, &record->arena)
+                               : (double)NAN;
     }
-    const bool stopped = finer.stopped;
-    accuracy_twin_free(&finer);
+    const bool stopped = own.stopped;
+    accuracy_twin_free(&own);
     return !stopped;
 }
 

@@ -47,7 +47,7 @@ typedef struct accuracy_error {
                              is not known */
     double largest;       /* largest along a series, relative to the number there */
     double order;         /* observed order; NaN if none was seen */
-    double apart;         /* difference from a finer twin, as `reached`, if the record is checked */
+    double apart;         /* difference from a finer twin, as `reached`; NaN if not comparable */
     bool by_stage;        /* the stage's own estimate, which is larger than what the twins show */
     accuracy_part *parts; /* largest first; empty if no twin separates them */
     size_t part_count;
@@ -84,8 +84,10 @@ typedef struct accuracy_record {
     size_t own_count;
     struct accuracy_choice
         *choice;  /* Choice of models, whose errors count with the rest; NULL if none was made. */
-    bool checked; /* a finer twin was run, and `apart` is known */
-    char *now;    /* given: receives what is being run, ACCURACY_NOW characters at most; or NULL */
+    bool checked; /* the file asks that a finer twin checks the errors */
+    bool told_by_finer;    /* the errors come from that same twin */
+    const char *unchecked; /* why there is no such twin; NULL if there is one */
+    char *now; /* given: receives what is being run, ACCURACY_NOW characters at most; or NULL */
     memory_arena arena;
 } accuracy_record;
 

@@ -71,15 +71,28 @@ static bool list_sets(accuracy_twins *t, int at, size_t finer, const char **sets
     return true;
 }
 
+/* Says what is being run. */
+static void tell_twin(const accuracy_twins *t, int at)
+{
+    const accuracy_record *record = t->record;
+    const char *which = at < 0 ? "finer" : "coarser";
+    if (!record->now)
+        return;
+    if (t->checking)
+        snprintf(record->now, ACCURACY_NOW, "a %s twin checks the errors", which);
+    else if (record->attempts == 0)
+        snprintf(record->now, ACCURACY_NOW, "a %s twin tells the errors", which);
+    else
+        snprintf(record->now, ACCURACY_NOW, "a %s twin tells the errors of attempt %zu", which,
+                 record->attempts);
+}
+
 /* Runs a twin. The setting `finer` is at the level of `half`; SIZE_MAX: none is. */
 static void run_twin(accuracy_twins *t, int at, size_t finer, accuracy_twin *twin)
 {
     const char **sets = memory_alloc((t->count + 1) * sizeof *sets);
     bool *changed = memory_alloc((t->answer->count + 1) * sizeof *changed);
-    if (t->record->now)
-        snprintf(t->record->now, ACCURACY_NOW, "%s errors of attempt %zu",
-                 at < 0 ? "a finer twin tells the" : "a coarser twin tells the",
-                 t->record->attempts);
+    tell_twin(t, at);
     t->scene.donor = finer == SIZE_MAX ? t->answer : t->quarter->pipeline;
     if (list_sets(t, at, finer, sets, changed)) {
         accuracy_twin_run(twin, &t->scene, sets, t->count, NULL, changed);
@@ -161,10 +174,14 @@ bool accuracy_twins_find(accuracy_twins *t)
     return t->half || t->twice;
 }
 
-void accuracy_twins_run_finer(accuracy_twins *t, accuracy_twin *twin)
+const accuracy_twin *accuracy_twins_find_finer(accuracy_twins *t, accuracy_twin *own)
 {
     list_knobs(t);
-    run_twin(t, twice, SIZE_MAX, twin);
+    const accuracy_twin *known = t->count > 0 ? known_twin(t, twice) : NULL;
+    t->checking = true;
+    if (!known)
+        run_twin(t, twice, SIZE_MAX, own);
+    return known ? known : own;
 }
 
 void accuracy_twins_free(accuracy_twins *t)

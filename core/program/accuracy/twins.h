@@ -26,6 +26,7 @@ typedef struct accuracy_twins {
                                                     finer; NULL: there is none, or it failed */
     accuracy_twin *refined; /* one for each knob, which alone is one level finer than in `quarter`;
                                not good if it was not run */
+    bool checking;          /* the twin checks the errors that others have told */
     bool stopped;
 } accuracy_twins;
 
@@ -33,9 +34,9 @@ typedef struct accuracy_twins {
  * record. If `known` is not NULL, the first call finds one twin and the second call another. False
  * if there are no more. */
 bool accuracy_twins_find(accuracy_twins *twins);
-/* Runs a twin whose settings are all a level finer. The first two members are given; the outputs
-   are those of the answer. */
-void accuracy_twins_run_finer(accuracy_twins *twins, accuracy_twin *twin);
+/* Returns a twin whose settings are all a level finer: one of the record's, or `own`, which it runs
+   with the outputs of the answer. The first three members are given. */
+const accuracy_twin *accuracy_twins_find_finer(accuracy_twins *twins, accuracy_twin *own);
 void accuracy_twins_free(accuracy_twins *twins);
 
 #endif

@@ -288,10 +288,9 @@ static void print_error_row(const paper *page, const accuracy_error *e, int widt
     }
     terminal_print_wrapped(rest, column, start);
     if (page->errors->checked) {
-        char *apart = accuracy_print_error(e, e->apart);
-        printf("%*s%s from a twin a level finer%s\n", start, "", apart,
-               e->apart <= e->reached ? "" : ": more than the error told");
-        free(apart);
+        char *check = accuracy_print_check(page->errors, e);
+        terminal_print_wrapped(check, printf("%*s", start, ""), start);
+        free(check);
     }
     free(goal);
     free(name);

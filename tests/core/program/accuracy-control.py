@@ -335,6 +335,14 @@ class Control(lab.Lab):
         self.assertLessEqual(answer["outputs"]["last.value"]["error"]["relative"], 0.025)
         self.assertIn("more than the error told", self.call("run", "order.yaml", "-o", "finer", "--set", "accuracy={all: 2.5 %, check: twins}", "--set", "last.shown=100"))
         self.assertEqual(self.ask("last.shown=100", "accuracy=2.5 %")["verdict"], "good")
+        answer = self.ask("accuracy={check: twins}", "last.most=100")
+        self.assertEqual(answer["verdict"], "doubtful")
+        self.assertIn("the finer run failed: ", answer["stages"][-1]["quality"]["value_error"]["text"])
+        self.assertIn("128 cells are too many", answer["stages"][-1]["quality"]["value_error"]["text"])
+        least = [f"{stage}.least=64" for stage in ("first", "last")]  # no coarser twin: the finer one tells the errors
+        answer = self.ask("accuracy={check: twins}", *least)
+        self.assertEqual((answer["verdict"], answer["accuracy"]["twins"]), ("good", 2))
+        self.assertIn("which has also told the error", self.call("run", "order.yaml", "-o", "told", *(word for one in ("accuracy={check: twins}", *least) for word in ("--set", one))))
         for wrong in ("{check: twin}", "{check: [twins]}"):
             self.assertIn("write check: twins", self.call("check", "order.yaml", "--set", f"accuracy={wrong}", code=2))
 
