@@ -2,11 +2,12 @@
 /* Numbers that are off by (1/n)^2 of themselves, for work that grows with n. */
 #include <flankfilm/author.h>
 
+#include <math.h>
 #include <stdlib.h>
 #include <time.h>
 
 enum { N, BLIND };
-enum { VALUE, CURVE, PLACE, ROUNDS, FIELD, TRACE };
+enum { VALUE, CURVE, PLACE, ROUNDS, FIELD, TRACE, CURVE_ERROR };
 
 typedef struct root {
     const ff_host *host;
@@ -26,6 +27,10 @@ static const ff_port outputs[] = {
     {.name = "rounds", .unit = "1", .doc = "n", .dims = ""},
     {.name = "field", .unit = "m", .doc = "a field", .dims = "t x"},
     {.name = "trace", .unit = "1", .doc = "0 from 100 rounds on", .dims = ""},
+    {.name = "curve_error",
+     .unit = "m",
+     .doc = "infinite at the start with less than 8 rounds",
+     .dims = "t"},
 };
 
 static ff_status create(const ff_host *host, void **self)
@@ -63,12 +68,14 @@ static ff_status draw(const root *r, double off)
 {
     size_t count = (size_t)r->n + 1;
     double *curve = ff_put_series(r->host, CURVE, count),
-           *place = ff_put_series(r->host, PLACE, count);
-    if (!curve || !place)
+           *place = ff_put_series(r->host, PLACE, count),
+           *error = ff_put_series(r->host, CURVE_ERROR, count);
+    if (!curve || !place || !error)
         return FF_NOMEM;
     for (size_t i = 0; i < count; i++) {
         place[i] = (double)i / (double)(count - 1);
         curve[i] = (3 + place[i]) * (1 + off);
+        error[i] = i == 0 && r->n < 8 ? (double)INFINITY : off * curve[i];
     }
     return FF_OK;
 }
@@ -84,7 +91,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     ff_put_scalar(r->host, VALUE, 7 * (1 + off));
     ff_put_scalar(r->host, ROUNDS, r->n);
     ff_put_scalar(r->host, TRACE, r->n < 100 ? off : 0);
-    return wanted & (1 << CURVE | 1 << PLACE) ? draw(r, off) : FF_OK;
+    return wanted & (1 << CURVE | 1 << PLACE | 1 << CURVE_ERROR) ? draw(r, off) : FF_OK;
 }
 
 static void destroy(void *self)

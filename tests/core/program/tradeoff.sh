@@ -160,6 +160,21 @@ grep -q ' alone *$' sign1.txt || fail "a name stands alone for one point"
 grep -q '^root.trace, 0 in the reference: errors in SI, known to 0$' none.txt || fail "0 in the reference"
 grep -q '^ *0.0156 *0.0156 .* quick, n 8$' none.txt || fail "0 in the reference: 1/64 itself"
 
+# Where it becomes 0, the change has no share either, and it has not settled.
+"$flankfilm" run sign.yaml -o zero --set 'study.tradeoff.outputs=[root.value, root.trace]' \
+    --set 'study.tradeoff.reference={root.n: 60, refine: [root.n], refinements: 1}' >zero.txt || true
+grep -q '^reference 1: .*; root.trace changed by 0.00028 in SI' zero.txt || fail "a change to 0"
+grep -q '0.1 %: root.value, root.trace' zero.txt || fail "a change to 0 has not settled"
+
+# An estimate that is not known somewhere states nothing.
+head -1 sign/tradeoff.csv | grep -q 'root.curve stated' || fail "no column of what is stated"
+python3 - <<'END' || fail "an estimate that is not known"
+import csv
+rows = {row["candidate"]: row["root.curve stated"] for row in csv.DictReader(open("sign/tradeoff.csv"))}
+assert rows["quick, n 2"] == "", rows
+assert abs(float(rows["quick, n 8"]) - 1 / 64) < 1e-3, rows
+END
+
 # A change that falls no more ends the refinement, and the output that keeps it is named.
 sed 's/n: 100, refine: \[root.n\]/n: 100, refine: {root.n: 0.5}/' study.yaml >stall.yaml
 "$flankfilm" run stall.yaml -o stall >stall.txt || true

@@ -100,7 +100,11 @@ static double stated_error(const study_tradeoff *t, size_t point, size_t output,
     accuracy_series own = series_of(&answer->outputs[output]);
     double largest;
     own.absolute = absolute;
-    if (estimate->values && estimate->count == own.count)
+    bool known = estimate->values && estimate->count == own.count;
+    for (size_t i = 0; known && i < own.count; i++)
+        if (isnan(estimate->values[i]))
+            return NAN;
+    if (known)
         return accuracy_relative(estimate->values, &own, &largest);
     for (size_t i = 0; i < answer->quality_count && !absolute; i++)
         if (!strcmp(answer->quality[i].name, context->extras[extra]))
@@ -124,7 +128,7 @@ bool study_tradeoff_has_settled(const study_tradeoff *t, size_t level, size_t ou
 {
     accuracy_difference d;
     return study_tradeoff_compare(t, level - 1, level, output, &d) &&
-           (d.absolute || d.typical <= t->accuracy / 10);
+           d.typical <= (d.absolute ? 0 : t->accuracy / 10);
 }
 
 static json_t *describe_reference(const study_tradeoff *t, size_t levels)
@@ -134,9 +138,12 @@ static json_t *describe_reference(const study_tradeoff *t, size_t levels)
         json_t *changes = json_object();
         for (size_t i = 0; level > 0 && i < t->context->output_count; i++) {
             const char *name = t->context->outputs[i]->text;
-            accuracy_difference d;
+            accuracy_difference d = {.absolute = false};
             bool good = study_tradeoff_compare(t, level - 1, level, i, &d);
-            json_object_set_new(changes, name, study_json_real(good ? d.typical : (double)NAN));
+            json_object_set_new(changes, name,
+                                json_pack("{s:o, s:b}", "by",
+                                          study_json_real(good ? d.typical : (double)NAN),
+                                          "absolute", (int)d.absolute));
             if (level == levels - 1 && !study_tradeoff_has_settled(t, level, i))
                 json_array_append_new(kept, json_string(name));
         }

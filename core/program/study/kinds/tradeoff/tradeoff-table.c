@@ -210,8 +210,13 @@ static void tell_reference(study_answer *answer, const json_t *result)
         study_line line = {0};
         study_line_add(&line, "reference %zu: %s, %.3g s", i, study_text_of(level, "label"),
                        study_number_of(level, "seconds"));
-        json_object_foreach(json_object_get(level, "change"), output, change) study_line_add(
-            &line, "; %s changed by %.2g %%", output, 100 * json_number_value(change));
+        json_object_foreach(json_object_get(level, "change"), output, change)
+        {
+            const bool absolute = json_is_true(json_object_get(change, "absolute"));
+            study_line_add(&line, "; %s changed by %.2g %s", output,
+                           (absolute ? 1 : 100) * study_number_of(change, "by"),
+                           absolute ? "in SI" : "%");
+        }
         study_answer_say(answer, SHOWN, -1, "%s", line.text);
     }
     study_line kept = {0};

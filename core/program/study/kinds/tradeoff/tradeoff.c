@@ -58,7 +58,7 @@ static bool level_has_settled(study_tradeoff *t, size_t level)
         settled = false;
         falls = falls || (study_tradeoff_compare(t, level - 2, level - 1, i, &before) &&
                           study_tradeoff_compare(t, level - 1, level, i, &now) &&
-                          now.typical < before.typical);
+                          (now.absolute != before.absolute || now.typical < before.typical));
     }
     t->stalled = !settled && !falls;
     return settled;

@@ -59,8 +59,8 @@ const study_outcome *study_tradeoff_outcome(const study_tradeoff *t, size_t poin
    compared. */
 bool study_tradeoff_compare(const study_tradeoff *t, size_t a, size_t b, size_t output,
                             accuracy_difference *d);
-/* True if the output changed by at most a tenth of the smallest error sought from the level before;
-   one that is 0 has no share and always did. */
+/* True if the output changed by at most a tenth of the smallest error sought from the level before.
+   One that is 0 has no share and must have been 0 before. */
 bool study_tradeoff_has_settled(const study_tradeoff *t, size_t level, size_t output);
 /* Returns the whole result; `levels` of the reference ran. */
 json_t *study_tradeoff_result(const study_tradeoff *t, size_t levels);
