@@ -1,13 +1,14 @@
 #!/bin/sh
 # Maps of where a pipeline can be trusted, on a model whose verges are known: it warns above 2 m/s,
 # fails above 3, is out of its range below 0.2, swings below 0.5 with more than 0.5 N, refuses less
-# than 0.01 N, and above 5 N its error is ten times what it says.   stability.sh FLANKFILM TOY
+# than 0.01 N, and above 5 N its error is ten times what it says.   stability.sh FLANKFILM VERGE ROOT
 set -eu
 flankfilm=$(realpath "$1")
 lab=$(mktemp -d)
 trap 'rm -rf "$lab"' EXIT
 mkdir -p "$lab/plugins/toy"
 cp "$2" "$lab/plugins/toy/verge.so"
+cp "$3" "$lab/plugins/toy/root.so"
 export FLANKFILM_PLUGIN_PATH="$lab/plugins"
 cd "$lab"
 
@@ -101,6 +102,7 @@ python3 -m json.tool verges/map.figure.json >/dev/null
 map silent '{from: 0.001 N, to: 10 N, points: 5, spacing: log}' '[1 m/s, 0.1 m/s]' \
     'bisect: {verge.load: 5}'
 expect 4 '! ' "$flankfilm" run silent.yaml -o silent
+says 'with finer settings, it differs by'
 says 'the estimate is 1 %'
 verdict silent 10 1 silent
 verdict silent 1 1 converged
@@ -202,3 +204,26 @@ grep -q ',1 N,1 m/s,5,' cost/table.csv
 grep -q ',10 N,1 m/s,20,' cost/table.csv
 expect 0 '2 cases done' "$flankfilm" run cost.yaml -o one --set verge.cells=1 --set 'study.stability.axes.verge.load=[1 N]'
 grep -q ',1 N,1 m/s,2,' one/table.csv
+
+# A finer case of few cells has one more.
+expect 0 '3 cases done' "$flankfilm" run cost.yaml -o few --set verge.cells=4 \
+    --set 'study.stability.axes.verge.load=[10 N]' --set 'study.stability.refine={verge.cells: 1.1}'
+grep -q ',10 N,1 m/s,5,' few/table.csv
+
+# Limits may forbid the finer case, or both.
+expect 4 'with coarser settings, it differs by 8.9 %' "$flankfilm" run cost.yaml -o coarser \
+    --set 'study.stability.axes.verge.load=[10 N]' --set 'study.stability.refine={verge.load: 20}'
+expect 0 'no coarser and no finer settings' "$flankfilm" run cost.yaml -o limits \
+    --set 'study.stability.axes.verge.load=[1 N]' --set 'study.stability.refine={verge.load: 1e5}'
+verdict limits 1 1 unchecked
+
+# A number that is 0 in the finer case has no share by which it differs.
+cat >zero.yaml <<YAML
+format: 2
+pipeline: {root: {use: toy/root}}
+outputs: [root.value]
+study: {stability: {axes: {root.n: [60, 200]}, outputs: [root.trace], refine: [root.n], bisect: 0}}
+YAML
+expect 4 'it is 0 or not finite' "$flankfilm" run zero.yaml -o zero
+grep -q '^60,silent,' zero/map.csv
+grep -q '^200,converged,' zero/map.csv

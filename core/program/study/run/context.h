@@ -167,10 +167,15 @@ const study_outcome *study_outcome_of(study_context *context, size_t number);
 /* scale.c: returns the stage of "stage.name", or NULL. Sets *param to the index of the parameter
    with that name, or to SIZE_MAX if it is not in use or is not a number. */
 const ff_stage *study_find_number(const ff_pipeline *pipeline, const char *path, size_t *param);
+enum study_scaling {
+    STUDY_NOTHING_SCALED, /* no parameter is a number of a stage that runs */
+    STUDY_SCALED,
+    STUDY_BEYOND_LIMITS, /* the limits of one forbid its value, or no value changes */
+};
 /* Writes assignments of parameters in a case, multiplied by factors, "film.cells=256". NULL for a
- * parameter that is not a number or whose stage does not run in the case. False if there is none,
- * or if the limits of one forbid its value. */
-bool study_scale_parameters(study_context *context, size_t number, const char *const *paths,
-                            const double *factors, size_t count, const char **scaled);
+ * parameter that is not a number or whose stage does not run in the case. */
+enum study_scaling study_scale_parameters(study_context *context, size_t number,
+                                          const char *const *paths, const double *factors,
+                                          size_t count, const char **scaled);
 
 #endif

@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdint.h>
+#include <string.h>
 
 const ff_stage *study_find_number(const ff_pipeline *pipeline, const char *path, size_t *param)
 {
@@ -20,14 +21,25 @@ const ff_stage *study_find_number(const ff_pipeline *pipeline, const char *path,
     return stage;
 }
 
-bool study_scale_parameters(study_context *context, size_t number, const char *const *paths,
-                            const double *factors, size_t count, const char **scaled)
+/* Levels by which a factor makes a number coarser. A count grows to the next whole number and
+   shrinks to the one below, so that it changes. */
+static double levels_of(const ff_bound *b, double factor)
+{
+    if (b->row->type != FF_INT)
+        return log2(factor) / log2(accuracy_tolerance_factor);
+    const double count = (double)b->value.integer;
+    return factor > 1 && count > 0 ? -log2(ceil(count * factor - 1e-6) / count) : -log2(factor);
+}
+
+enum study_scaling study_scale_parameters(study_context *context, size_t number,
+                                          const char *const *paths, const double *factors,
+                                          size_t count, const char **scaled)
 {
     study_run run = *context->run;
     study_case c;
     run.study = &context->list;
     study_case_open(&c, &run, number, NULL);
-    bool good = study_case_is_good(&c), all = true;
+    bool good = study_case_is_good(&c), all = true, changes = false;
     size_t found = 0;
     for (size_t k = 0; k < count; k++) {
         size_t param = SIZE_MAX;
@@ -35,12 +47,13 @@ bool study_scale_parameters(study_context *context, size_t number, const char *c
         scaled[k] = NULL;
         if (param == SIZE_MAX)
             continue;
-        const bool whole = stage->params[param].row->type == FF_INT;
-        const double levels = log2(factors[k]) / (whole ? -1 : log2(accuracy_tolerance_factor));
-        scaled[k] = accuracy_setting_at(stage, param, levels, &context->arena);
+        const char *given = accuracy_setting_at(stage, param, 0, &context->arena);
+        scaled[k] = accuracy_setting_at(stage, param, levels_of(&stage->params[param], factors[k]),
+                                        &context->arena);
         all = all && scaled[k];
+        changes = changes || (scaled[k] && (!given || strcmp(scaled[k], given) != 0));
         found++;
     }
     study_case_close(&c);
-    return all && found > 0;
+    return found == 0 ? STUDY_NOTHING_SCALED : all && changes ? STUDY_SCALED : STUDY_BEYOND_LIMITS;
 }

@@ -10,12 +10,12 @@
 const char *const study_class_names[STUDY_CLASSES] = {
     "converged", "outside", "physical", "unchecked", "degraded", "silent", "failed", "refused"};
 const char *const study_class_texts[STUDY_CLASSES] = {
-    "every line of quality holds, and a case of other settings agrees",
+    "every line of quality holds, and a case of coarser or finer settings agrees, if it has any",
     "solved as well, but outside the range of a model",
     "solved as well; what is solved is unstable itself, so that it has no one answer",
-    "cases of coarser and of finer settings failed, so nothing confirms it",
+    "no case of coarser or finer settings ran, so nothing confirms it",
     "a line of quality warns",
-    "no line warns, yet the finer case differs by more than three estimates",
+    "no line warns, yet a case of other settings differs by more than three estimates",
     "no result, and the reason why",
     "the model does not take such input"};
 const char study_class_letters[STUDY_CLASSES + 1] = ".op?d!Fx";
@@ -194,15 +194,20 @@ static void judge_claim(study_cell *cell, const study_map *s, const study_claim 
     }
     estimate = promised ? estimate : s->tolerance / most_times;
     const accuracy_series one = {0, 1, NULL, &value, 0, false};
-    double difference = accuracy_compare(&one, &(accuracy_series){0, 1, NULL, &other, 0, false}, &d)
-                            ? d.typical
-                            : (double)INFINITY;
+    const bool known = accuracy_compare(&one, &(accuracy_series){0, 1, NULL, &other, 0, false}, &d);
+    /* a difference from 0 has no share */
+    double difference = known && (!d.absolute || value == other) ? d.typical : (double)INFINITY;
     if (cell->output &&
         difference / (estimate + rounding) <= cell->difference / (cell->estimate + rounding))
         return;
     cell->output = claim->output;
     cell->difference = difference;
     cell->estimate = estimate;
+}
+
+static const char *name_twin(const study_cell *cell)
+{
+    return cell->finer ? "with finer settings" : "with coarser settings";
 }
 
 static void judge_twin(study_cell *cell, const study_map *s, const study_outcome *answer,
@@ -214,7 +219,7 @@ static void judge_twin(study_cell *cell, const study_map *s, const study_outcome
             return;
         cell->class = STUDY_UNCHECKED;
         cell->line = NULL;
-        cell->why = study_context_format(s->context, "refined: %s",
+        cell->why = study_context_format(s->context, "%s: %s", name_twin(cell),
                                          *twin->reason ? twin->reason : "not run");
         return;
     }
@@ -227,8 +232,21 @@ static void judge_twin(study_cell *cell, const study_map *s, const study_outcome
     cell->value = cell->difference;
     cell->limit = most_times * cell->estimate;
     cell->why =
-        study_context_format(s->context, "refined, it differs by %.2g %%; the estimate is %.2g %%",
-                             100 * cell->difference, 100 * cell->estimate);
+        isinf(cell->difference)
+            ? study_context_format(s->context, "%s, it is 0 or not finite: no share of it differs",
+                                   name_twin(cell))
+            : study_context_format(s->context, "%s, it differs by %.2g %%; the estimate is %.2g %%",
+                                   name_twin(cell), 100 * cell->difference, 100 * cell->estimate);
+}
+
+/* Judges a cell whose knobs have no other values within their limits. */
+static void judge_bounded(study_cell *cell)
+{
+    if (cell->class == STUDY_DEGRADED)
+        return;
+    cell->class = STUDY_UNCHECKED;
+    cell->line = NULL;
+    cell->why = "the limits of its parameters allow no coarser and no finer settings";
 }
 
 /* If the twin disagrees or failed, a line that is only a note counts as a warning. */
@@ -255,9 +273,12 @@ void study_judge(const study_map *s, study_cell *cell, const study_outcome *answ
     judge_notes(cell, s, answer);
     judge_lines(cell, s, answer, false);
     judge_conditions(cell, s, answer);
-    if (!twin || !is_compared(cell, s, answer))
+    if ((!twin && !cell->bounded) || !is_compared(cell, s, answer))
         return;
-    judge_twin(cell, s, answer, twin);
+    if (twin)
+        judge_twin(cell, s, answer, twin);
+    else
+        judge_bounded(cell);
     cell->confirmed = cell->class != STUDY_SILENT && cell->class != STUDY_UNCHECKED;
     if (!cell->confirmed)
         judge_warned(cell, s, answer);

@@ -116,8 +116,9 @@ static int64_t submit_cell(const study_map *map, const study_cell *cell, const c
     return (int64_t)study_submit(context, settings, 0, "", NULL);
 }
 
-/* Submits a twin and returns its number; STUDY_NOT_SUBMITTED if not all numbers can be scaled. */
-static int64_t submit_twin(const study_map *map, const study_cell *cell, bool finer)
+/* Submits a twin and returns its number; STUDY_NOT_SUBMITTED if not all numbers can be scaled, or
+   if none changes. */
+static int64_t submit_twin(const study_map *map, study_cell *cell, bool finer)
 {
     study_context *context = map->context;
     const char **scaled =
@@ -125,10 +126,10 @@ static int64_t submit_twin(const study_map *map, const study_cell *cell, bool fi
     double *factors = memory_arena_alloc(&context->arena, (map->knob_count + 1) * sizeof *factors);
     for (size_t k = 0; k < map->knob_count; k++)
         factors[k] = finer ? map->factors[k] : 1 / map->factors[k];
-    return map->knob_count && study_scale_parameters(context, (size_t)cell->number, map->knobs,
-                                                     factors, map->knob_count, scaled)
-               ? submit_cell(map, cell, scaled)
-               : STUDY_NOT_SUBMITTED;
+    const enum study_scaling scaling = study_scale_parameters(
+        context, (size_t)cell->number, map->knobs, factors, map->knob_count, scaled);
+    cell->bounded = scaling == STUDY_BEYOND_LIMITS;
+    return scaling == STUDY_SCALED ? submit_cell(map, cell, scaled) : STUDY_NOT_SUBMITTED;
 }
 
 /* Runs the cases with the numbers from `begin` to `end` - 1 and judges the cells from `first` on.
@@ -159,6 +160,7 @@ static bool run_twins(study_map *map, int64_t begin, size_t first, bool finer)
         if (twin == STUDY_NOT_SUBMITTED)
             continue;
         cell->twin = twin;
+        cell->finer = finer;
         end = twin + 1;
     }
     return run_round(map, begin, end, first) && (finer || run_twins(map, end, first, true));

@@ -34,9 +34,9 @@ enum study_class {
     STUDY_CONVERGED,
     STUDY_OUTSIDE,   /* solved well, but outside the range of a model */
     STUDY_PHYSICAL,  /* solved well, but what is solved is unstable */
-    STUDY_UNCHECKED, /* both twins failed */
+    STUDY_UNCHECKED, /* every twin failed, or the limits of the knobs allow none */
     STUDY_DEGRADED,  /* a line of quality warns */
-    STUDY_SILENT,    /* no line warns, but the finer twin differs too much */
+    STUDY_SILENT,    /* no line warns, but the last twin differs too much */
     STUDY_FAILED,
     STUDY_REFUSED, /* the input is outside what a model takes */
     STUDY_CLASSES
@@ -54,6 +54,8 @@ typedef struct study_cell {
     size_t halved; /* axis on which it lies between two others; axis_count when it is on the grid */
     int64_t number, twin; /* numbers of its case and of its last twin, or STUDY_NOT_SUBMITTED */
     bool confirmed;       /* the twin agrees, or the letter does not depend on one */
+    bool finer;           /* the last twin is the finer one */
+    bool bounded;         /* the limits of the knobs do not allow the twin that was wanted last */
     enum study_class class;
     const char *line;    /* the line or output that decides the class; NULL for none */
     double value, limit; /* of that line or output */
