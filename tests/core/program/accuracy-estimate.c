@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Errors estimated from answers whose errors are known. */
 #include "../../../core/program/accuracy/estimate.h"
+#include "../../../core/program/accuracy/lines.h"
 
 #include <check.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 enum { POINTS = 201 };
 static const double safety = 1.25; /* Roache's, as the estimate has it */
@@ -225,6 +228,30 @@ static void test_no_difference(void)
     check_true("no error", error == 0 && share == 0);
 }
 
+static void check_words(const accuracy_record *record, double reached, double apart,
+                        const char *words)
+{
+    const accuracy_error error = {.reached = reached, .apart = apart};
+    char *text = accuracy_print_check(record, &error);
+    if (strcmp(text, words) != 0)
+        printf("found: %s\n", text);
+    check_true(words, !strcmp(text, words));
+    free(text);
+}
+
+/* What a finer twin says, if there is one and it can be compared. */
+static void test_words_of_a_check(void)
+{
+    const accuracy_record run = {.checked = true}, same = {.checked = true, .told_by_finer = true},
+                          none = {.checked = true, .unchecked = "too many cells"};
+    check_words(&run, 0.02, 0.01, "1 % from a twin a level finer");
+    check_words(&run, 0.02, 0.03, "3 % from a twin a level finer: more than the error told");
+    check_words(&run, 0.02, NAN, "it cannot be compared with a finer run");
+    check_words(&run, NAN, 0.01, "1 % from a twin a level finer; the error itself is not known");
+    check_words(&same, 0.02, 0.01, "1 % from a twin a level finer, which has also told the error");
+    check_words(&none, 0.02, NAN, "the finer run failed: too many cells");
+}
+
 int main(void)
 {
     test_orders();
@@ -239,5 +266,6 @@ int main(void)
     test_scales();
     test_typical();
     test_no_difference();
+    test_words_of_a_check();
     return check_done();
 }
