@@ -171,3 +171,19 @@ void accuracy_want_beside(const ff_pipeline *pipeline, bool estimates)
                     stage->results[k].wanted = true;
     }
 }
+
+double accuracy_distance(const ff_pipeline *pipeline, const ff_stage *stage,
+                         const ff_result *result, double zero, bool absolute,
+                         const ff_pipeline *other, memory_arena *arena)
+{
+    const double *numbers = accuracy_numbers_like(pipeline, stage, result, other, arena);
+    const ff_result *along = accuracy_axis_of(pipeline, stage, result);
+    const accuracy_series answer = {result->rank, result->count, along ? along->data : NULL,
+                                    result->data, zero,          absolute};
+    double *off = memory_arena_alloc(arena, result->count * sizeof *off + 1), largest;
+    if (!numbers)
+        return NAN;
+    for (size_t i = 0; i < result->count; i++)
+        off[i] = fabs(numbers[i] - result->data[i]);
+    return accuracy_relative(off, &answer, &largest);
+}

@@ -33,6 +33,12 @@ const double *accuracy_numbers_like(const ff_pipeline *pipeline, const ff_stage 
                                     const ff_result *result, const ff_pipeline *other,
                                     memory_arena *arena);
 
+/* Returns the difference of a result and the same one in another pipeline, relative to the distance
+   from `zero`, or absolute; NaN if the two cannot be compared. */
+double accuracy_distance(const ff_pipeline *pipeline, const ff_stage *stage,
+                         const ff_result *result, double zero, bool absolute,
+                         const ff_pipeline *other, memory_arena *arena);
+
 /* Makes the pipeline compute the points on angles, such as those where a second pair of teeth comes
    in, if a series is asked for. Before it runs. */
 void accuracy_want_points(const ff_pipeline *pipeline);

@@ -6,6 +6,7 @@
  */
 #include "choice.h"
 
+#include "axis.h"
 #include "goals.h"
 #include "models.h"
 
@@ -41,8 +42,8 @@ static double distance(trial *t, const accuracy_error *e, const ff_pipeline *nex
     const ff_stage *stage = &t->now->stages[place_of(t, e)];
     int output = ff_model_find_output(stage->loaded->model, e->result->row->name);
     return output < 0 ? (double)NAN
-                      : accuracy_distance(t->now, stage, &stage->results[output], e, next,
-                                          &t->choice->arena);
+                      : accuracy_distance(t->now, stage, &stage->results[output], e->zero,
+                                          e->absolute, next, &t->choice->arena);
 }
 
 static const char *keep(trial *t, char *text)

@@ -271,22 +271,6 @@ bool accuracy_measure(accuracy_record *record, const ff_run *run, ff_engine *eng
     return !t.stopped;
 }
 
-double accuracy_distance(const ff_pipeline *pipeline, const ff_stage *stage,
-                         const ff_result *result, const accuracy_error *like,
-                         const ff_pipeline *other, memory_arena *arena)
-{
-    const double *numbers = accuracy_numbers_like(pipeline, stage, result, other, arena);
-    const ff_result *along = accuracy_axis_of(pipeline, stage, result);
-    const accuracy_series answer = {result->rank, result->count, along ? along->data : NULL,
-                                    result->data, like->zero,    like->absolute};
-    double *off = memory_arena_alloc(arena, result->count * sizeof *off + 1), largest;
-    if (!numbers)
-        return NAN;
-    for (size_t i = 0; i < result->count; i++)
-        off[i] = fabs(numbers[i] - result->data[i]);
-    return accuracy_relative(off, &answer, &largest);
-}
-
 /* Why there is no finer twin: what was noted when it was run here, or what an earlier run said. */
 static const char *why_not(accuracy_record *record, const accuracy_twin *finer)
 {
@@ -313,8 +297,8 @@ bool accuracy_check_twin(accuracy_record *record, const ff_run *run, ff_engine *
     record->failure = before ? before : record->failure;
     for (size_t i = 0; i < record->count; i++) {
         accuracy_error *e = &record->errors[i];
-        e->apart = finer->good ? accuracy_distance(t.answer, e->stage, e->result, e,
-                                                   finer->pipeline, &record->arena)
+        e->apart = finer->good ? accuracy_distance(t.answer, e->stage, e->result, e->zero,
+                                                   e->absolute, finer->pipeline, &record->arena)
                                : (double)NAN;
     }
     const bool stopped = own.stopped;

@@ -105,11 +105,6 @@ bool accuracy_measure(accuracy_record *record, const ff_run *run, ff_engine *eng
  */
 bool accuracy_check_twin(accuracy_record *record, const ff_run *run, ff_engine *engine,
                          const ff_observer *watch);
-/* Difference of a result and the same one in another pipeline, stated as the error `like`; NaN if
-   the two cannot be compared. */
-double accuracy_distance(const ff_pipeline *pipeline, const ff_stage *stage,
-                         const ff_result *result, const accuracy_error *like,
-                         const ff_pipeline *other, memory_arena *arena);
 void accuracy_free(accuracy_record *record);
 
 /* NULL if the output's error was not measured. */

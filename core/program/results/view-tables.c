@@ -2,11 +2,21 @@
 /* Fills the tables of a view from the JSON that a run or a study left. */
 #include "view-tables.h"
 
+#include <assert.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+size_t results_view_point(const results_view *view, size_t index, size_t dimension)
+{
+    assert(dimension < view->dimension_count);
+    size_t d;
+    for (d = view->dimension_count; d-- > dimension + 1;)
+        index /= view->lengths[d];
+    return index % view->lengths[dimension];
+}
 
 const char *results_view_text(results_reader *reader, const json_t *text)
 {

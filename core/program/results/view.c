@@ -14,15 +14,6 @@
 #include <string.h>
 #include <unistd.h>
 
-size_t results_view_point(const results_view *view, size_t index, size_t dimension)
-{
-    assert(dimension < view->dimension_count);
-    size_t d;
-    for (d = view->dimension_count; d-- > dimension + 1;)
-        index /= view->lengths[d];
-    return index % view->lengths[dimension];
-}
-
 bool results_view_is_coordinate(const results_view_variable *series,
                                 const results_view_variable *other, uint32_t dim)
 {

@@ -159,8 +159,10 @@ int dynamics_excitation_build(dynamics_excitation *excitation, const dynamics_me
 void dynamics_excitation_free(dynamics_excitation *excitation)
 {
     free(excitation->pieces);
+    free(excitation->back.pieces);
+    free(excitation->flight.pieces);
     excitation->pieces = NULL;
-    dynamics_tracks_free(excitation);
+    excitation->back = excitation->flight = (dynamics_track){NULL, 0};
 }
 
 const dynamics_piece *dynamics_track_piece(dynamics_track track, double phase, int left)

@@ -103,10 +103,3 @@ int dynamics_tracks_add_flight(dynamics_excitation *x, double share)
                               pieces[j].e[0]) > round_off;
     return 1;
 }
-
-void dynamics_tracks_free(dynamics_excitation *x)
-{
-    free(x->back.pieces);
-    free(x->flight.pieces);
-    x->back = x->flight = (dynamics_track){NULL, 0};
-}

@@ -59,6 +59,4 @@ double dynamics_back_lowest(const dynamics_excitation *x);
  * in the middle of the gap. 0: out of memory. */
 int dynamics_tracks_add_flight(dynamics_excitation *x, double share);
 
-void dynamics_tracks_free(dynamics_excitation *x);
-
 #endif
