@@ -10,14 +10,15 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Pointer, row count and stride of a static table, in the order of the fields of ff_model. */
+/* Pointer, row count and stride of a static table, in the order of the members of ff_model. */
 #define FF_TABLE(rows) (rows), sizeof(rows) / sizeof((rows)[0]), sizeof((rows)[0])
 #define FF_NO_TABLE    NULL, 0, 0
 
 /*
- * Rows of parameters whose values the core writes into a member of the instance, a struct `type`. A
- * member of another C type than the row's does not compile. `flags`, `group`, limits and counts as
- * in ff_param; `preset` and `group` may be NULL, limits 0, 0.
+ * Parameter rows with a `place`: the engine writes the value into `member` of the instance, which
+ * is a struct `type`. If the C type of the member does not fit the row, the code does not compile.
+ * `flags`, `group`, limits and counts are as in ff_param. `preset` and `group` may be NULL; limits
+ * 0, 0 mean none.
  *
  *   static const ff_param params[] = {
  *       FF_QUANTITY("alpha", "1/GPa", barus, alpha, FF_REQUIRED, NULL, NULL, 0, 1000, 2, 50,
@@ -26,12 +27,12 @@
  */
 #define FF_QUANTITY(name, unit, type, member, flags, preset, group, min, max, low, high, doc)      \
     FF_QUANTITY_OR(NULL, name, unit, type, member, flags, preset, group, min, max, low, high, doc)
-/* `wire`, the name of an optional service input, replaces the parameter: ff_param.instead. */
+/* `wire` is an optional input that replaces the parameter: ff_param.instead. */
 #define FF_QUANTITY_UNLESS(wire, name, unit, type, member, flags, preset, group, min, max, low,    \
                            high, doc)                                                              \
     FF_ROW_UNLESS(wire, name, unit, doc, FF_REAL, flags, preset, NULL, group, min, max, low, high, \
                   0, 0, FF_PLACE(type, member, double))
-/* `words`, "auto", are accepted beside a number. */
+/* `words`, such as "auto", are accepted instead of a number. */
 #define FF_QUANTITY_OR(words, name, unit, type, member, flags, preset, group, min, max, low, high, \
                        doc)                                                                        \
     FF_ROW(name, unit, doc, FF_REAL, flags, preset, words, group, min, max, low, high, 0, 0,       \
@@ -55,7 +56,7 @@
                   FF_PLACE(type, member, const char *))
 #define FF_PHRASE(name, type, member, flags, preset, group, doc)                                   \
     FF_PHRASE_LIKE(NULL, name, type, member, flags, preset, group, doc)
-/* `examples`, "ISO VG 46|ISO VG 220", are texts that the model takes. */
+/* `examples`, such as "ISO VG 46|ISO VG 220", are texts that the model accepts. */
 #define FF_PHRASE_LIKE(examples, name, type, member, flags, preset, group, doc)                    \
     FF_ROW(name, "", doc, FF_TEXT, flags, preset, examples, group, 0, 0, 0, 0, 0, 0,               \
            FF_PLACE(type, member, const char *))
@@ -114,7 +115,7 @@ FF_UNUSED FF_PRINTF(4, 5) static ff_status
     return host->fail(host->ctx, status, item, text);
 }
 
-/* host->serves, for each row that holds; `holds` is a condition on the settings. */
+/* The arguments of one call of host->serves; it is made if `holds`, a condition on the settings. */
 typedef struct ff_serving {
     int holds;
     const char *item, *outputs, *by, *text;
@@ -127,7 +128,7 @@ FF_UNUSED static void ff_serve(const ff_host *host, const ff_serving *rows, size
             host->serves(host->ctx, rows[i].item, rows[i].outputs, rows[i].by, rows[i].text);
 }
 
-/* Gives a scalar output. */
+/* Writes a scalar output. */
 FF_UNUSED static ff_status ff_put_scalar(const ff_host *host, uint32_t output, double value)
 {
     double *data = host->output(host->ctx, output, 0, NULL);
@@ -137,26 +138,25 @@ FF_UNUSED static ff_status ff_put_scalar(const ff_host *host, uint32_t output, d
     return FF_OK;
 }
 
-/* Memory of a one-dimensional output. */
+/* Allocates a one-dimensional output. */
 FF_UNUSED static double *ff_put_series(const ff_host *host, uint32_t output, size_t count)
 {
     return host->output(host->ctx, output, 1, &count);
 }
 
-/* Of a list of one value for both gears or surfaces, or of one for each: that of number i, 0 or 1.
-   NaN where the list was not given. */
+/* The value of gear or surface i, 0 or 1, from a list with one value for both or one for each. NaN
+   if the list was not given. */
 FF_UNUSED static double ff_of_both(const ff_reals *list, int i)
 {
     return list->count == 0 ? NAN : list->data[list->count > 1 ? i : 0];
 }
 
 /*
- * C only: descriptors, with their members by name, and what the object exports, at the end of a
- * file.
+ * For C only: macros that define a descriptor, by named members, and the exported function.
  *
- * FF_MODEL defines the descriptor `name` of a model whose instance is a struct `type` with a member
- * `const ff_host *host`; create makes it, zeroed. A model with nothing else to free says
- * `.destroy = free`.
+ * FF_MODEL defines the descriptor `name` of a model. Its instance is a struct `type` with a member
+ * `const ff_host *host`; the generated create allocates it, zeroed. If nothing else is to be freed,
+ * write `.destroy = free`.
  *
  *   FF_MODEL(steady_model, steady, .id = "operating/steady", .version = "1.0.0", ...,
  *            .params = FF_TABLE(params), .evaluate = evaluate, .destroy = free);
@@ -174,14 +174,14 @@ FF_UNUSED static double ff_of_both(const ff_reals *list, int i)
     }                                                                                              \
     const ff_model name = {FF_HEAD(type, name##_create), __VA_ARGS__}
 
-/* The members of a descriptor that are the same in all. */
+/* The descriptor members that are equal for all models. */
 #define FF_HEAD(type, maker)                                                                       \
     .size = sizeof(ff_model), .abi_major = FF_ABI_MAJOR, .abi_minor = FF_ABI_MINOR,                \
     .self_size = sizeof(type), .create = maker
 
 /*
- * The same for models that offer one service and nothing else. The instance has a member `service`
- * beside `host`, which create fills with `table`. Laws, with laws.h:
+ * FF_MODEL for models that offer exactly one service. The instance has a member `service` in
+ * addition to `host`; the generated create fills it with `table`. Laws, with laws.h:
  *
  *   FF_VISCOSITY_LAW(barus_law, barus, eval, .id = "viscosity/barus", ..., .cost = 1e-3);
  */
@@ -216,8 +216,8 @@ FF_UNUSED static double ff_of_both(const ff_reals *list, int i)
     const ff_model law = {FF_HEAD(type, law##_create), .outputs = FF_TABLE(law##_output),          \
                           .service = law##_service, .destroy = free, __VA_ARGS__}
 
-/* A rheology that offers flankfilm.rheology/2, too: the instance has a member `service_2` beside
-   `service`. */
+/* A rheology that also offers flankfilm.rheology/2. The instance has a member `service_2` in
+   addition to `service`. */
 #define FF_RHEOLOGY_2_LAW(law, type, flow, shear, rate, ...)                                       \
     static ff_status law##_create(const ff_host *host, void **self)                                \
     {                                                                                              \
@@ -246,7 +246,7 @@ FF_UNUSED static double ff_of_both(const ff_reals *list, int i)
     const ff_model law = {FF_HEAD(type, law##_create), .outputs = FF_TABLE(law##_output),          \
                           .service = law##_service, .destroy = free, __VA_ARGS__}
 
-/* Defines what the object exports: one descriptor or several. */
+/* Defines the exported function, for one or more descriptors. */
 #define FF_EXPORT_MODELS(...)                                                                      \
     const ff_model *const *flankfilm_models_v1(void)                                               \
     {                                                                                              \

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Service "flankfilm.executor/1": spreads the tasks of a study over processes.
+ * Service "flankfilm.executor/1": distributes the tasks of a study over processes.
  *
- * A model of the kind "executor" that offers it is no stage of a pipeline: `--executor NAME` uses
- * it. The same command line is started in every process that takes part - how, is the user's or
- * the scheduler's affair - and each calls `run` once. One of them leads: it alone takes numbers of
- * tasks from the study and writes the journal. Any of them works on tasks that reach it, also the
- * one that leads. The executor carries numbers one way and answers, which are opaque bytes, the
- * other way. All of it in one process, as an example:
+ * A model of kind "executor" is not a stage of a pipeline; `--executor NAME` selects it. The user
+ * or the scheduler starts the same command line in each process, and each process calls `run` once.
+ * One process leads: it alone takes task numbers from the study and writes the journal. Every
+ * process works on the tasks that it receives, and so does the leading one. The executor transports
+ * task numbers in one direction and answers, which are opaque bytes, in the other. A complete
+ * example for a single process:
  *
  *     size_t task, size, busy = 0;
  *     const void *answer;
@@ -24,8 +24,9 @@
  *     }
  *     return FF_STOPPED;
  *
- * A task runs in a process of its own that stems from before `run`: whatever a model does there -
- * crash, hang, eat memory - comes back as an answer, and nothing that `run` opens is inherited.
+ * A task runs in a process of its own, forked from a process that was started before `run`. If a
+ * model crashes, hangs or exhausts the memory, this is reported as an answer. The task process
+ * inherits nothing that `run` opens.
  */
 #ifndef FLANKFILM_EXECUTOR_H
 #define FLANKFILM_EXECUTOR_H
@@ -38,29 +39,30 @@ extern "C" {
 
 #define FF_EXECUTOR_ID "flankfilm.executor/1"
 
-/* What take found. */
+/* Result of `take`. */
 enum {
-    FF_TASK_GONE = -1,  /* the tasks of this process cannot go on: end `run` */
-    FF_TASK_NONE = 0,   /* nothing yet */
-    FF_TASK_ANSWER = 1, /* an answer; more of the same task follow */
-    FF_TASK_OVER = 2    /* the last answer of a task: its slot is free */
+    FF_TASK_GONE = -1,  /* this process can run no more tasks: end `run` */
+    FF_TASK_NONE = 0,   /* no answer yet */
+    FF_TASK_ANSWER = 1, /* an answer; more answers of the same task follow */
+    FF_TASK_OVER = 2    /* the last answer of a task; its slot is free again */
 };
 
-/* What the program hands to an executor; valid during `run`, for the thread that called it. */
+/* The functions that the program gives to an executor; only the thread that called `run` may use
+   them, during `run`. */
 typedef struct ff_tasks {
     size_t size;
     void *ctx;    /* first argument of every function below */
-    size_t slots; /* tasks that this process can work on at a time */
+    size_t slots; /* number of tasks that this process can run in parallel */
 
-    /* In the leading process. `lead` comes first, before a task is given anywhere; negative: the
-       results cannot be written, so end `run` everywhere. `next`: 0 when none is left, also since
-       the study is to stop: those at work are still to be waited for. */
+    /* For the leading process. Call `lead` first, before any task is given to a process; if it is
+       negative, results cannot be written: end `run` in all processes. `next` returns 0 if no task
+       is left or the study is to stop; then wait for the running tasks. */
     int32_t (*lead)(void *ctx);
     int32_t (*next)(void *ctx, size_t *task);
     void (*note)(void *ctx, const void *answer, size_t size);
 
-    /* In every process. `give` needs a free slot and never waits; `take` waits up to `milliseconds`
-       for an answer, which is valid until the next call. */
+    /* For every process. `give` starts a task; it needs a free slot and never waits. `take` waits
+       up to `milliseconds` for an answer, which is valid until the next call. */
     void (*give)(void *ctx, size_t task);
     int32_t (*take)(void *ctx, int32_t milliseconds, size_t *task, const void **answer,
                     size_t *size);
@@ -69,8 +71,9 @@ typedef struct ff_tasks {
 typedef struct ff_executor {
     size_t size;
     void *self;
-    /* Returns when all is done, in every process. FF_OK, or a status after host->fail. Processes
-       and threads, communicators and sockets begin here and end here. */
+    /* Returns when all tasks are done, in every process: FF_OK, or a status after host->fail. All
+       processes, threads, communicators and sockets of the executor are created and closed inside
+       `run`. */
     ff_status (*run)(void *self, const ff_tasks *tasks);
 } ff_executor;
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * One history at the instants of another; header only, C99 and C++.
+ * Interpolates a history at the instants of another one; header only, C99 and C++.
  *
- * A stage that takes a film and its contact has two histories of different lengths, since names of
- * dimensions belong to a wire: "ehl.t" has the steps of the film, "contact.t" the instants of the
- * load. ff_history_at gives the one at the instants of the other.
+ * A stage that takes a film and its contact has two histories of different lengths, since dimension
+ * names belong to a wire: "ehl.t" has the steps of the film, "contact.t" the instants of the load.
+ * ff_history_at interpolates one history at the instants of the other.
  */
 #ifndef FLANKFILM_HISTORY_H
 #define FLANKFILM_HISTORY_H
@@ -16,14 +16,16 @@ extern "C" {
 #endif
 
 /*
- * Fills in `out` with the history `y` over the instants `t`, `n` of them, at the `m` instants `at`,
- * linear in between. Neither may decrease. At an instant of both the value is that of `y`, to the
- * last bit. An instant that stands twice is a jump, where a further pair of teeth begins: the first
- * takes what is before it and the last what is after it, on both sides; a single one takes what is
- * after it.
+ * Interpolates the history `y` at n instants `t` linearly at the m instants `at`, and writes the
+ * result to `out`. Neither `t` nor `at` may decrease. At an instant that is in both, `out` equals
+ * `y` bitwise. A repeated instant is a jump, where another pair of teeth enters contact. For an
+ * instant that is repeated in `t` and in `at`, the first `out` is the value before the jump and the
+ * last `out` the value after it. For an instant that is repeated in `t` only, `out` is the value
+ * after the jump.
  *
- * FF_OK; FF_DOMAIN: some instants lie outside of `t`, and have the value of the nearer end there;
- * FF_INVALID: nothing was filled in, since n is 0 while m is not, or instants decrease or are NaN.
+ * FF_OK; FF_DOMAIN: some instants lie outside of `t` and have the value of the nearer end;
+ * FF_INVALID: nothing was written, because n is 0 but m is not, or because instants decrease or are
+ * NaN.
  */
 static inline ff_status ff_history_at(size_t n, const double *t, const double *y, size_t m,
                                       const double *at, double *out)
@@ -39,9 +41,10 @@ static inline ff_status ff_history_at(size_t n, const double *t, const double *y
         if (!(at[i] - at[i] == 0) || (i > 0 && !(at[i - 1] <= at[i])))
             return FF_INVALID;
     for (i = 0; i < m; i++) {
-        const int before = i + 1 < m && at[i + 1] == at[i]; /* a jump begins here */
+        /* `at` has a jump here, and i is its first instant */
+        const int before = i + 1 < m && at[i + 1] == at[i];
         while (k < n && (t[k] < at[i] || (!before && k + 1 < n && t[k + 1] == at[i])))
-            k++; /* the first instant that is not before, or the last of equal ones */
+            k++; /* now k is the first instant >= at[i], or the last of several equal ones */
         if (k == n || (k == 0 && t[0] > at[i])) {
             out[i] = y[k == n ? n - 1 : 0];
             status = FF_DOMAIN;

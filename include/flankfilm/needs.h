@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What an output needs: an extension of the host, for models that do not give an output without a
- * parameter or an input. The program then knows before anything runs: an output that somebody needs
- * is an error that names who; any other is left out, and what it feeds does without it. A program
- * without the extension is not told, so that evaluate refuses the output as well (FF_UNSUPPORTED).
+ * Host extension "flankfilm.needs/1": outputs that a model cannot give without a certain parameter
+ * or input. With it, the program detects missing values before the run. If such an output is
+ * required, the program reports an error that names the user of the output. Otherwise it skips the
+ * output, and the stages that use it run without it. Some hosts do not have this extension, so
+ * evaluate must also refuse the output (FF_UNSUPPORTED).
  */
 #ifndef FLANKFILM_NEEDS_H
 #define FLANKFILM_NEEDS_H
@@ -16,16 +17,16 @@ extern "C" {
 
 #define FF_NEEDS_ID "flankfilm.needs/1"
 
-/* What host->extension(ctx, FF_NEEDS_ID) gives. */
+/* The result of host->extension(ctx, FF_NEEDS_ID). */
 typedef struct ff_needs {
     size_t size;
-    /* In ready. With these settings the outputs in the list "safety|own_safety" are not given
-       without one of `items`, parameters, inputs or wires: "ehl.h_min|roughness". `text`: what is
-       missing, "this output needs a film". */
+    /* Call it in ready. With these settings the model cannot give the outputs in the list
+       "safety|own_safety" without one of `items`, which lists parameters, inputs or wires:
+       "ehl.h_min|roughness". `text` says what is missing: "this output needs a film". */
     void (*tell)(void *ctx, const char *items, const char *outputs, const char *text);
 } ff_needs;
 
-/* A row of them; `holds` is a condition on the settings. */
+/* The arguments of one call of `tell`; it is made if `holds`, a condition on the settings. */
 typedef struct ff_need {
     int holds;
     const char *items, *outputs, *text;

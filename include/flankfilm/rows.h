@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The tables of a model, for programs and for plugins that look at other models; header only. */
+/* Access to the tables of a model, for programs and for plugins that examine other models; header
+   only. */
 #ifndef FLANKFILM_ROWS_H
 #define FLANKFILM_ROWS_H
 
@@ -7,14 +8,15 @@
 
 #include <string.h>
 
-/* Rows by the model's own stride; index in range. */
+/* The row with this index, addressed by the stride in the descriptor; the index must be in
+   range. */
 FF_UNUSED static const ff_param *ff_model_param(const ff_model *model, size_t index)
 {
     const void *row = (const char *)model->params + index * model->param_stride;
     return (const ff_param *)row;
 }
 
-/* Columns of the tables that the model reads. */
+/* The columns of the tables that the model reads. */
 FF_UNUSED static size_t ff_model_columns(const ff_model *model)
 {
     return FF_HAS(model, column_stride) ? model->column_count : 0;
@@ -38,7 +40,7 @@ FF_UNUSED static const ff_port *ff_model_output(const ff_model *model, size_t in
     return (const ff_port *)row;
 }
 
-/* Rank of the row with that name, or -1. */
+/* Index of the row with this name, or -1. */
 FF_UNUSED static int ff_model_find_param(const ff_model *model, const char *name)
 {
     for (size_t i = 0; i < model->param_count; i++)
@@ -63,7 +65,7 @@ FF_UNUSED static int ff_model_find_output(const ff_model *model, const char *nam
     return -1;
 }
 
-/* The output that offers the service of that interface, or -1. */
+/* Index of the output that offers the service with this interface id, or -1. */
 FF_UNUSED static int ff_model_find_service(const ff_model *model, const char *interface)
 {
     for (size_t i = 0; i < model->output_count; i++) {
@@ -74,13 +76,13 @@ FF_UNUSED static int ff_model_find_service(const ff_model *model, const char *in
     return -1;
 }
 
-/* What the model says that it costs, in s; 0: nothing. */
+/* The cost that the model declares, in s; 0: none. */
 FF_UNUSED static double ff_model_cost(const ff_model *model)
 {
     return FF_HAS(model, cost) && model->cost > 0 ? model->cost : 0;
 }
 
-/* True for each word of "a|b|c" in turn: word number `rank` is copied out. */
+/* Copies word number `rank` of "a|b|c" into `out`. Returns 0 if there is no such word. */
 FF_UNUSED static int ff_word_at(const char *words, size_t rank, char *out, size_t size)
 {
     for (; words && rank > 0; rank--) {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Exponential and logarithm for loops over points. They have no branch and no table, so that the
- * compiler turns a loop with them into vector instructions; libm's are calls, which it does not
- * vectorise. A law of viscosity:
+ * Exponential and logarithm for loops over points. They have no branches and no tables, so that the
+ * compiler can vectorise a loop that calls them; it cannot vectorise calls to libm. An example, a
+ * viscosity law:
  *
  *   FF_SIMD
  *   static void barus(size_t n, const double *restrict p, double alpha, double *restrict eta)
@@ -11,10 +11,11 @@
  *           eta[i] = ff_exp(alpha * p[i]);
  *   }
  *
- * Both are within 1 ulp for every argument: overflow, subnormal numbers, infinities and NaN as in
- * libm, without errno. They need the rounding mode to nearest, and no -ffast-math. The bits are
- * the same on every processor and at any width of the vectors in FF_SIMD functions; elsewhere, if
- * the compiler contracts no products with sums (-ffp-contract=off, which -std=c11 implies in gcc).
+ * Both are accurate to 1 ulp for every argument. Overflow, subnormal numbers, infinities and NaN
+ * are as in libm, but errno is not set. They require round-to-nearest and no -ffast-math. In
+ * FF_SIMD functions the result is bitwise equal on every processor and for every vector width. In
+ * other functions this needs a compiler that does not contract products and sums
+ * (-ffp-contract=off, which -std=c11 implies in gcc).
  */
 #ifndef FLANKFILM_SIMD_H
 #define FLANKFILM_SIMD_H
@@ -24,16 +25,16 @@
 #include <string.h>
 
 /*
- * FF_SIMD stands before a function whose loops are to be vectorised, in gcc at -O2, too. With gcc
- * on x86-64 and glibc the loader chooses its AVX2 version where the processor has it; both versions
- * give the same bits. Elsewhere there is one: indirect functions (ELF's ifunc) are missing there,
- * or, in clang before 18, their names are not those that other files link to; and gcc's thread
- * sanitizer calls its runtime from the chooser, before the loader has linked it. The pointers of
- * such a loop are best `restrict` parameters, its choices `?:` between values that are computed
- * anyway.
+ * FF_SIMD before a function vectorises its loops, in gcc also at -O2. With gcc, x86-64 and glibc
+ * there is also an AVX2 version, which the loader selects if the processor supports it; both
+ * versions give bitwise equal results. Elsewhere there is only one version. Reasons: other systems
+ * have no indirect functions (ELF ifunc); clang before 18 gives them names that other object files
+ * do not link to; and gcc's thread sanitizer would call its runtime in the selecting function,
+ * before the loader has linked it. For best results, pass the arrays of such a loop as `restrict`
+ * parameters, and write choices as `?:` between values that are computed in any case.
  *
- * FF_SIMD_LOOP stands before a loop over more arrays than parameters can name: it says that no pass
- * of it needs what another one writes.
+ * FF_SIMD_LOOP before a loop asserts that no iteration needs what another one writes. It serves
+ * loops over more arrays than there are parameters.
  */
 #if defined(__GNUC__) && !defined(__clang__)
 #if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_THREAD__)
@@ -72,18 +73,20 @@ FF_SIMD_INLINE double ff_simd_from_bits(uint64_t bits)
 }
 
 /*
- * e^x = 2^k e^r with k the integer next to x/ln 2 and |r| < 0.3467, where a polynomial of degree 11
- * is e^r to 0.12 of 2^-53. ln 2 is a sum of two numbers, so that k times the first is exact.
+ * e^x = 2^k e^r, where k is the integer nearest to x/ln 2 and |r| < 0.3467. A polynomial of degree
+ * 11 approximates e^r with an error of 0.12 of 2^-53. ln 2 is the sum of two numbers, of which k
+ * times the first is exact.
  */
 FF_SIMD_INLINE double ff_exp(double x)
 {
 #if defined(__clang__)
 #pragma STDC FP_CONTRACT OFF
 #endif
-    /* 2^52 3/2: what is added to it is rounded to an integer, in the lowest bits of the sum */
+    /* 1.5 * 2^52: adding it rounds a number to an integer, which is in the lowest bits of the
+       sum */
     const double whole = 6755399441055744.0;
     const double ln2 = 0.69314718055989033, ln2_rest = 5.4979230187083712e-14;
-    /* beyond these the result is infinite, or 0; NaN stays */
+    /* beyond these limits the result is infinite or 0; NaN stays NaN */
     double y = x > 710.0 ? 710.0 : x;
     y = y < -746.0 ? -746.0 : y;
     double k = (y * 1.4426950408889634 + whole) - whole;
@@ -98,10 +101,10 @@ FF_SIMD_INLINE double ff_exp(double x)
     p = p * r + 0.04166666666662413;
     p = p * r + 0.16666666666666669;
     p = p * r + 0.5000000000000001;
-    /* 1 + high without an error, and the rest */
+    /* 1 + high as a rounded sum and its exact rounding error */
     double one = 1.0 + high, rest = high - (one - 1.0);
     double near_one = one + (rest + (p * r * r - low));
-    /* 2^k in two factors, of which neither overflows */
+    /* 2^k as two factors, neither of which overflows */
     double half = k * 0.5 + whole, other = (k - (half - whole)) + whole;
     const uint64_t bias = (uint64_t)1023 << 52;
     double power = ff_simd_from_bits((ff_simd_bits(half) << 52) + bias);
@@ -110,9 +113,9 @@ FF_SIMD_INLINE double ff_exp(double x)
 }
 
 /*
- * ln x = k ln 2 + ln(1 + f) with x = 2^k (1 + f) and 1 + f between sqrt(1/2) and sqrt(2). With
- * s = f/(2 + f), ln(1 + f) = 2 s + s R = f - f^2/2 + s (f^2/2 + R); R is a polynomial of degree 7
- * in s^2, of which an error of 2^-56 is left.
+ * ln x = k ln 2 + ln(1 + f), where x = 2^k (1 + f) and 1 + f lies between sqrt(1/2) and sqrt(2).
+ * With s = f/(2 + f), ln(1 + f) = 2 s + s R = f - f^2/2 + s (f^2/2 + R). R is approximated by a
+ * polynomial of degree 7 in s^2 with an error of 2^-56.
  */
 FF_SIMD_INLINE double ff_log(double x)
 {
@@ -127,7 +130,7 @@ FF_SIMD_INLINE double ff_log(double x)
     const int subnormal = x < 2.2250738585072014e-308;
     double y = subnormal ? x * 18014398509481984.0 : x, bias = subnormal ? 1077.0 : 1023.0;
     uint64_t bits = ff_simd_bits(y) + (one - root_of_half);
-    /* an integer in the lowest bits of 2^52 */
+    /* converts the exponent to a double: an integer in the lowest bits of 2^52 */
     double k = ff_simd_from_bits((bits >> 52) + ((uint64_t)0x433 << 52)) - 4503599627370496.0;
     double f = ff_simd_from_bits((bits & fraction) + root_of_half) - 1.0;
     k -= bias;
@@ -139,7 +142,7 @@ FF_SIMD_INLINE double ff_log(double x)
     p = p * z + 0.28571428625975487;
     p = p * z + 0.39999999999899505;
     p = p * z + 0.666666666666667;
-    /* k ln 2 + f without an error, and the rest */
+    /* k ln 2 + f as a rounded sum and its exact rounding error */
     double high = k * ln2, sum = high + f, rest = f - (sum - high);
     double ln = sum + (rest + ((s * (half_square + p * z) + k * ln2_rest) - half_square));
     ln = x < infinity ? ln : x;
