@@ -169,7 +169,7 @@ class Directory(lab.Lab):
         self.assertEqual(len(rows), 6)
         self.assertIn(",ok,", rows[0])
         self.assertEqual([",not run," in row for row in rows[1:]], [True] * 5)
-        self.assertIn("Of 6 cases 1 are good, 0 doubtful, 0 bad and 0 failed; 5 not run: ", self.page("results/sweep"))
+        self.assertIn("Of 6 cases, 1 are good, 0 doubtful, 0 bad and 0 failed; 5 not run: ", self.page("results/sweep"))
 
     def test_unfinished_study_of_the_same_cases(self):
         """What they were before the file changed is not what they are: the sweep alone does not tell."""
@@ -180,7 +180,7 @@ class Directory(lab.Lab):
         time.sleep(0.5)
         process.kill()
         process.wait()
-        self.assertIn("Of 3 cases 0 are good, 0 doubtful, 0 bad and 0 failed; 3 not run: ", self.page("results/sweep"))
+        self.assertIn("Of 3 cases, 0 are good, 0 doubtful, 0 bad and 0 failed; 3 not run: ", self.page("results/sweep"))
 
     def page(self, directory):
         self.call("report", directory)
