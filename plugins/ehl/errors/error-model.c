@@ -363,18 +363,17 @@ static void record_bounds(ehl_results *r, const ehl_march *m, double h_central, 
 /* Replaces the bounds of the errors by the cells with the computed errors. The film of a rigid
  * cylinder feels its end move from node to node, which the linear equation of the errors does not
  * show: there the bound stays if it is larger. */
-static void put_transported(ehl_results *r, const ehl_march *m, int rigid)
+static void put_transported(ehl_results *r, const ehl_transported *e, const contact *c)
 {
     const double film[] = {r->row[EHL_H_MIN], r->row[EHL_H_CENTRAL]};
-    double error[] = {INFINITY, INFINITY};
-    if (m->transport->known)
-        ehl_results_transported(r, m, error);
+    const int rigid = c->opening > 2 * c->a;
     for (int k = EHL_LEAST; k <= EHL_CENTRAL; k++) {
-        double share = ehl_known_error(error[k]), *part = &r->row_in_space[k];
-        if (!rigid || !(fabs(share) * film[k] <= *part))
+        double share = ehl_known_error(e->by_cells[k] / film[k]), *part = &r->row_in_space[k];
+        if (!rigid || fabs(share) * film[k] > *part)
             *part = share * film[k];
         r->row_in_space[EHL_MEASURED + k] = 1;
     }
+    r->transported = 1;
 }
 
 static void keep_least(double *least, double value)
@@ -388,8 +387,17 @@ void ehl_results_errors(ehl_results *r, const ehl_march *m, size_t node, double 
 {
     const ehl_grid *g = m->solver->grid;
     size_t centre = (size_t)(g->inlet / g->dx + 0.5);
-    double time[] = {EHL_CAUTION * accumulated_error_near(m, node),
-                     EHL_CAUTION * accumulated_error_near(m, centre)};
+    double time[] = {accumulated_error_near(m, node), accumulated_error_near(m, centre)};
+    const int transported = m->transport && m->transport->known;
+    ehl_transported e;
+    if (transported) {
+        e = ehl_results_transported(r, m);
+        const double film[] = {r->row[EHL_H_MIN], r->row[EHL_H_CENTRAL]};
+        for (int k = EHL_LEAST; k <= EHL_CENTRAL; k++) {
+            double by_steps = fabs(e.by_steps[k]) / film[k];
+            time[k] = m->distance_of_jump > 0 ? fmax(time[k], by_steps) : by_steps;
+        }
+    }
     if (ehl_march_is_loaded(m)) {
         const ehl_reynolds *eq = m->solver->reynolds;
         contact c = contact_at(eq, &m->at, m->history->modulus, h_central);
@@ -401,13 +409,11 @@ void ehl_results_errors(ehl_results *r, const ehl_march *m, size_t node, double 
         };
         record_resolution(r, m, h_central, &c);
         record_bounds(r, m, h_central, p_max, carried, &c);
-        if (m->transport)
-            put_transported(r, m, c.opening > 2 * c.a);
+        if (transported)
+            put_transported(r, &e, &c);
         for (int k = EHL_LEAST; k <= EHL_CENTRAL; k++)
             ehl_worse(&r->worst_in_time[k], time[k]);
         keep_least(&r->least_in_time, r->row[EHL_H_MIN] * (1 - time[EHL_LEAST]));
-    } else if (m->transport && r->lowest_alone) { /* the lowest film may be one without load */
-        put_transported(r, m, 0);
     }
     r->row[EHL_H_MIN_ERROR] = time[EHL_LEAST] * r->row[EHL_H_MIN];
     r->row[EHL_H_CENTRAL_ERROR] = time[EHL_CENTRAL] * r->row[EHL_H_CENTRAL];

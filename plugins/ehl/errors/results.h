@@ -16,9 +16,6 @@
  * the film is not computed on more cells. */
 enum { EHL_MEASURED = EHL_BOUNDS, EHL_NARROW = EHL_MEASURED + EHL_BOUNDS, EHL_TIP, EHL_SPACE };
 
-/* A bar is this many times the error, which is that of a linear equation. */
-#define EHL_CAUTION 1.5
-
 /* A table of rows of equal width, which grows, since their number is only known at the end. */
 typedef struct ehl_rows {
     double *data;
@@ -63,7 +60,8 @@ typedef struct ehl_results {
     double share;     /* share of the bound of p_max that remains at rows without a look; 1: all */
     ehl_look look[EHL_LOOKS]; /* in the order of their rows */
     size_t looks;
-    double known_by_cells;  /* largest error of the last passage, relative */
+    double known_error[2];  /* largest recent errors by the cells and by the steps, relative */
+    int transported;        /* errors of h_min and h_central come from their transport equation */
     int measured[EHL_PEAK]; /* 1: h_min, h_central were measured at some rows */
     int finest;             /* most cells used for that, over those of the run */
     size_t narrow;  /* most cells used for narrow peaks, over those of the run; 0: there are none */
@@ -94,9 +92,13 @@ double ehl_results_loss_in_time(const ehl_results *r, const ehl_march *m);
 void ehl_results_errors(ehl_results *r, const ehl_march *m, size_t node, double h_central,
                         double p_max);
 
-/* Fills in the bars of h_min and h_central of the newest film by the cells, from the transport of
- * its errors: relative, negative if the film is too thin. */
-void ehl_results_transported(ehl_results *r, const ehl_march *m, double *error);
+/* Errors of h_min and h_central of the newest film by the cells and by the steps, from their
+ * transport equation: bars in m, negative if the film is too thin. */
+typedef struct ehl_transported {
+    double by_cells[EHL_PEAK], by_steps[EHL_PEAK];
+} ehl_transported;
+
+ehl_transported ehl_results_transported(ehl_results *r, const ehl_march *m);
 
 /* Returns a bound of the error of p_max by the cells in the newest film of the march, Pa; infinite
  * if the cells do not resolve its peak. The reynolds must have the gap of that film. */

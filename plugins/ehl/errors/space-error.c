@@ -364,7 +364,7 @@ ff_status ehl_results_measure(ehl_results *r, const ehl_march *m, const ehl_hist
     ff_status status = FF_OK;
     if (r->rough || m->solver->outside)
         return FF_OK;
-    const int bounded = count > 1 && !m->transport;
+    const int bounded = count > 1 && !r->transported;
     if (bounded && ehl_wants_h_min(r->wanted))
         status = measure_film(r, m, &p, EHL_LEAST);
     if (status == FF_OK && bounded && ehl_wants_h_central(r->wanted))
@@ -397,7 +397,7 @@ static void report_cells(const ehl_results *r, const ehl_march *m, int kind, con
     else if (kind == EHL_PEAK && fabs(r->share - 1) > 0)
         snprintf(how, sizeof how, "; by its film on %d times the cells %.3g of what bounds it",
                  r->finest, r->share);
-    else if (kind != EHL_PEAK && m->transport)
+    else if (kind != EHL_PEAK && r->transported)
         snprintf(how, sizeof how, "; 1.5 times what their transport tells");
     else if (kind != EHL_PEAK && r->measured[kind])
         snprintf(how, sizeof how, "; measured by the last passage of the contact on more cells");

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * What a run of many instants states of its errors by the cells, against the same on eight times as
- * many: of a contact that does not change, of which as much is stated as of a steady film, and
- * whose peak has a bound that is too large and is measured; of one that swells, whose spike moves
- * with the outlet at more than half the speed of the oil and is another one than that of the steady
- * film; and of one whose load falls within a thirtieth of a passage, through which the film carries
- * a dip that few cells fill. Films below 2 % of the largest load are off as those before and
- * behind.
+ * many: of a contact that does not change, where the bound of the steady film is two to five times
+ * too large and is measured; of one that swells, whose spike moves with the outlet at more than
+ * half the speed of the oil and is another one than that of the steady film; and of one whose load
+ * falls within a thirtieth of a passage, through which the film carries a dip that few
+ * cells fill. Films below 2 % of the largest load are off as those before and behind.
  */
 #include "check.h"
 #include "line.h"
@@ -41,14 +40,10 @@ static void check_within(const char *what, double is, double says, double factor
     check_below("what is stated over it", says / is, factor);
 }
 
-/* A bar is 1.5 times the estimate, which is no more than a fifth too small, and at most `most`
-   times the error. */
-static void check_told(const char *what, double is, double says, double most)
+/* An error by the cells is told where what is stated is within a fifth of it. */
+static void check_told(const char *what, double is, double says)
 {
-    double estimate = says / 1.5;
-    printf("%s %.4f (%.4f)\n", what, is, estimate);
-    check_below("the error over its estimate", is / estimate, 1.2);
-    check_below("the estimate over the error", estimate / is, most);
+    check_within(what, is, says, 1.2);
 }
 
 /* Sets the cells of a domain that begins `inlet` half-widths in front of the contact: inlet: auto
@@ -59,16 +54,21 @@ static void set_cells(line *c, double cells, double inlet)
     stage_set(c->film, "inlet", inlet);
 }
 
-static void check_lowest(const char *what, void (*run)(line *c, double cells), double cells,
-                         double most)
+static void check_extreme(const char *output, const char *quality,
+                          void (*run)(line *c, double cells), double cells, double factor)
 {
     line c, fine;
     run(&c, cells);
     run(&fine, FINER * cells);
-    check_told(what, off_extreme(&c, &fine, "h_min_lowest"),
-               stage_quality(c.film, "h_min_space_error"), most);
+    check_within(output, off_extreme(&c, &fine, output), stage_quality(c.film, quality), factor);
     line_close(&c);
     line_close(&fine);
+}
+
+static void check_lowest(const char *what, void (*run)(line *c, double cells), double cells)
+{
+    printf("%s: ", what);
+    check_extreme("h_min_lowest", "h_min_space_error", run, cells, 1.2);
 }
 
 /* By the peak on 32 times the cells, Pa, which a run of the same scene on these has given. */
@@ -110,10 +110,11 @@ static void test_measured(void)
                error = fabs(line_value(&fine, output[k], 0) / line_value(&one, output[k], 0) - 1);
         printf("%s: error %.4f, stated %.4f, bound %.4f\n", output[k], error, stated, bound);
         check_true("the bound is doubtful", bound > (k < 2 ? 0.02 : 0.1));
-        if (k < 2)
-            check_near("as that of the steady film", stated, bound, 0.02);
-        else
-            check_below("stated over bound", stated / bound, 0.8);
+        check_below("stated over bound", stated / bound, 0.8);
+        if (k < 2) {
+            check_below("error over stated", error / stated, 1.2);
+            check_below("stated over error", stated / error, 1.5);
+        }
     }
     check_near("of the series",
                line_value(&few, "h_min_error", 100) / line_value(&few, "h_min", 100),
@@ -183,6 +184,9 @@ static void falling(line *c, double cells, double share, const char *wanted)
     falling_of(c, "ehl/finite-volume", "clip", cells, 640, share, wanted);
 }
 
+/* The largest of what twice the cells tell at each instant, by second order: that the worst
+   instants of both differ, and the fourth order, leave a fifth. The bound is twice what is true of
+   h_min. */
 static void test_carried(void)
 {
     line c, fine;
@@ -191,8 +195,8 @@ static void test_carried(void)
     double least = off(&c, &fine, "h_min"), central = off(&c, &fine, "h_central");
     double says = stage_quality(c.film, "h_min_space_error"),
            says_central = stage_quality(c.film, "h_central_space_error");
-    check_told("carried: h_min", least, says, 1.2);
-    check_told("carried: h_central", central, says_central, 1.2);
+    check_told("carried: h_min", least, says);
+    check_told("carried: h_central", central, says_central);
     line_close(&c);
     line_close(&fine);
 }
@@ -216,10 +220,9 @@ static void test_slow(void)
     line c, fine;
     slow(&c, 128);
     slow(&fine, FINER * 128);
-    check_told("slow: h_min", off(&c, &fine, "h_min"), stage_quality(c.film, "h_min_space_error"),
-               2);
+    check_told("slow: h_min", off(&c, &fine, "h_min"), stage_quality(c.film, "h_min_space_error"));
     check_told("slow: h_central", off(&c, &fine, "h_central"),
-               stage_quality(c.film, "h_central_space_error"), 2);
+               stage_quality(c.film, "h_central_space_error"));
     line_close(&c);
     line_close(&fine);
 }
@@ -275,7 +278,7 @@ static void test_carried_by_volumes(void)
     falling_of(&fine, "ehl/control-volume", "mass-conserving", FINER * 192, 640, 0.8, outputs);
     double central = off(&c, &fine, "h_central"),
            says = stage_quality(c.film, "h_central_space_error");
-    check_within("volumes: h_central", central, says, 1.2);
+    check_told("volumes: h_central", central, says);
     line_close(&c);
     line_close(&fine);
 }
@@ -303,7 +306,7 @@ static void test_light(void)
     double is = fabs(line_at(&fine, "h_central", within) / line_at(&c, "h_central", within) - 1),
            says = line_at(&c, "h_central_error", within) / line_at(&c, "h_central", within),
            says_before = line_at(&c, "h_central_error", before) / line_at(&c, "h_central", before);
-    check_told("light: h_central", is, says, 1.6);
+    check_within("light: h_central", is, says, 1.6);
     check_below("the bar before over it", says_before / says, 1.01);
     line_close(&c);
     line_close(&fine);
@@ -337,7 +340,8 @@ static void falling_by_much(line *c, double cells)
     falling(c, cells, 0.6, "h_min_lowest");
 }
 
-/* The end of the contact moves at 0.4 to 0.9 of the speed of the oil. */
+/* The end of the contact moves at 0.4 to 0.9 of the speed of the oil, and the bound, of films that
+   are steady, is half of what is true. */
 static void unloading_to(line *c, double share, double duration, double cells)
 {
     line_open(c, "ehl/finite-volume");
@@ -353,8 +357,8 @@ static void unloading(line *c, double cells)
     unloading_to(c, 0.2, 40e-6, cells);
 }
 
-/* The film is lowest where the load is below 2 %: an eighth of its error would be told by the films
-   before it. */
+/* The film is lowest where the load is below 2 %, of which no error is bounded: an eighth of it
+   would be told. */
 static void emptying(line *c, double cells)
 {
     unloading_to(c, 0.005, 60e-6, cells);
@@ -383,7 +387,7 @@ static void test_slowing(void)
     slowing(&c, 128);
     slowing(&fine, FINER * 128);
     double is = off(&c, &fine, "h_min"), says = stage_quality(c.film, "h_min_space_error");
-    check_within("slowing: h_min", is, says, 1.2);
+    check_told("slowing: h_min", is, says);
     line_close(&c);
     line_close(&fine);
 }
@@ -417,14 +421,17 @@ static void vibrating_by(line *c, double share, double period, double steps, dou
     check_true("runs", line_run(c, "h_min_lowest") == FF_OK);
 }
 
-/* A load that vibrates ten times in a passage, in steps of a fortieth of a cell. */
+/* A load that vibrates ten times in a passage: steps of a fifth of a cell make another film of it
+   than the run's own, of a fortieth, and the bound would stand, 4.7 times as large as what is true.
+ */
 static void vibrating(line *c, double cells)
 {
     vibrating_by(c, 0.2, 8e-6, 3200, 5.092, cells);
 }
 
 /* The outlet moves at up to five times the speed of the oil, and the error does not fall by four as
-   the cells are halved. */
+   the cells are halved: it would be 2.5 % by twice the cells where 2.1 is true, and the verdict
+   hangs on the order. */
 static void swaying(line *c, double cells)
 {
     vibrating_by(c, 0.6, 16e-6, 1600, 4.352, cells);
@@ -466,14 +473,13 @@ static void test_narrow(void)
 }
 
 /* Where no error of a film is estimated the cells of the inlet are told: without a film, and of a
-   lowest film of control volumes, of oil that becomes slow and fast again, under a load of 1 % of
-   the largest. */
+   lowest film, of oil that becomes slow and fast again, under a load of 1 % of the largest. */
 static void test_resolution(void)
 {
     static const char *const wanted[] = {"rolling_loss", "h_min_lowest"};
     for (int k = 0; k < 2; k++) {
         line c;
-        line_open(&c, k == 1 ? "ehl/control-volume" : "ehl/finite-volume");
+        line_open(&c, "ehl/finite-volume");
         line_last(&c, 4, 600e-6);
         c.time[1] = 250e-6;
         c.time[2] = 500e-6;
@@ -505,13 +511,13 @@ int main(void)
     test_carried_by_volumes();
     test_light();
     test_lost();
-    check_lowest("falling", falling_by_much, 192, 1.2);
-    check_lowest("unloading", unloading, 256, 1.2);
-    check_lowest("emptying", emptying, 256, 1.2);
+    check_lowest("falling", falling_by_much, 192);
+    check_lowest("unloading", unloading, 256);
+    check_lowest("emptying", emptying, 256);
     test_slowing();
-    check_lowest("rising", rising, 384, 1.2);
-    check_lowest("vibrating", vibrating, 128, 3);
-    check_lowest("swaying", swaying, 128, 2);
+    check_lowest("rising", rising, 384);
+    check_lowest("vibrating", vibrating, 128);
+    check_lowest("swaying", swaying, 128);
     test_narrow();
     test_resolution();
     return check_done();
