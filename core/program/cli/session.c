@@ -3,6 +3,7 @@
 #include "session.h"
 
 #include "../terminal/terminal.h"
+#include "oil.h"
 
 #include "../accuracy/models.h"
 #include "../limits/limits.h"
@@ -203,6 +204,19 @@ static void try_cases(cli_session *session, const cli_options *options)
     }
 }
 
+static void check_oil(cli_session *session, const cli_options *options)
+{
+    ff_run *run = run_read(session->engine, options->operand);
+    if (session->study && !session->study->streams)
+        lay_case(session, options, run);
+    else
+        run_set_all(run, options->sets, options->set_count);
+    if (!session->study || !session->study->streams)
+        cli_check_oil(session, run);
+    copy_messages(session, run, FF_ERROR);
+    ff_run_close(run);
+}
+
 static void warn_of_follow(const cli_session *session)
 {
     const ff_pipeline *pipeline = session->pipeline;
@@ -241,10 +255,14 @@ static bool open_file(cli_session *session, const cli_options *options, bool eve
         limits_check(session->run);
     ff_report_append(session->report, ff_run_report(session->run));
     warn_of_follow(session);
+    if (session->pipeline && ff_report_errors(session->report) == 0)
+        cli_check_temperatures(session);
     if (session->study && session->pipeline)
         study_check(session->study, session->pipeline, session->report);
     if (session->study && !session->study->driver && ff_report_errors(session->report) == 0)
         try_swaps(session, options);
+    if (everything && session->pipeline && ff_report_errors(session->report) == 0)
+        check_oil(session, options);
     if (everything && session->pipeline && ff_report_errors(session->report) == 0 &&
         !(session->study && session->study->streams)) {
         run_quick(session->run);
