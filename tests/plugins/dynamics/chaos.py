@@ -73,8 +73,8 @@ def check_engagements():
             for more in ([], ['tooth.engagement=1'], ['tooth.max_engagements=1'])]
     print(*said, sep='\n')
     assert 'takes more' not in said[0], said
-    assert '1 of 2 engagements are not the whole motion; engagement: all takes more' in said[1], said
-    assert '1 of 2 engagements are not the whole motion; max_engagements takes more' in said[2], said
+    assert 'only 1 of 2 engagements are included; engagement: all takes more' in said[1], said
+    assert 'only 1 of 2 engagements are included; max_engagements takes more' in said[2], said
 
 
 if __name__ == '__main__':

@@ -48,7 +48,7 @@ for frequency, stations, verdict in ((1250, 200, "good"), (200, 100, "doubtful")
     failed = failed or not good
     print(f"{'ok' if good else 'FAIL'} {frequency} Hz, {stations} stations: said {said:.4g} ({told}), found {found:.4g}; "
           f"factor off by {off:.2g}, at most {said ** 1.5 / 4:.2g}")
-    named = re.search(r"stations: (\d+) or more", text)
+    named = re.search(r"with (\d+) or more stations", text)
     if bool(named) != (told == "doubtful"):
         failed = print("FAIL names stations where it is good, or none where it is not") is None
     elif named:
