@@ -342,6 +342,8 @@ def compare(pair, path):
     if dims and dims[0] == 'gear':
         half = len(b) // 2
         return pair.say(path, off(a, b[half:] + b[:half]), within)
+    if stage in ('elastic', 'energy') and name.startswith('back_'):  # the curves of the other flank: T both-flanks exchanges them
+        return pair.say(path, 0, 0)
     if not dims:
         return pair.say(path, off(a, b), within)
     if rule == 'place' and not pair.alike(stage):
