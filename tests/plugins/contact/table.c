@@ -157,7 +157,8 @@ static void test_refused_rows(void)
     refuse(HEADER "0, 10, 1, 1, nan\n", ":2:14: \"nan\" is not a number");
     refuse(HEADER "0, 10, 1, 1, 1e308\n", ":2:14: 1e308 is out of range");
     refuse(HEADER "0, 10, 1, 1, 5\n\n-1, 10, 1, 1, 5\n", ":4:1: time must not decrease, but -1 s");
-    refuse(HEADER "0,10,1,1,5\n0,10,1,1,5\n0,10,1,1,5\n", ":4:1: a jump has two rows with the same time");
+    refuse(HEADER "0,10,1,1,5\n0,10,1,1,5\n0,10,1,1,5\n",
+           ":4:1: a jump has two rows with the same time");
     refuse(HEADER "0,10,1,1,5\n0,10,1,1,5\n", ":1:1: the table must span a time");
     refuse(HEADER "0, 0, 1, 1, 5\n", ":2:4: radius must be at least 1e-06 mm, but is 0 mm");
     refuse(HEADER "0, 10, 1, 1, -5\n", ":2:14: load_per_width must be at least 0 N/mm, but is -5");
