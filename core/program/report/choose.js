@@ -44,17 +44,19 @@ var choice = (function () {
     return low + 1 < sorted.length ? sorted[low] + (at - low) * (sorted[low + 1] - sorted[low]) : sorted[sorted.length - 1];
   }
   function labelled(words, unit) { return unit ? words + ' (' + unit + ')' : words; }
-  /* Of a long curve the first, lowest, highest and last of each run of points, so that no peak is lost; of many dots, some. */
+  /* Of a long curve the first, lowest, highest and last of each run of points and the begin of each gap, so that no peak and no gap is
+   * lost; of many dots, some. */
   function thinned(curve, most) {
-    var count = curve.x.length, kept = [], run = curve.style === 'dots' ? Math.ceil(count / most) : 4 * Math.ceil(count / most);
+    var y = curve.y, count = y.length, kept = [], dots = curve.style === 'dots', run = Math.ceil(count / most) * (dots ? 1 : 4);
     if (count <= most) return curve;
     for (var i = 0; i < count; i += run) {
       var low = i, high = i, end = Math.min(i + run, count);
       for (var k = i; k < end; k++) {
-        if (curve.y[k] < curve.y[low]) low = k;
-        if (curve.y[k] > curve.y[high]) high = k;
+        if (y[low] === null || (y[k] !== null && y[k] < y[low])) low = k;
+        if (y[high] === null || (y[k] !== null && y[k] > y[high])) high = k;
       }
-      kept = kept.concat(curve.style === 'dots' ? [i] : [i, Math.min(low, high), Math.max(low, high), end - 1]);
+      for (k = i; k < end; k++)
+        if (k === i || (!dots && (k === low || k === high || k === end - 1 || (y[k] === null && y[k - 1] !== null)))) kept.push(k);
     }
     return Object.assign(curve, {x: kept.map(function (k) { return curve.x[k]; }), y: kept.map(function (k) { return curve.y[k]; })});
   }
@@ -70,7 +72,7 @@ var choice = (function () {
 
   /* Series: along the path of contact, over the mesh cycle, and others. */
   function seriesOf(data) {
-    var drawn = {}, by = {}, axes = {};
+    var by = {}, axes = {};
     data.series.forEach(function (s) {
       (by[s.of] = by[s.of] || []).push(s);
       axes[s.along] = true;
@@ -92,11 +94,12 @@ var choice = (function () {
       }
       return length > 0 ? y.map(function (v) { return v === null ? null : v - sum / length; }) : y;
     }
+    function left(stage, output) { return (by[stage + '.' + output] || []).filter(function (s) { return !s.drawn; }); }
     function begin(title) { return {figure: figure(title), low: Infinity, high: -Infinity, share: false}; }
     function add(f, s, colour, several, alternating) {
       var of = data.outputs[s.of], along = s.along && data.outputs[s.along], x = unpack(s.x), y = unpack(s.y);
-      drawn[s.of] = true;
-      if (f.of && (f.of.si !== of.si || (f.along ? f.along.si : '') !== (along ? along.si : ''))) return;
+      if (f.of && (f.of.si !== of.si || (f.along ? f.along.si : '') !== (along ? along.si : ''))) return; /* a figure of its own follows */
+      s.drawn = true;
       if (!f.of) {
         f.of = of;
         f.along = along;
@@ -139,9 +142,9 @@ var choice = (function () {
       data.stages.forEach(function (stage) {
         var any = false;
         outputs.forEach(function (output) {
-          var own = by[stage + '.' + output] || [];
-          if (own.length && isOtherGap(own[0])) drawn[own[0].of] = true;
-          if (!own.length || drawn[own[0].of]) return;
+          var own = left(stage, output);
+          if (own.length && isOtherGap(own[0])) own.forEach(function (s) { s.drawn = true; });
+          if (!own.length || own[0].drawn) return;
           own.forEach(function (s) { add(f, s, data.study ? s.case : used, several, /alternating/.test(names[0])); });
           any = true;
         });
@@ -156,9 +159,9 @@ var choice = (function () {
       var list = [];
       data.series.forEach(function (s) {
         var of = data.outputs[s.of], used = 0, f = begin(of.label);
-        if (drawn[s.of] || (along && !(of.asked && along(s))) || list.length === MOST.others || axes[s.of] || of.si === 'rad' || of.si === 's' || of.output === s.dim || /^atlas_/.test(of.output)) return;
+        if (s.drawn || (along && !(of.asked && along(s))) || list.length === MOST.others || axes[s.of] || of.si === 'rad' || of.si === 's' || of.output === s.dim || /^atlas_/.test(of.output)) return;
         data.stages.forEach(function (stage) {
-          var own = by[stage + '.' + of.output] || [];
+          var own = left(stage, of.output);
           own.forEach(function (one) { add(f, one, data.study ? one.case : used, false); });
           used += own.length ? 1 : 0;
         });

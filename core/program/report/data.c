@@ -223,18 +223,18 @@ static void add_scalars(data *d, json_t *all)
     free(steps);
 }
 
-/* Keeps the first, lowest, highest and last of some points, in their order. */
+/* Keeps the first, lowest, highest and last of some points and the begin of each gap, in their
+   order. */
 static size_t keep_extremes(const double *y, size_t from, size_t to, size_t *kept)
 {
     size_t low = from, high = from, count = 0;
     for (size_t i = from; i < to; i++) {
-        low = y[i] < y[low] ? i : low;
-        high = y[i] > y[high] ? i : high;
+        low = isnan(y[low]) || y[i] < y[low] ? i : low;
+        high = isnan(y[high]) || y[i] > y[high] ? i : high;
     }
-    const size_t chosen[4] = {from, low < high ? low : high, low < high ? high : low, to - 1};
-    for (size_t i = 0; i < 4; i++)
-        if (i == 0 || chosen[i] != chosen[i - 1])
-            kept[count++] = chosen[i];
+    for (size_t i = from; i < to; i++)
+        if (i == from || i == low || i == high || i == to - 1 || (isnan(y[i]) && !isnan(y[i - 1])))
+            kept[count++] = i;
     return count;
 }
 
@@ -281,7 +281,7 @@ static void add_series(data *d, json_t *list, size_t variable, size_t index, siz
     const size_t count = report_array_size(&y);
     if (y.data && y.rank == 1 && count > 2 &&
         (axis < 0 || (x.data && report_array_size(&x) == count))) {
-        size_t *kept = memory_alloc(4 * count * sizeof *kept);
+        size_t *kept = memory_alloc(count * sizeof *kept);
         const size_t used = choose_points(x.data, y.data, count, kept);
         page->thinned = page->thinned || used < count;
         json_t *made = json_pack("{s:o, s:i, s:o, s:o, s:o}", "of", results_json_text(of->name),

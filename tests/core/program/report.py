@@ -319,6 +319,37 @@ class Report(lab.Lab):
             self.assertEqual([float(row["fade"]) for row in csv.DictReader(table) if "friction" in row["output of flankfilm"]],
                              [float(f"{friction[k]:.9g}") for k in (3, 2)])
 
+    def test_two_axes(self):
+        """Series of one output name over different axes have a figure each, along the path and over time."""
+        self.write("blow.csv", "time [s],radius [mm],speed_1 [m/s],speed_2 [m/s],load_per_width [N/mm]\n"
+                               "0,12.8,9,1,20\n50e-6,12.8,9,1,150\n120e-6,12.8,9,1,90\n")
+        self.write("axes.yaml", f"format: 2\ninclude: [{CONFIGS}li-kahraman-2011.yaml]\n"
+                                "pipeline: {mesh: {use: stiffness/iso-6336}, spot: {use: contact/table, file: blow.csv}}\n"
+                                "outputs: [static.roll_angle, static.load_per_width, spot.time, spot.load_per_width]\n")
+        self.call("run", "axes.yaml", "-o", "axes")
+        self.call("report", "axes")
+        self.look("axes/report.html")
+        self.assertEqual([(f["title"], f["x"]["label"], [c["name"] for c in f["curves"]]) for f in self.drawn],
+                         [("Load per width", "roll angle of gear 1 (deg)", ["static"]), ("load per width", "time since the start of the history (µs)", ["spot"])])
+
+    def test_gaps(self):
+        """A curve of more points than a drawing holds keeps its gaps and its peaks."""
+        self.made("along")
+        self.call("report", "along")
+        self.browser.open("file://" + os.path.abspath("along/report.html"))
+        values = [1.0, -1.0] * 4500
+        values[700], values[2001:2004], values[4000] = 9.0, [float("nan")] * 3, -9.0
+        def packed(numbers):
+            return base64.b64encode(struct.pack(f"<{len(numbers)}f", *numbers)).decode()
+        data = self.numbers(self.read_page("along/report.html"))
+        data["lengths"], data["standing"], data["series"] = [9000], "0" * 9000, []
+        data["scalars"] = {"wave.total": packed(values)}
+        data["axes"][0].update(values=packed(range(9000)), named=[])
+        data["outputs"]["wave.total"].update(factor=1)
+        drawn = self.browser.value(f"choice.sections({json.dumps(data)})[0].figures[0].curves[0].y")
+        self.assertLess(len(drawn), 3000)
+        self.assertEqual((max(v for v in drawn if v), min(v for v in drawn if v), drawn.count(None)), (9, -9, 1))
+
     def test_rough_flanks(self):
         """The flanks move with the slider, asperities have their pressure, and nothing is out of the figure."""
         self.call("run", CONFIGS + "mixed-film.yaml", "-o", "rough", "--set", "film.cells=128", "--set", "film.steps=60",
