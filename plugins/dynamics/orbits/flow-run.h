@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The state of a motion inside a mesh cycle, shared by flow.c and flow-film.c (steps in oil). */
+/* The state of a motion inside a mesh cycle, shared by flow.c, flow-gates.c and flow-film.c (steps
+   in oil). */
 #ifndef DYNAMICS_FLOW_RUN_H
 #define DYNAMICS_FLOW_RUN_H
 
@@ -47,6 +48,14 @@ static inline double dynamics_piece_end(const dynamics_excitation *excitation,
     const dynamics_track track = dynamics_track_with(excitation, piece);
     return piece + 1 < track.pieces + track.count ? piece[1].start : 1;
 }
+
+/* Returns whether the step is too short to reach the edge of the gap. */
+int dynamics_run_misses_edge(const dynamics_run *r, const dynamics_taylor_series *s, double tiny);
+
+/* Finds the first change of contact within the step. Returns its x and sets its gate; returns -1 if
+   there is none. */
+double dynamics_run_find_event(const dynamics_run *r, const dynamics_taylor_series *s,
+                               dynamics_gate g[DYNAMICS_RUN_GATES], const dynamics_gate **which);
 
 /* Updates of the contact in oil. find_films sets the held flank and the films that carry load, from
    the state. follow_flanks sets the films without load after a jump of delta. release_flank
