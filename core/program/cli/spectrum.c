@@ -173,59 +173,28 @@ static void say_left_out(study_answer *answer, const json_t *sums)
                          100 * failed);
 }
 
-/* A row of a spectrum, for sorting by the value of an output. */
-typedef struct step {
-    double value, time;
-} step;
-
-/* For how much of the time an output is below a value. */
-static json_t *curve_of(const study_run *run, const json_t *values, study_readable unit)
-{
-    const study_spectrum *s = run->study->spectrum;
-    step *steps = memory_alloc((s->count + 1) * sizeof *steps);
-    json_t *x = json_array(), *y = json_array();
-    size_t count = 0;
-    double whole = 0, time = 0;
-    for (size_t i = 0; i < s->count; i++) {
-        const json_t *value = json_array_get(values, i);
-        if (!json_is_number(value))
-            continue;
-        steps[count++] = (step){json_number_value(value), s->times[i]};
-        whole += s->times[i];
-    }
-    memory_sort(steps, count, sizeof *steps);
-    for (size_t i = 0; i < count; i++)
-        for (int end = 0; end < 2; end++) {
-            time += end ? steps[i].time : 0;
-            json_array_append_new(x, json_real(100 * time / whole));
-            json_array_append_new(y, json_real(steps[i].value * unit.factor + unit.offset));
-        }
-    free(steps);
-    return json_pack("{s:s, s:i, s:i, s:s, s:o, s:o}", "name", "", "colour", 0, "dash", 0, "style",
-                     "line", "x", x, "y", y);
-}
-
 /* Draws for each output how long it is below a value; returns the first drawing, or NULL. */
 static json_t *draw(study_answer *answer, const study_run *run, const json_t *sums)
 {
-    json_t *first = NULL, *of;
+    const study_spectrum *s = run->study->spectrum;
+    json_t *first = NULL, *of, *times = json_array();
     const char *name;
+    for (size_t i = 0; i < s->count; i++)
+        json_array_append_new(times, json_real(s->times[i]));
     json_object_foreach(json_object_get(sums, "outputs"), name, of)
     {
-        const json_t *values = json_object_get(of, "values");
-        study_readable unit = unit_for(name, of);
-        char label[160];
-        snprintf(label, sizeof label, *unit.unit ? "%.100s (%.30s)" : "%.100s", last_word(name),
-                 unit.unit);
+        json_t *values = json_object_get(of, "values");
+        const study_readable unit = unit_for(name, of);
         if (!values)
             continue;
         json_t *made = study_answer_draw(
-            answer, json_pack("{s:s, s:s+, s:i, s:{s:s}, s:{s:s}, s:[], s:[o]}", "sort", "curves",
-                              "title", name, ": for how long it is below", "height", 260, "x",
-                              "label", "time below (%)", "y", "label", label, "marks", "curves",
-                              curve_of(run, values, unit)));
+            answer, json_pack("{s:s, s:s+, s:s, s:s, s:f, s:f, s:O, s:O}", "sort", "durations",
+                              "title", name, ": for how long it is below", "name", last_word(name),
+                              "unit", unit.unit, "factor", unit.factor, "offset", unit.offset,
+                              "values", values, "times", times));
         first = first ? first : made;
     }
+    json_decref(times);
     return first;
 }
 

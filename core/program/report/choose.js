@@ -28,9 +28,6 @@ var choice = (function () {
   var MOST = {lines: 8, maps: 6, inputs: 12, others: 30, ranked: 2000, bins: 30, periods: 6, stages: 3};
 
   /* Numbers. */
-  function unpack(base64) { /* of the little-endian machines that browsers run on */
-    return new Float32Array(Uint8Array.from(atob(base64), function (c) { return c.charCodeAt(0); }).buffer);
-  }
   function scaled(list, by, whole) { /* whole: a difference has no offset */
     return Array.prototype.map.call(list, function (v) {
       return v !== null && isFinite(v) ? parseFloat((v * by.factor + (whole === false ? 0 : by.offset)).toPrecision(7)) : null;
@@ -97,7 +94,7 @@ var choice = (function () {
     function left(stage, output) { return (by[stage + '.' + output] || []).filter(function (s) { return !s.drawn; }); }
     function begin(title) { return {figure: figure(title), low: Infinity, high: -Infinity, share: false}; }
     function add(f, s, colour, several, alternating) {
-      var of = data.outputs[s.of], along = s.along && data.outputs[s.along], x = unpack(s.x), y = unpack(s.y);
+      var of = data.outputs[s.of], along = s.along && data.outputs[s.along], x = figures.unpack(s.x), y = figures.unpack(s.y);
       if (f.of && (f.of.si !== of.si || (f.along ? f.along.si : '') !== (along ? along.si : ''))) return; /* a figure of its own follows */
       s.drawn = true;
       if (!f.of) {
@@ -119,7 +116,7 @@ var choice = (function () {
       if (data.study && data.cases[s.case].name) name += ' (' + data.cases[s.case].name + ')';
       var curve = line(name, colour, f.figure.curves.length, x, alternating ? withoutMean(x, y) : y);
       Object.defineProperty(curve, 'all', {value: y});
-      if (s.bar) curve.bar = scaled(unpack(s.bar), {factor: Math.abs(f.of.factor)}, false);
+      if (s.bar) curve.bar = scaled(figures.unpack(s.bar), {factor: Math.abs(f.of.factor)}, false);
       /* of a share, such as the friction coefficient, not what it is where there is no load */
       var ends = s.ends ? scaled(s.ends, f.of) : [least(curve.y), most(curve.y)];
       f.share = f.share || !!s.ends;
@@ -184,12 +181,12 @@ var choice = (function () {
     var list = [];
     function scalar(name) {
       var found = Object.keys(data.scalars).filter(function (key) { return data.outputs[key].output === name; })[0];
-      return found === undefined ? NaN : unpack(data.scalars[found])[0];
+      return found === undefined ? NaN : figures.unpack(data.scalars[found])[0];
     }
     data.stages.forEach(function (stage) {
       function numbers(name) {
         var s = data.series.filter(function (one) { return one.of === stage + '.' + name; })[0];
-        return s && unpack(s.y);
+        return s && figures.unpack(s.y);
       }
       var f = numbers('atlas_frequency'), rms = numbers('atlas_rms'), stable = numbers('atlas_stable'), branch = numbers('atlas_branch');
       if (data.study || !f || !rms || f.length < 2 || f.length !== rms.length) return;
@@ -368,11 +365,11 @@ var choice = (function () {
       if (data.tabled && (isMap ? number / rows > MOST.maps : number > MOST.lines)) return [];
       return isMap ? maps(s, x, y) : lines(s, x);
     }
-    data.axes.forEach(function (a) { a.values = Array.from(unpack(a.values), function (v) { return isFinite(v) ? v : null; }); });
+    data.axes.forEach(function (a) { a.values = Array.from(figures.unpack(a.values), function (v) { return isFinite(v) ? v : null; }); });
     var main = mainAxis(-1), speeds = main && (main.si === 'Hz' || main.si === 'rad/s'), errors = [], rest = [];
     if (!data.study || (data.described && !main && !data.sample)) return []; /* numbers of cases in no order would be a meaningless axis */
     Object.keys(data.scalars).forEach(function (name) {
-      var of = data.outputs[name], values = scaled(unpack(data.scalars[name]), of), s = {of: of, title: of.stage + ': ' + of.label, values: values};
+      var of = data.outputs[name], values = scaled(figures.unpack(data.scalars[name]), of), s = {of: of, title: of.stage + ': ' + of.label, values: values};
       if (!(most(values) > least(values))) return; /* the table of verdicts has the constants */
       Array.prototype.push.apply(speeds && /^dte_/.test(of.output) ? errors : rest, drawn(s));
     });
@@ -386,11 +383,11 @@ var choice = (function () {
     if (!stages.length) return [];
     stages.forEach(function (m) {
       m.of = function (field) { return data.outputs[m.stage + '.' + field]; };
-      m.x = scaled(unpack(m.x), m.place ? data.outputs[m.place] : {factor: 1, offset: 0});
-      m.at = scaled(unpack(m.at), m.time ? data.outputs[m.time] : {factor: 1, offset: 0});
+      m.x = scaled(figures.unpack(m.x), m.place ? data.outputs[m.place] : {factor: 1, offset: 0});
+      m.at = scaled(figures.unpack(m.at), m.time ? data.outputs[m.time] : {factor: 1, offset: 0});
       Object.keys(m.values).forEach(function (field) {
         var by = stages[0].of(field) || m.of(field);
-        m.values[field] = unpack(m.values[field]).map(function (v) { return v * by.factor + by.offset; });
+        m.values[field] = figures.unpack(m.values[field]).map(function (v) { return v * by.factor + by.offset; });
       });
       if (m.values.roughness)
         m.values.other = m.values.roughness.map(function (r, i) { return r + m.values.film[i] * stages[0].of('roughness').factor / stages[0].of('film').factor; });

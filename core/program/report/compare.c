@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The table of what several designs gave. */
+/* The table of what several designs gave, and their series. */
 #include "compare.h"
 #include "page.h"
 
@@ -209,6 +209,36 @@ static void say_verdicts(study_answer *answer, const report_design *designs, siz
     }
 }
 
+/* Draws a series that every design has along its path of contact. False after an error. */
+static bool draw(study_answer *answer, const results_view_variable *of,
+                 const report_design *designs, size_t count)
+{
+    report_data d = {.outputs = json_object()};
+    json_t *series = json_array(), *cases = json_array();
+    bool good = true;
+    for (size_t i = 0; i < count && good; i++) {
+        report_page page = {.view = designs[i].view};
+        const int v = find(page.view, of->name),
+                  axis = v < 0 ? -1 : report_find_axis(page.view, (size_t)v, 0, designs[i].index);
+        d.page = &page;
+        json_array_append_new(cases, report_data_case(&page, designs[i].index, designs[i].name));
+        if (axis >= 0 && !strcmp(page.view->variables[axis]->unit, "rad"))
+            report_data_series(&d, series, (size_t)v, designs[i].index, i);
+        good = !page.failed;
+    }
+    if (good && json_array_size(series) == count) {
+        char words[REPORT_TEXT_SIZE];
+        study_answer_draw(answer,
+                          json_pack("{s:s, s:s++, s:O, s:O, s:O}", "sort", "path", "title",
+                                    of->name, ": ", report_output_words(of, words), "outputs",
+                                    d.outputs, "series", series, "cases", cases));
+    }
+    json_decref(d.outputs);
+    json_decref(series);
+    json_decref(cases);
+    return good;
+}
+
 bool report_compare(study_answer *answer, const report_design *designs, size_t count)
 {
     json_t *rows = json_array();
@@ -251,5 +281,10 @@ bool report_compare(study_answer *answer, const report_design *designs, size_t c
                        .forms = good ? STUDY_IN_FILE | STUDY_ON_TERMINAL | STUDY_ON_PAGE : 0,
                        .digits = 9,
                        .whole = true});
-    return good && report_compare_curves(answer, designs, count);
+    for (size_t v = 0; good && v < designs[0].view->variable_count; v++) {
+        const results_view_variable *of = designs[0].view->variables[v];
+        if (of->rank == 1 && of->flags & RESULTS_VIEW_ASKED && !report_is_axis(designs[0].view, v))
+            good = draw(answer, of, designs, count);
+    }
+    return good;
 }

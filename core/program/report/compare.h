@@ -20,7 +20,5 @@ typedef struct report_design {
    of series, and the drawings of the series that all of them have along the path of contact. False
    after an error, which the view has reported. */
 bool report_compare(study_answer *answer, const report_design *designs, size_t count);
-/* compare-curves.c: the drawings alone. */
-bool report_compare_curves(study_answer *answer, const report_design *designs, size_t count);
 
 #endif

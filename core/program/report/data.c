@@ -9,6 +9,7 @@
 
 #include "../memory/memory.h"
 #include "../results/json.h"
+#include "../study/store/journal.h"
 
 #include <assert.h>
 #include <math.h>
@@ -16,8 +17,6 @@
 #include <string.h>
 
 enum {
-    MOST_POINTS = 2800,    /* of a series; four in each column of a drawing */
-    MOST_WHOLE = 50000,    /* of one that is not thinned */
     MOST_SCALARS = 300000, /* numbers of all scalars and axes of a study */
     MOST_NAMED = 200,      /* points of an axis that have names */
     MOST_SERIES = 4,       /* cases of a study whose series are in the page */
@@ -25,80 +24,6 @@ enum {
     CELLS = 513,
     MOST_FIELDS = 12
 };
-
-typedef struct data {
-    report_page *page;
-    json_t *outputs; /* {name: what it is called, its units} */
-} data;
-
-static void put_base64(const unsigned char *bytes, size_t size, char *out)
-{
-    static const char letters[] =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    for (size_t i = 0; i < size; i += 3) {
-        const size_t left = size - i;
-        const unsigned bits = (unsigned)bytes[i] << 16 |
-                              (left > 1 ? (unsigned)bytes[i + 1] << 8 : 0) |
-                              (left > 2 ? bytes[i + 2] : 0u);
-        *out++ = letters[bits >> 18];
-        *out++ = letters[bits >> 12 & 63];
-        *out++ = left > 1 ? letters[bits >> 6 & 63] : '=';
-        *out++ = left > 2 ? letters[bits & 63] : '=';
-    }
-    *out = '\0';
-}
-
-/* Packs chosen numbers, or their ranks where there are none; `chosen` NULL: the first ones. */
-static json_t *pack(const double *values, const size_t *chosen, size_t count)
-{
-    unsigned char *bytes = memory_alloc(4 * count + 1);
-    char *text = memory_alloc(4 * ((4 * count + 2) / 3) + 1);
-    for (size_t i = 0; i < count; i++) {
-        const size_t at = chosen ? chosen[i] : i;
-        const float number = (float)(values ? values[at] : (double)at);
-        uint32_t bits;
-        memcpy(&bits, &number, sizeof bits);
-        for (int b = 0; b < 4; b++)
-            bytes[4 * i + (size_t)b] = (unsigned char)(bits >> (8 * b));
-    }
-    put_base64(bytes, 4 * count, text);
-    json_t *packed = json_string(text);
-    free(text);
-    free(bytes);
-    return packed;
-}
-
-static json_t *real_or_null(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
-}
-
-static json_t *describe_unit(const char *name, const char *si, double magnitude)
-{
-    const study_readable unit = report_unit_for(name, si, magnitude);
-    return json_pack("{s:s, s:f, s:f}", "unit", unit.unit, "factor", unit.factor, "offset",
-                     unit.offset);
-}
-
-/* Says what an output is called and how its numbers of such a size are read, unless that is said.
- */
-static json_t *describe(data *d, size_t variable, double magnitude)
-{
-    const results_view *view = d->page->view;
-    const results_view_variable *of = view->variables[variable];
-    char words[REPORT_TEXT_SIZE];
-    json_t *said = json_object_get(d->outputs, of->name);
-    if (said)
-        return said;
-    said = describe_unit(of->output, of->unit, magnitude);
-    json_object_set_new(said, "stage", results_json_text(view->stages[of->stage]->name));
-    json_object_set_new(said, "output", results_json_text(of->output));
-    json_object_set_new(said, "label", results_json_text(report_output_words(of, words)));
-    json_object_set_new(said, "si", results_json_text(of->unit));
-    json_object_set_new(said, "asked", json_boolean(of->flags & RESULTS_VIEW_ASKED));
-    json_object_set_new(d->outputs, of->name, said);
-    return said;
-}
 
 /* Describes an axis of a study by the points that are kept: their numbers, NaN for words, and what
    they are called where they are few. */
@@ -116,7 +41,7 @@ static json_t *describe_axis(const results_view *view, const results_view_axis *
                                   results_json_text(report_name_value(
                                       view, axis, report_axis_word(axis, i * step, word), name)));
     }
-    json_t *said = axis->values ? describe_unit(axis->path, axis->unit, most)
+    json_t *said = axis->values ? report_describe_unit(axis->path, axis->unit, most)
                                 : json_pack("{s:o, s:f, s:f}", "unit",
                                             results_json_text(report_axis_unit(axis)), "factor",
                                             1.0, "offset", 0.0);
@@ -125,7 +50,7 @@ static json_t *describe_axis(const results_view *view, const results_view_axis *
     json_object_set_new(said, "dimension", json_integer((json_int_t)axis->dimension));
     json_object_set_new(said, "typed", json_boolean(axis->values != NULL));
     json_object_set_new(said, "named", named);
-    json_object_set_new(said, "values", pack(values, NULL, count));
+    json_object_set_new(said, "values", report_pack(values, NULL, count));
     free(values);
     return said;
 }
@@ -164,26 +89,28 @@ static size_t *list_cases(const results_view *view, const size_t *steps, size_t 
     return cases;
 }
 
-static void add_scalar(data *d, json_t *scalars, size_t variable, const size_t *cases, size_t count)
+static void add_scalar(report_data *d, json_t *scalars, size_t variable, const size_t *cases,
+                       size_t count)
 {
     const results_view *view = d->page->view;
     report_scalar f = report_load_scalar(d->page, variable);
     const char *asked = report_limit_asked(view, variable);
     if (f.low <= f.high) {
-        json_t *said = describe(d, variable, fmax(fabs(f.low), fabs(f.high)));
+        json_t *said = report_describe(d, variable, fmax(fabs(f.low), fabs(f.high)));
         json_object_set_new(said, "sense", json_integer(report_sense_of(d->page, variable)));
         if (asked)
             json_object_set_new(said, "limit",
                                 json_pack("{s:o, s:o}", "at",
-                                          real_or_null(report_limit_bound(view, variable)), "name",
-                                          results_json_text(asked)));
-        json_object_set_new(scalars, view->variables[variable]->name, pack(f.values, cases, count));
+                                          study_json_real(report_limit_bound(view, variable)),
+                                          "name", results_json_text(asked)));
+        json_object_set_new(scalars, view->variables[variable]->name,
+                            report_pack(f.values, cases, count));
     }
     free(f.values);
 }
 
 /* Adds the scalars: of a run one number each, of a study one for each case that is kept. */
-static void add_scalars(data *d, json_t *all)
+static void add_scalars(report_data *d, json_t *all)
 {
     const results_view *view = d->page->view;
     size_t scalars = 0, *steps = memory_alloc((view->dimension_count + 1) * sizeof *steps);
@@ -221,86 +148,6 @@ static void add_scalars(data *d, json_t *all)
     free(standing);
     free(cases);
     free(steps);
-}
-
-/* Keeps the first, lowest, highest and last of some points and the begin of each gap, in their
-   order. */
-static size_t keep_extremes(const double *y, size_t from, size_t to, size_t *kept)
-{
-    size_t low = from, high = from, count = 0;
-    for (size_t i = from; i < to; i++) {
-        low = isnan(y[low]) || y[i] < y[low] ? i : low;
-        high = isnan(y[high]) || y[i] > y[high] ? i : high;
-    }
-    for (size_t i = from; i < to; i++)
-        if (i == from || i == low || i == high || i == to - 1 || (isnan(y[i]) && !isnan(y[i - 1])))
-            kept[count++] = i;
-    return count;
-}
-
-/* Fills in the ranks of the points that are kept: of a long curve, the extremes of each run of
-   points. Series that run along no rising axis, such as those of an atlas, belong together point by
-   point: they are kept whole as far as there is room. */
-static size_t choose_points(const double *x, const double *y, size_t count, size_t *kept)
-{
-    size_t run = count / (MOST_POINTS / 4) + 1, used = 0;
-    bool rises = count > (x ? MOST_POINTS : MOST_WHOLE);
-    for (size_t i = 1; x && i < count && rises && count <= MOST_WHOLE; i++)
-        rises = x[i] >= x[i - 1];
-    for (size_t i = 0; i < count; i += rises ? run : 1) {
-        const size_t end = rises && i + run < count ? i + run : rises ? count : i + 1;
-        used += keep_extremes(y, i, end, kept + used);
-    }
-    return used;
-}
-
-static double magnitude(const ff_array *array)
-{
-    const report_extremes found = report_find_extremes(array);
-    return fmax(0, fmax(fabs(found.low), fabs(found.high))); /* 0: nothing is known */
-}
-
-/* Adds the ends of a share, such as a friction coefficient, where there is load. */
-static void add_ends(json_t *series, const results_view_variable *of, const ff_array *y)
-{
-    const size_t count = report_array_size(y);
-    if (*of->whole && of->extremes[0] < count && of->extremes[1] < count)
-        json_object_set_new(series, "ends",
-                            json_pack("[o, o]", real_or_null(y->data[of->extremes[0]]),
-                                      real_or_null(y->data[of->extremes[1]])));
-}
-
-static void add_series(data *d, json_t *list, size_t variable, size_t index, size_t rank)
-{
-    report_page *page = d->page;
-    const results_view *view = page->view;
-    const results_view_variable *of = view->variables[variable];
-    const int axis = report_find_axis(view, variable, 0, index);
-    ff_array y = report_load(page, (int)variable, index), x = report_load(page, axis, index),
-             bar = report_load(page, report_find_bar(view, variable), index);
-    const size_t count = report_array_size(&y);
-    if (y.data && y.rank == 1 && count > 2 &&
-        (axis < 0 || (x.data && report_array_size(&x) == count))) {
-        size_t *kept = memory_alloc(count * sizeof *kept);
-        const size_t used = choose_points(x.data, y.data, count, kept);
-        page->thinned = page->thinned || used < count;
-        json_t *made = json_pack("{s:o, s:i, s:o, s:o, s:o}", "of", results_json_text(of->name),
-                                 "case", (int)rank, "dim", results_json_text(of->dims[0]), "x",
-                                 pack(x.data, kept, used), "y", pack(y.data, kept, used));
-        describe(d, variable, magnitude(&y));
-        if (axis >= 0) {
-            describe(d, (size_t)axis, magnitude(&x));
-            json_object_set_new(made, "along", results_json_text(view->variables[axis]->name));
-        }
-        if (bar.data && report_array_size(&bar) == count)
-            json_object_set_new(made, "bar", pack(bar.data, kept, used));
-        add_ends(made, of, &y);
-        json_array_append_new(list, made);
-        free(kept);
-    }
-    report_release(page, &x);
-    report_release(page, &y);
-    report_release(page, &bar);
 }
 
 /* Says whether a case has kept a series; a repeat in a trade-off has none. */
@@ -353,7 +200,7 @@ static size_t choose_cases(const results_view *view, size_t chosen[MOST_SERIES],
 }
 
 /* Adds the series of some cases, and of each the points of its path of contact. */
-static void add_all_series(data *d, json_t *all)
+static void add_all_series(report_data *d, json_t *all)
 {
     const results_view *view = d->page->view;
     size_t chosen[MOST_SERIES], good;
@@ -361,18 +208,11 @@ static void add_all_series(data *d, json_t *all)
     json_t *cases = json_array(), *series = json_array();
     for (size_t k = 0; k < count; k++) {
         char name[REPORT_TEXT_SIZE];
-        const report_marks marks = report_find_marks(d->page, chosen[k]);
-        json_t *points = json_array();
-        for (size_t i = 0; i < REPORT_MARKS; i++)
-            if (isfinite(marks.roll[i]))
-                json_array_append_new(points,
-                                      json_pack("[f, s]", marks.roll[i], report_mark_names[i]));
         report_name_case(view, chosen[k], name);
-        json_array_append_new(
-            cases, json_pack("{s:o, s:o}", "name", results_json_text(name), "marks", points));
+        json_array_append_new(cases, report_data_case(d->page, chosen[k], name));
         for (size_t v = 0; v < view->variable_count; v++)
             if (view->variables[v]->rank == 1 && !report_is_bar(view->variables[v]))
-                add_series(d, series, v, chosen[k], k);
+                report_data_series(d, series, v, chosen[k], k);
     }
     json_object_set_new(all, "cases", cases);
     json_object_set_new(all, "well", json_integer((json_int_t)good));
@@ -409,7 +249,7 @@ static size_t choose_frames(const fields *m, size_t *chosen)
 }
 
 /* Takes a field; one of another shape than the first is left out. */
-static void take_field(data *d, fields *m, size_t variable)
+static void take_field(report_data *d, fields *m, size_t variable)
 {
     ff_array array = report_load(d->page, (int)variable, 0);
     const bool good =
@@ -424,7 +264,7 @@ static void take_field(data *d, fields *m, size_t variable)
             const double middle = fabs(array.data[k * m->cells + m->cells / 2]);
             size = fmax(size, isfinite(middle) ? middle : 0);
         }
-        describe(d, variable, size);
+        report_describe(d, variable, size);
         m->extremes[2 * m->count] = found.greatest / m->cells;
         m->extremes[2 * m->count + 1] = found.least / m->cells;
         m->variables[m->count++] = variable;
@@ -433,23 +273,23 @@ static void take_field(data *d, fields *m, size_t variable)
 }
 
 /* Packs a series that stands along the fields, or its ranks, and says of which output it is. */
-static json_t *pack_along(data *d, json_t *made, const char *name, uint32_t dim, const fields *m,
-                          const size_t *chosen, size_t count)
+static json_t *pack_along(report_data *d, json_t *made, const char *name, uint32_t dim,
+                          const fields *m, const size_t *chosen, size_t count)
 {
     const results_view *view = d->page->view;
     const int axis = report_find_axis(view, m->variables[0], dim, 0);
     ff_array along = report_load(d->page, axis, 0);
     if (along.data) {
-        describe(d, (size_t)axis, magnitude(&along));
+        report_describe(d, (size_t)axis, report_magnitude(&along));
         json_object_set_new(made, name, results_json_text(view->variables[axis]->name));
     }
-    json_t *packed = pack(along.data, chosen, count);
+    json_t *packed = report_pack(along.data, chosen, count);
     report_release(d->page, &along);
     return packed;
 }
 
 /* Describes the fields of a stage at the instants, and in the cells, that are kept. */
-static json_t *describe_fields(data *d, size_t stage, const fields *m)
+static json_t *describe_fields(report_data *d, size_t stage, const fields *m)
 {
     const results_view *view = d->page->view;
     size_t *rows = memory_alloc(m->frames * sizeof *rows);
@@ -473,7 +313,7 @@ static json_t *describe_fields(data *d, size_t stage, const fields *m)
         ff_array array = report_load(d->page, (int)m->variables[i], 0);
         if (array.data)
             json_object_set_new(values, view->variables[m->variables[i]]->output,
-                                pack(array.data, both, frames * cells));
+                                report_pack(array.data, both, frames * cells));
         report_release(d->page, &array);
     }
     json_object_set_new(made, "values", values);
@@ -484,7 +324,7 @@ static json_t *describe_fields(data *d, size_t stage, const fields *m)
 }
 
 /* Adds the fields of a run, stage by stage. */
-static void add_fields(data *d, json_t *all)
+static void add_fields(report_data *d, json_t *all)
 {
     const results_view *view = d->page->view;
     json_t *list = json_array();
@@ -504,7 +344,7 @@ static void add_fields(data *d, json_t *all)
 void report_write_data(report_page *page)
 {
     const results_view *view = page->view;
-    data d = {page, json_object()};
+    report_data d = {page, json_object()};
     json_t *stages = json_array();
     for (size_t s = 0; s < view->stage_count; s++)
         json_array_append_new(stages, results_json_text(view->stages[s]->name));

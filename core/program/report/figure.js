@@ -4,6 +4,9 @@ var figures = (function () {
   var DASHES = [[], [7, 3], [2.5, 2.5], [9, 3, 2, 3]], COLOURS = 6;
   function text(value) { return typeof value === 'number' ? String(parseFloat(value.toPrecision(4))) : String(value); }
   function ink(i) { return typeof i === 'string' ? i : 'var(--c' + i % COLOURS + ')'; }
+  function unpack(base64) { /* of the little-endian machines that browsers run on */
+    return new Float32Array(Uint8Array.from(atob(base64), function (c) { return c.charCodeAt(0); }).buffer);
+  }
   function finite(list) { return list.filter(function (v) { return typeof v === 'number' && isFinite(v); }); }
 
   /* The range of an axis over the curves that are shown; a little room is left where it is not given. */
@@ -301,5 +304,5 @@ var figures = (function () {
         });
     });
   }
-  return {view: view, standalone: standalone, points: points, text: text, ink: ink, finite: finite, dashes: DASHES.length};
+  return {view: view, standalone: standalone, points: points, text: text, ink: ink, finite: finite, unpack: unpack, dashes: DASHES.length};
 })();

@@ -203,4 +203,21 @@ void report_write_origin(report_page *page);
 /* data.c: the numbers that the template draws. */
 void report_write_data(report_page *page);
 
+/* data-series.c: parts of them. They are in SI, as 32-bit floats in base64. */
+typedef struct report_data {
+    report_page *page;
+    json_t *outputs; /* {name: what it is called, its units}, of each output that is packed */
+} report_data;
+/* Packs chosen numbers, or their ranks if `values` is NULL; the first ones if `chosen` is NULL. */
+json_t *report_pack(const double *values, const size_t *chosen, size_t count);
+json_t *report_describe_unit(const char *name, const char *si, double magnitude);
+/* Says what an output is called and how its numbers of such a size are read, unless that is said;
+   returns it. */
+json_t *report_describe(report_data *d, size_t variable, double magnitude);
+double report_magnitude(const ff_array *array); /* 0: nothing is known */
+/* Adds a series of a case to the list, if it has points; `rank` is that of the case. */
+void report_data_series(report_data *d, json_t *list, size_t variable, size_t index, size_t rank);
+/* Returns {name, marks: [[roll angle, "SAP"], ...]} of a case. */
+json_t *report_data_case(report_page *page, size_t index, const char *name);
+
 #endif

@@ -24,6 +24,9 @@ static const char *const figure_style[] = {
 static const char *const figure_script[] = {
 #include "figure.js.inc"
     NULL};
+static const char *const answer_script[] = {
+#include "answers.js.inc"
+    NULL};
 static const char *const choice_script[] = {
 #include "choose.js.inc"
     NULL};
@@ -38,10 +41,20 @@ static const unsigned char library[] = {
 static const struct {
     const char *name;
     const char *const *lines;
-} parts[] = {{"layout.html", layout},      {"figure.css", figure_style},
-             {"page.css", page_style},     {"figure.js", figure_script},
-             {"choose.js", choice_script}, {"script.js", page_script}};
-enum { LAYOUT, FIGURE_STYLE, PAGE_STYLE, FIGURE_SCRIPT, CHOICE_SCRIPT, PAGE_SCRIPT, PARTS };
+} parts[] = {{"layout.html", layout},       {"figure.css", figure_style},
+             {"page.css", page_style},      {"figure.js", figure_script},
+             {"answers.js", answer_script}, {"choose.js", choice_script},
+             {"script.js", page_script}};
+enum {
+    LAYOUT,
+    FIGURE_STYLE,
+    PAGE_STYLE,
+    FIGURE_SCRIPT,
+    ANSWER_SCRIPT,
+    CHOICE_SCRIPT,
+    PAGE_SCRIPT,
+    PARTS
+};
 
 typedef struct text {
     char *text;
@@ -54,7 +67,7 @@ struct report_template {
 };
 
 static const char names_of_parts[] = "layout.html, figure.css, page.css, figure.js, "
-                                     "choose.js, script.js";
+                                     "answers.js, choose.js, script.js";
 
 static text join(const char *const *lines)
 {
@@ -131,8 +144,8 @@ static void assemble(report_template *made)
     out = memory_require(open_memstream(&made->script.text, &made->script.length));
     fputc('\n', out);
     fwrite(library, 1, sizeof library - 1, out);
-    fprintf(out, "%s%s%s", made->parts[FIGURE_SCRIPT].text, made->parts[CHOICE_SCRIPT].text,
-            made->parts[PAGE_SCRIPT].text);
+    for (size_t i = FIGURE_SCRIPT; i <= PAGE_SCRIPT; i++)
+        fputs(made->parts[i].text, out);
     fclose(out);
 }
 

@@ -14,7 +14,8 @@
 typedef struct report_template report_template;
 
 /* Opens the program's files. If `folder` is not NULL, those files named layout.html, figure.css,
- * page.css, figure.js, choose.js and script.js that it has are taken instead. NULL after an error.
+ * page.css, figure.js, answers.js, choose.js and script.js that it has are taken instead. NULL
+ * after an error.
  */
 report_template *report_template_open(const char *folder, ff_report *report);
 void report_template_close(report_template *of); /* NULL is allowed */

@@ -252,8 +252,13 @@
       return c.style !== 'bars' && !c.live && figures.finite(c[axis]).every(function (v) { return v > 0; });
     });
   }
-  /* That of a figure which a study has described lies in the page; those of the page's own numbers are made. */
-  function descriptionOf(node) { return node.figure || (node.figure = JSON.parse(node.querySelector('script').textContent)); }
+  /* That of a figure which a study has described lies in the page, or is made of its numbers; those of the page's own numbers are made. */
+  function descriptionOf(node) {
+    var lying = node.figure || JSON.parse(node.querySelector('script').textContent), made = answers[lying.sort];
+    node.figure = made ? made(lying) : lying;
+    if (node.figure.note) node.insertBefore(make('p', 'note', node.figure.note), node.querySelector('figcaption').nextSibling);
+    return node.figure;
+  }
   function begin(node, number) {
     var f = {node: node, figure: descriptionOf(node), box: make('div', 'plot')};
     var buttons = make('span', 'buttons'), figure = f.figure;
@@ -338,7 +343,6 @@
       var node = make('figure', one.class), caption = make('figcaption');
       caption.appendChild(make('span', '', one.title));
       node.appendChild(caption);
-      if (one.note) node.appendChild(make('p', 'note', one.note));
       node.figure = one;
       into.appendChild(node);
     });

@@ -374,6 +374,7 @@ class Report(lab.Lab):
         _, figures = self.look("side.html")
         self.see("side.html")
         self.assertEqual(figures, 1)
+        self.assertEqual([max(x for x in c["x"] if x is not None) for c in self.drawn[0]["curves"]], [4, 4])  # at the tip
 
     def test_atlas(self):
         self.call("run", CONFIGS + "li-kahraman-2011.yaml", "-o", "atlas", "--set", "mesh.use=stiffness/iso-6336", "--set",
@@ -475,6 +476,8 @@ class Report(lab.Lab):
         self.assertIn("h1{color:teal}", self.read_page("own.html"))
         _, figures = self.look("own.html")
         self.assertEqual(figures, 1)
+        self.assertEqual(self.browser.value("answers.shares({shares: {a: {first: {value: null}, total: {value: 1}, untold: '4 samples do not tell'}}}).note"),
+                         "4 samples do not tell 1 of 1 alone.")
         with open("own.json", "w", encoding="utf-8") as file:
             file.write("{}")
         self.assertIn("does not describe figures", self.call("report", "own.json", code=2))

@@ -146,7 +146,7 @@ verdict notes 10 0.4 silent
 verdict notes 10 2.5 degraded
 grep -q '^1 N,0.4 m/s,converged.*,"1 motions swing"$' notes/map.csv
 grep -q '"note": "2.5 fast"' notes/map.json
-grep -q '; 2.5 fast"' notes/map.figure.json
+grep -q '"2.5 fast"' notes/map.figure.json
 expect 4 '"noted":[4,0]' "$flankfilm" run notes.yaml -o notes --json
 expect 2 'is a map from lines of quality' "$flankfilm" check notes.yaml \
     --set 'study.stability.notes=[verge.residual]'

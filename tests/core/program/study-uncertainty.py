@@ -197,7 +197,7 @@ study:
         self.assertEqual(self.file("ladder"), self.file("again"))
 
     def test_what_few_samples_do_not_tell_is_said(self):
-        """4 rows tell no share, which is said in the print and in the title of the figure that is on the page; 20 that are asked for do."""
+        """4 rows tell no share, which is said in the print and beside the figure that is on the page; 20 that are asked for do."""
         said = self.study("few", TWO + "    samples: 4\n", words=("-j", "1"))
         share = self.read("few/uncertainty.json")["outputs"]["wave.total"]["shares"]["wave.amplitude"]
         self.assertEqual((share["first"]["value"], share["untold"]), (None, "4 samples do not tell"))
@@ -206,8 +206,8 @@ study:
         share = self.read("more/uncertainty.json")["outputs"]["wave.total"]["shares"]["wave.amplitude"]
         self.assertAlmostEqual(share["first"]["value"], 1)
         self.assertEqual(len(self.rows("more", "sample")), 20)
-        titles = [figure["title"] for figure in self.read("few/uncertainty.figure.json")]
-        self.assertTrue(any(title.endswith("; 4 samples do not tell 2 of 2 alone") for title in titles), titles)
+        shares = next(figure["shares"] for figure in self.read("few/uncertainty.figure.json") if figure["sort"] == "shares")
+        self.assertEqual([one["untold"] for one in shares.values()], ["4 samples do not tell"] * 2)
 
     def test_each_word_of_an_input_has_its_own_mean(self):
         words = """    inputs: {wave.end: {samples: [good, good, doubtful]}, wave.amplitude: {normal: [2 mm, 5 %]}}

@@ -71,7 +71,7 @@ awk -F, -v v="$(column 'root.value error')" -v c="$(column 'root.curve error')" 
     /failed/ { if (!/nothing was found/ || !/^"n 64"/) bad("failure"); failed++ }
     END { exit wrong || rows != 6 || failed != 1 || last != 16 || ends != 1 }' out/tradeoff.csv ||
     fail "tradeoff.csv"
-grep -q '"sort": "curves"' out/tradeoff.figure.json || fail "figure"
+grep -q '"sort": "front"' out/tradeoff.figure.json || fail "figure"
 
 # What no knob touches is computed once.
 [ "$(python3 "$records" out/journal.jsonl | grep -c '"stages":{[^}]*"slow"')" -eq 1 ] || fail "slow ran more than once"
@@ -192,8 +192,7 @@ named = [row[1] for row in rows]  # the front by its names, cheapest first
 assert named and set(named) <= {"quick, n 2", "quick, n 8", "slow, n 8, blind 1", "slow, n 8, blind 100"}, rows
 assert [row[0] for row in rows] == list(range(1, len(rows) + 1)), rows
 assert [row[2] for row in rows] == sorted(row[2] for row in rows), rows
-dots = [curve for curve in figure["curves"] if curve["style"] == "dots"]
-assert sum(len(curve["x"]) for curve in dots) >= 4
-for curve in dots:  # with error bars
-    assert len(curve["bar"]) == len(curve["from"]) == len(curve["to"]) == len(curve["x"])
+assert [figure["candidates"][one["candidate"]]["label"] for one in figure["output"]["front"]] == named, figure
+assert sum(one["error"]["error"] >= 0 and one["seconds"]["max"] >= one["seconds"]["min"] for one in figure["candidates"]) >= 4
+assert figure["output"]["reference_error"] >= 0  # the bars of the points
 END

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a map found: the result, and its tables. */
+/* What a map found: the result, its tables and its drawings. */
 #include "stability.h"
 
 #include <string.h>
 
-enum { MOST_BOUNDARIES = 40 }; /* of an axis that are shown */
+enum { MOST_BOUNDARIES = 40, MOST_ROWS = 60 }; /* of an axis, and of a slice, that are shown */
 
 static json_t *text_or_null(const char *text)
 {
@@ -24,35 +24,33 @@ static const char *key_of(const study_map *map, int64_t number)
     return answer ? answer->key : NULL;
 }
 
-static json_t *describe_cell(const study_map *map, const study_cell *cell)
+/* Returns {path: value} of the axes of a cell but one; `shortened`: numbers as study_map_short
+   writes them. */
+static json_t *place_of(const study_map *map, const study_cell *cell, size_t without,
+                        bool shortened)
 {
-    json_t *set = json_object();
-    bool grid = cell->halved == map->axis_count;
-    for (size_t a = 0; a < map->axis_count; a++)
-        json_object_set_new(set, map->grid->varied[a].path, text_or_null(cell->settings[a].name));
-    return json_pack("{s:o, s:b, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:s, s:o}", "set",
-                     set, "grid", (int)grid, "verdict", study_class_names[cell->class], "because",
-                     text_or_null(cell->line), "value", number_or_null(cell->value, cell->line),
-                     "limit", number_or_null(cell->limit, cell->line), "text",
-                     text_or_null(cell->why), "note", text_or_null(cell->note), "output",
-                     text_or_null(cell->output), "difference",
-                     number_or_null(cell->difference, cell->output), "estimate",
-                     number_or_null(cell->estimate, cell->output), "key", key_of(map, cell->number),
-                     "twin", text_or_null(key_of(map, cell->twin)));
-}
-
-/* Where a boundary lies on the other axes; `shortened`: as study_map_short writes numbers. */
-static json_t *place_of(const study_map *map, const study_boundary *b, bool shortened)
-{
-    const study_setting *settings = map->cells[b->low].settings;
     json_t *at = json_object();
     for (size_t a = 0; a < map->axis_count; a++) {
-        const char *name = settings[a].name;
-        if (a != b->axis)
+        const char *name = cell->settings[a].name;
+        if (a != without)
             json_object_set_new(at, map->grid->varied[a].path,
                                 text_or_null(shortened ? study_map_short(map, name) : name));
     }
     return at;
+}
+
+static json_t *describe_cell(const study_map *map, const study_cell *cell)
+{
+    bool grid = cell->halved == map->axis_count;
+    return json_pack("{s:o, s:b, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:s, s:o}", "set",
+                     place_of(map, cell, map->axis_count, false), "grid", (int)grid, "verdict",
+                     study_class_names[cell->class], "because", text_or_null(cell->line), "value",
+                     number_or_null(cell->value, cell->line), "limit",
+                     number_or_null(cell->limit, cell->line), "text", text_or_null(cell->why),
+                     "note", text_or_null(cell->note), "output", text_or_null(cell->output),
+                     "difference", number_or_null(cell->difference, cell->output), "estimate",
+                     number_or_null(cell->estimate, cell->output), "key", key_of(map, cell->number),
+                     "twin", text_or_null(key_of(map, cell->twin)));
 }
 
 static json_t *describe_boundary(const study_map *map, const study_boundary *b)
@@ -60,8 +58,8 @@ static json_t *describe_boundary(const study_map *map, const study_boundary *b)
     const study_cell *low = &map->cells[b->low], *high = &map->cells[b->high];
     const study_cell *worse = low->class > high->class ? low : high;
     return json_pack("{s:s, s:o, s:[o,o], s:[s,s], s:o, s:o}", "axis",
-                     map->grid->varied[b->axis].path, "at", place_of(map, b, false), "between",
-                     text_or_null(low->settings[b->axis].name),
+                     map->grid->varied[b->axis].path, "at", place_of(map, low, b->axis, false),
+                     "between", text_or_null(low->settings[b->axis].name),
                      text_or_null(high->settings[b->axis].name), "verdicts",
                      study_class_names[low->class], study_class_names[high->class], "because",
                      text_or_null(worse->line), "text", text_or_null(worse->why));
@@ -140,7 +138,7 @@ static json_t *boundary_row(const study_map *map, const study_boundary *b)
     return json_pack(
         "{s:s++, s:s++, s:o, s:o}", "low", study_map_short(map, low->settings[b->axis].name), " ",
         study_class_names[low->class], "high", study_map_short(map, high->settings[b->axis].name),
-        " ", study_class_names[high->class], "at", place_of(map, b, true), "because",
+        " ", study_class_names[high->class], "at", place_of(map, low, b->axis, true), "because",
         text_or_null(worse->line));
 }
 
@@ -179,6 +177,103 @@ static void tell_boundaries(const study_map *map, study_answer *answer, size_t a
                          path);
 }
 
+/* Adds the cells of a slice that are not converged, and why. */
+static void tell_cells(const study_map *map, size_t slice, study_answer *answer, json_t *figure)
+{
+    static const study_column why[] = {
+        {.of = {"verdict"}, .head = "verdict"}, {.of = {"because"}, .head = "because of"},
+        {.of = {"value"}, .head = "value"},     {.of = {"limit"}, .head = "held to"},
+        {.of = {"text"}, .head = "reason"},     {.of = {"note"}, .head = "note"}};
+    const size_t sides = map->axis_count > 1 ? 2 : 1, more = sizeof why / sizeof *why;
+    study_column *columns =
+        memory_arena_alloc(&map->context->arena, (sides + more) * sizeof *columns);
+    json_t *rows = json_array();
+    size_t count = 0;
+    for (size_t a = 0; a < sides; a++)
+        columns[a] = (study_column){.of = {"at", map->grid->varied[sides - 1 - a].path},
+                                    .head = map->grid->varied[sides - 1 - a].path};
+    memcpy(columns + sides, why, sizeof why);
+    for (size_t r = 0; r < study_map_rows(map); r++)
+        for (size_t c = 0; c < study_map_columns(map); c++) {
+            const study_cell *cell = &map->cells[study_map_cell(map, slice, c, r)];
+            if ((cell->class == STUDY_CONVERGED && !cell->note) || count++ >= MOST_ROWS)
+                continue;
+            json_t *row = describe_cell(map, cell);
+            json_object_set_new(row, "at", place_of(map, cell, map->axis_count, true));
+            json_array_append_new(rows, row);
+        }
+    study_answer_add(
+        answer, &(study_table){
+                    .title = count > MOST_ROWS
+                                 ? study_context_format(map->context,
+                                                        "the first %d of the %zu cells that are "
+                                                        "not converged, and why; map.csv has all",
+                                                        MOST_ROWS, count)
+                                 : "the cells that are not converged, and why",
+                    .columns = columns,
+                    .column_count = sides + more,
+                    .rows = rows,
+                    .folded = true,
+                    .forms = STUDY_ON_PAGE,
+                    .figure = figure});
+}
+
+/* Returns the cells of a slice as the page draws them: their class; of those that are not
+   converged, the reasons. */
+static json_t *cells_of(const study_map *map, size_t slice)
+{
+    json_t *cells = json_array();
+    for (size_t r = 0; r < study_map_rows(map); r++)
+        for (size_t c = 0; c < study_map_columns(map); c++) {
+            const study_cell *cell = &map->cells[study_map_cell(map, slice, c, r)];
+            json_array_append_new(
+                cells,
+                cell->class == STUDY_CONVERGED && !cell->note
+                    ? json_pack("[i]", (int)cell->class)
+                    : json_pack("[i, o, o, o, o, o]", (int)cell->class, text_or_null(cell->line),
+                                study_json_real(cell->value), study_json_real(cell->limit),
+                                text_or_null(cell->why), text_or_null(cell->note)));
+        }
+    return cells;
+}
+
+/* Returns the boundaries of a slice: axis, column and row, and the values between which it lies. */
+static json_t *boundaries_of(const study_map *map, size_t slice)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < map->boundary_count; i++) {
+        const study_boundary *b = &map->boundaries[i];
+        if (b->slice == slice && b->axis < 2)
+            json_array_append_new(list, json_pack("[I, I, I, f, f]", (json_int_t)b->axis,
+                                                  (json_int_t)b->column, (json_int_t)b->row,
+                                                  map->cells[b->low].at[b->axis],
+                                                  map->cells[b->high].at[b->axis]));
+    }
+    return list;
+}
+
+static json_t *draw(const study_map *map, size_t slice, study_answer *answer)
+{
+    const study_setting *settings = map->cells[study_map_cell(map, slice, 0, 0)].settings;
+    const char *title = NULL;
+    json_t *axes = json_array(), *classes = json_array();
+    for (size_t a = 0; a < map->axis_count; a++)
+        if (a < 2)
+            json_array_append(axes, json_array_get(json_object_get(answer->value, "axes"), a));
+        else
+            title = study_context_format(map->context, title ? "%s, %s" : "%s%s",
+                                         title ? title : "", settings[a].name);
+    for (size_t k = 0; k < STUDY_CLASSES; k++)
+        json_array_append_new(classes, json_pack("{s:s, s:s, s:s%}", "name", study_class_names[k],
+                                                 "text", study_class_texts[k], "letter",
+                                                 &study_class_letters[k], (size_t)1));
+    return study_answer_draw(answer,
+                             json_pack("{s:s, s:s, s:o, s:o, s:o, s:o}", "sort", "trust", "title",
+                                       title ? title : "Where the pipeline can be trusted", "axes",
+                                       axes, "classes", classes, "cells", cells_of(map, slice),
+                                       "boundaries", boundaries_of(map, slice)));
+}
+
 void study_map_reduce(void *study, study_answer *answer)
 {
     const study_map *map = study;
@@ -190,7 +285,7 @@ void study_map_reduce(void *study, study_answer *answer)
     for (size_t a = 0; a < map->axis_count; a++)
         tell_boundaries(map, answer, a);
     for (size_t i = 0; i < study_map_slices(map); i++)
-        study_map_draw(map, i, answer);
+        tell_cells(map, i, answer, draw(map, i, answer));
     study_context_print_line(map->context, 0, "");
     /* a map is there to find cells that fail, so only silent failures make it bad */
     map->context->verdict = map->counts[STUDY_SILENT] + map->more[STUDY_SILENT] ? FF_BAD : FF_GOOD;

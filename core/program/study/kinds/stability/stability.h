@@ -138,8 +138,6 @@ const char *study_map_value(const study_map *map, size_t axis, size_t point);
 
 /* stability-result.c: says what the map found. */
 void study_map_reduce(void *study, study_answer *answer);
-/* stability-figure.c: draws a slice. */
-void study_map_draw(const study_map *map, size_t slice, study_answer *answer);
 /* stability-print.c */
 void study_map_print(const study_map *map);
 /* Returns "1.77827941004 m/s" with four digits: "1.778 m/s". */

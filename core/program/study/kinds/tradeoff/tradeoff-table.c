@@ -233,6 +233,20 @@ static void tell_reference(study_answer *answer, const json_t *result)
                 : "");
 }
 
+/* Draws the error of an output against the cost. */
+static json_t *draw(study_answer *answer, const json_t *candidates, const char *output, json_t *of)
+{
+    json_t *points = json_array(), *one;
+    size_t i;
+    json_array_foreach(candidates, i, one) json_array_append_new(
+        points, json_pack("{s:O, s:O, s:O?}", "label", json_object_get(one, "label"), "seconds",
+                          json_object_get(one, "seconds"), "error",
+                          json_object_get(json_object_get(one, "errors"), output)));
+    return study_answer_draw(answer,
+                             json_pack("{s:s, s:s+, s:O, s:o}", "sort", "front", "title", output,
+                                       ": error against cost", "output", of, "candidates", points));
+}
+
 void study_tradeoff_tell(study_answer *answer)
 {
     const json_t *result = answer->value, *candidates = json_object_get(result, "candidates");
@@ -242,7 +256,7 @@ void study_tradeoff_tell(study_answer *answer)
     tell_reference(answer, result);
     json_object_foreach(json_object_get(result, "outputs"), output, of)
     {
-        json_t *figure = study_answer_draw(answer, study_tradeoff_figure(result, output, of));
+        json_t *figure = draw(answer, candidates, output, of);
         study_context_print_line(answer->context, 0, "");
         add_candidates(answer, output, of, sorted, count, figure);
         add_front(answer, candidates, of, figure);

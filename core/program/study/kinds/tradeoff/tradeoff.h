@@ -67,7 +67,5 @@ json_t *study_tradeoff_result(const study_tradeoff *t, size_t levels);
 
 /* tradeoff-table.c: what it found, from the value of the answer. */
 void study_tradeoff_tell(study_answer *answer);
-/* tradeoff-figure.c: draws error against cost for an output. */
-json_t *study_tradeoff_figure(const json_t *result, const char *name, const json_t *output);
 
 #endif

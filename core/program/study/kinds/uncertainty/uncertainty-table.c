@@ -127,6 +127,38 @@ static void add_statistics(study_answer *answer, const char *title, const char *
                                             .figure = figure});
 }
 
+/* Draws an output: its histogram, which is returned, and the share of each input. */
+static json_t *draw(study_answer *answer, const char *name, const json_t *of)
+{
+    const char *dot = strrchr(name, '.');
+    const study_readable unit = study_uncertainty_unit(name, of);
+    json_t *shares = json_object_get(of, "shares"),
+           *histogram = study_answer_draw(
+               answer,
+               json_pack("{s:s, s:s+, s:s, s:s, s:f, s:f, s:O, s:O}", "sort", "histogram", "title",
+                         name, ": what the inputs make of it", "name", dot ? dot + 1 : name, "unit",
+                         unit.unit, "factor", unit.factor, "offset", unit.offset, "percentiles",
+                         json_object_get(of, "percentiles"), "histogram",
+                         json_object_get(of, "histogram")));
+    if (json_object_size(shares))
+        study_answer_draw(answer,
+                          json_pack("{s:s, s:s++, s:O}", "sort", "shares", "title", name,
+                                    ": share of its variance, by ",
+                                    study_text_of(answer->value, "shares_by"), "shares", shares));
+    return histogram;
+}
+
+/* Draws the three error bars of all outputs. */
+static void draw_limits(study_answer *answer, json_t *outputs)
+{
+    json_t *bars = json_object(), *of;
+    const char *name;
+    json_object_foreach(outputs, name, of)
+        json_object_set(bars, name, json_object_get(of, "limits"));
+    study_answer_draw(answer, json_pack("{s:s, s:s, s:o}", "sort", "limits", "title",
+                                        "What limits each output", "outputs", bars));
+}
+
 static void tell_output(study_answer *answer, const char *name, const json_t *of, json_t *all)
 {
     study_context *context = answer->context;
@@ -137,7 +169,7 @@ static void tell_output(study_answer *answer, const char *name, const json_t *of
     const char *title =
         study_context_format(context, "%s, each with the interval that holds it with 95 %%", name);
     add_statistics(answer, title, study_text_of(json_object_get(of, "limits"), "sentence"), rows,
-                   study_uncertainty_draw(answer, name, of), SHOWN);
+                   draw(answer, name, of), SHOWN);
     if (failed)
         study_answer_say(answer, SHOWN, 2,
                          "%lld samples failed and are left out: where that hangs on the inputs, "
@@ -208,7 +240,7 @@ void study_uncertainty_reduce(void *study, study_answer *answer)
     json_t *result = answer->value = study_uncertainty_result(study), *all = json_array(), *of;
     const char *name;
     answer->digits = 9;
-    study_uncertainty_draw_limits(answer, json_object_get(result, "outputs"));
+    draw_limits(answer, json_object_get(result, "outputs"));
     json_object_foreach(json_object_get(result, "outputs"), name, of)
         tell_output(answer, name, of, all);
     tell_conditions(answer, json_object_get(result, "conditions"), all);

@@ -118,9 +118,4 @@ study_readable study_uncertainty_unit(const char *name, const json_t *of);
 /* uncertainty-table.c: what a study found. */
 void study_uncertainty_reduce(void *study, study_answer *answer);
 
-/* uncertainty-figure.c */
-/* Draws an output: its histogram, which is returned, and the share of each input. */
-json_t *study_uncertainty_draw(study_answer *answer, const char *name, const json_t *of);
-void study_uncertainty_draw_limits(study_answer *answer, const json_t *outputs);
-
 #endif
