@@ -9,7 +9,6 @@ import os
 import re
 import shutil
 import struct
-import subprocess
 import sys
 
 import lab
@@ -22,6 +21,7 @@ if not shutil.which("chromium"):
     sys.exit(77)
 
 HOSTILE = """</script></style></title>'"--><img src=x onerror="document.title='evil'"><script>document.title='evil'</script>&amp;"""
+NAMED = "outputs", "computed", "quality", "parameters", "wires", "docs", "models", "facts"  # maps whose keys are names
 CONFIGS = os.environ["FLANKFILM_TEST_SOURCE"] + "/configs/"
 
 # The figures that are to be seen and stay empty.
@@ -530,7 +530,7 @@ class Report(lab.Lab):
 
     def harmless(self, path):
         with open(path, encoding="utf-8") as file:
-            self.assertNotIn("<img", file.read())
+            self.assertEqual(file.read().count("<img"), 0)
         self.browser.open("file://" + os.path.abspath(path))
         self.assertEqual(self.browser.value("document.body.dataset.ready"), "1")
         self.assertNotEqual(self.browser.value("document.title"), "evil")
@@ -538,12 +538,12 @@ class Report(lab.Lab):
         self.assertGreater(self.browser.value("document.querySelector('main').textContent.split('<img').length"), 5)
 
     def poison(self, name):
-        """Copies results and puts markup into each text and name with which a page can be made; returns how many."""
+        """Copies results and puts markup into each text and name but those of files that are read; returns how many."""
         def places(of, path):
             if isinstance(of, dict):
                 for key, one in of.items():
                     yield from places(one, (*path, key))
-                    if path[-1:] and path[-1] in ("outputs", "computed", "quality", "parameters", "wires", "docs"):
+                    if path[-1:] and path[-1] in NAMED:
                         yield (*path, key), True
             elif isinstance(of, list):
                 for k, one in enumerate(of[:3]):
@@ -564,21 +564,10 @@ class Report(lab.Lab):
             for name, value in files.items():
                 self.write("hostile/" + name, json.dumps(value))
 
-        def spread(more, taken):
-            """Adds the places of a list that do not spoil the results for the page."""
-            store(taken + more)
-            done = subprocess.run([self.program, "report", "hostile", "-o", "hostile.html"], capture_output=True, check=False)
-            self.assertIn(done.returncode, (0, 1, 2), done)
-            if done.returncode == 0:
-                return taken + more
-            if len(more) < 2:
-                return taken
-            return spread(more[len(more) // 2:], spread(more[:len(more) // 2], taken))
-
         shutil.rmtree("hostile", ignore_errors=True)
         shutil.copytree(name, "hostile")
         whole = {file: self.read("hostile/" + file) for file in os.listdir("hostile") if file.endswith(".json")}
-        taken = spread([place for place in places(whole, ()) if len(place[0]) > 1], [])
+        taken = [(path, key) for path, key in places(whole, ()) if len(path) > 1 and not (path[-1] == "file" and path[1] in ("outputs", "computed"))]
         store(taken)
         return len(taken)
 
