@@ -25,10 +25,12 @@ static const double FIRST_STEP = 5e-4;
 static const double SHORT_STEP = 0.02, SHORTEST_STEP = 1e-4;
 
 /* What the solver leaves of the flow enters the truncation, which is of the differences of films:
- * in relation to what a step may have, by the same amount however short the step. After MOST_FUTILE
- * shortest steps in a row that have more than that, which is longer than the pass of a kink, the
- * solver is asked to leave STRICTER of it, down to STRICTEST of the usual. */
-enum { MOST_FUTILE = 12 };
+ * in relation to what a step may have, by the more the shorter the step. A step is futile if a
+ * longer one was repeated for it although its own error is not smaller in proportion, or if it is
+ * the shortest and has more than it may have. After MOST_FUTILE of them, which is more than at a
+ * kink, the solver is asked to leave STRICTER of it, down to STRICTEST of the usual. CALM steps in
+ * a row that are not futile end a count. */
+enum { MOST_FUTILE = 12, CALM = 64 };
 static const double STRICTER = 0.3, STRICTEST = 0.02;
 
 /* Share of the tolerance by which a straight line between two instants may differ from the film. */
@@ -206,12 +208,11 @@ static int repeat_step(ehl_step_control *p, ehl_march *m, ff_status status, doub
     return 0;
 }
 
-/* Asks the solver for less error where the shortest steps do not help; `error` is that of a step of
- * length dt. */
-static void make_stricter(ehl_step_control *p, ehl_march *m, double dt, double error, double cell)
+/* Counts futile steps, and asks the solver for less error where there are many. */
+static void make_stricter(ehl_step_control *p, ehl_march *m, int futile)
 {
-    int futile = error > ALLOWED_EXCESS && dt < 1.01 * SHORT_STEP * cell;
-    p->futile = futile ? p->futile + 1 : 0;
+    p->calm = futile ? 0 : p->calm + 1;
+    p->futile = p->calm < CALM ? p->futile + futile : 0;
     if (p->futile < MOST_FUTILE || m->exactness * STRICTER < STRICTEST)
         return;
     m->exactness *= STRICTER;
@@ -244,17 +245,19 @@ ff_status ehl_step_control_to(ehl_step_control *p, ehl_march *m, double time)
 
 ff_status ehl_step_control_next(ehl_step_control *p, ehl_march *m)
 {
-    double cell = cell_time(m), error, dt;
+    double cell = cell_time(m), error = 0, dt = 0;
     ff_status status;
-    int last;
+    int last, futile = 0;
     do {
+        const double longer = dt, before = error;
         ehl_instant at = next_instant(p, m, &last);
         dt = at.time - m->state[0].time;
         status = ehl_march_try(m, &at);
         double allowed = p->tolerance * (ehl_contact_is_lost(m, &at) ? CONTACT_LOSS_ALLOWANCE : 1);
-        error = ehl_march_truncation(m) * forgetting_time(m) / (dt * allowed);
+        error = status == FF_OK ? ehl_march_truncation(m) * forgetting_time(m) / (dt * allowed) : 0;
         if (status != FF_OK && status != FF_NOCONV)
             return status;
+        futile = status == FF_OK && before > ALLOWED_EXCESS && error * longer > before * dt;
         if (status == FF_NOCONV && !(dt > SHORTEST_STEP * cell)) {
             status = ehl_march_without_load(m, &at);
             if (status == FF_OK && last)
@@ -262,7 +265,7 @@ ff_status ehl_step_control_next(ehl_step_control *p, ehl_march *m)
             return status;
         }
     } while (repeat_step(p, m, status, dt, error, cell));
-    make_stricter(p, m, dt, error, cell);
+    make_stricter(p, m, futile || (error > 1 && dt < 1.01 * SHORT_STEP * cell));
     double longest_change = 0.9 * dt / fmax(change_over_limit(p, m), 1e-3);
     ehl_march_accept(m);
     p->dt =

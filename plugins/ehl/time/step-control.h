@@ -12,8 +12,8 @@ typedef struct ehl_step_control {
     double *breakpoint; /* times at which a step must end, s; the last one is the end of the
                            history */
     size_t breakpoints, next;
-    double dt;  /* s, length of the next step */
-    int futile; /* shortest steps in a row with more error than a step may have */
+    double dt;        /* s, length of the next step */
+    int futile, calm; /* steps that were shortened in vain; steps since the last of them */
 } ehl_step_control;
 
 /* Makes a step control. `equal`: the step lengths are given, and only kinks of the radius are

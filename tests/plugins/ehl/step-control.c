@@ -154,9 +154,10 @@ static void test_jump(void)
 
 /*
  * The beginning of an engagement of FZG C-PT at 302 N m and 2250 rpm with VG 100 at 90 degC. What
- * the solver leaves of the flow enters the truncation by the same amount however short the step is.
- * If that is above what a step may have, the solver must leave less, or all steps are the shortest
- * ones: 12 760 instants with heat.
+ * the solver leaves of the flow enters the truncation by the more the shorter the step is. If that
+ * is above what a step may have, the solver must leave less, or all steps are the shortest ones:
+ * 12 760 instants with heat on 256 cells. On 512 cells the errors of these steps scatter about the
+ * allowed one: 1980 instants if only those in a row count.
  */
 static void test_error_of_solver(void)
 {
@@ -166,16 +167,16 @@ static void test_error_of_solver(void)
                                       216906, 240360, 266161, 292232, 316490};
     static const struct run {
         const char *thermal;
-        double most; /* instants */
-    } runs[] = {{"none", 800}, {"full", 800}};
-    for (size_t k = 0; k < 2; k++) {
+        double cells, most; /* most: instants */
+    } runs[] = {{"none", 256, 800}, {"full", 256, 800}, {"full", 512, 800}};
+    for (size_t k = 0; k < sizeof runs / sizeof runs[0]; k++) {
         line c;
         size_t n;
         line_open(&c, model);
         line_grade(&c, "ISO VG 100", 363.15);
         line_eyring(&c, 6e6);
         own_steps(&c, "7e-3");
-        stage_set(c.film, "cells", 256);
+        stage_set(c.film, "cells", runs[k].cells);
         stage_set_text(c.film, "thermal", runs[k].thermal);
         line_last(&c, ROWS, 1.29389e-4);
         for (int i = 0; i < ROWS; i++) {
