@@ -54,11 +54,12 @@ static ff_status ready(void *self)
     return FF_OK;
 }
 
+/* The only service is a viscosity law; data inputs have none. */
 static ff_status wire(void *self, uint32_t input, const void *service)
 {
-    tooth_pair *s = self;
-    if (input == CONTACT_TOOTH_VISCOSITY)
-        s->law = service;
+    (void)input;
+    if (service)
+        ((tooth_pair *)self)->law = service;
     return FF_OK;
 }
 
@@ -260,21 +261,24 @@ static void report_engagements(const tooth_pair *s, const contact_tooth_path *p)
 static void report_load(const tooth_pair *s, const contact_tooth_path *p, const load_record *r)
 {
     const double limit = 0.01, turns = p->pitch * (double)p->count;
+    const char *by =
+        p->both_bear ? "that of the motion on these flanks" : "torque over base radius";
     char text[240];
-    if (!(p->line_force > 0))
+    if (!(p->mean_force > 0))
         return;
-    double off = fabs((r->load_sum - r->negative) / turns / p->line_force - 1);
+    double off = fabs((r->load_sum - r->negative) / turns / p->mean_force - 1);
     if (p->count < p->available)
         snprintf(text, sizeof text,
-                 "relative difference between the mean mesh force and torque over base radius; "
+                 "relative difference between the mean mesh force and %s; "
                  "only %zu of %zu engagements are included; %s takes more",
-                 p->count, p->available,
+                 by, p->count, p->available,
                  s->engagements.one == CONTACT_ENGAGEMENTS_ALL ? "max_engagements"
                                                                : "engagement: all");
     else
         snprintf(text, sizeof text,
-                 "relative difference between the mean mesh force and torque over base radius; "
-                 "over whole periods both are equal, unless teeth carry load beyond the path");
+                 "relative difference between the mean mesh force and %s; "
+                 "over whole periods both are equal, unless teeth carry load beyond the path",
+                 by);
     s->host->quality(s->host->ctx, "mesh_load", off, limit, off <= limit ? FF_GOOD : FF_DOUBTFUL,
                      text);
 }
@@ -351,11 +355,10 @@ static ff_status make_history(const tooth_pair *s, const contact_tooth_path *p, 
     return status == FF_OK ? report(s, p, &r, wanted) : status;
 }
 
-static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
+static ff_status evaluate_flanks(const tooth_pair *s, uint64_t wanted, const ff_array *in, int back)
 {
-    const tooth_pair *s = self;
     contact_tooth_path p;
-    ff_status status = contact_tooth_path_read(s->host, in, s->engagements, &p);
+    ff_status status = contact_tooth_path_read(s->host, in, back, s->engagements, &p);
     contact_piece *pieces = NULL;
     double *curves = NULL, *breaks = NULL;
     if (status != FF_OK)
@@ -373,12 +376,31 @@ out:
     return status;
 }
 
+static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
+{
+    return evaluate_flanks(self, wanted, in, 0);
+}
+
+static ff_status evaluate_back(void *self, uint64_t wanted, const ff_array *in)
+{
+    return evaluate_flanks(self, wanted, in, 1);
+}
+
 FF_MODEL(contact_tooth_pair, tooth_pair, .id = "contact/tooth-pair", .version = "1.0.0",
          .summary = "load, radii and speeds of one tooth pair from SAP to tip",
          .reference = "Li and Kahraman 2011, Proc. IMechE Part J, Influence of dynamic behaviour "
                       "on elastohydrodynamic lubrication of spur gears; Steffen 1990, Astron. "
                       "Astrophys. 239, 443 (interpolation)",
          .bibtex = BIB_likahraman2011 "\n" BIB_steffen1990, .licence = "GPL-3.0-or-later",
-         .params = FF_TABLE(params), .inputs = FF_TABLE(contact_tooth_inputs),
-         .outputs = FF_TABLE(contact_outputs), .wire = wire, .ready = ready, .evaluate = evaluate,
-         .destroy = free);
+         .params = FF_TABLE(params), .inputs = &contact_tooth_inputs[CONTACT_TOOTH_FIRST],
+         .input_count = CONTACT_TOOTH_INPUTS - CONTACT_TOOTH_FIRST,
+         .input_stride = sizeof contact_tooth_inputs[0], .outputs = FF_TABLE(contact_outputs),
+         .wire = wire, .ready = ready, .evaluate = evaluate, .destroy = free);
+FF_MODEL(contact_back_tooth_pair, tooth_pair, .id = "contact/back-tooth-pair", .version = "1.0.0",
+         .summary = "load, radii and speeds of one tooth pair on the flanks that the mean load "
+                    "does not press",
+         .reference = "Steffen 1990, Astron. Astrophys. 239, 443 (interpolation)",
+         .bibtex = BIB_steffen1990, .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
+         .inputs = contact_tooth_inputs, .input_count = CONTACT_TOOTH_INPUTS - CONTACT_TOOTH_FIRST,
+         .input_stride = sizeof contact_tooth_inputs[0], .outputs = FF_TABLE(contact_outputs),
+         .wire = wire, .ready = ready, .evaluate = evaluate_back, .destroy = free);

@@ -9,8 +9,19 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 const ff_port contact_tooth_inputs[CONTACT_TOOTH_INPUTS] = {
+    {.name = "load.back_tooth_force",
+     .unit = "N",
+     .doc = "tooth force on a pair of flanks that the mean load does not press",
+     .dims = "engagement? gear.station",
+     .from = "stiffness|dynamics"},
+    {.name = "load.back_gap",
+     .unit = "m",
+     .doc = "separation of these flanks; 0 in contact",
+     .dims = "engagement? gear.station",
+     .from = "stiffness|dynamics"},
     {.name = "gear.roll_angle",
      .unit = "rad",
      .doc = "roll angle of gear 1 from SAP to tip; an angle given twice marks a jump of the load",
@@ -43,6 +54,20 @@ const ff_port contact_tooth_inputs[CONTACT_TOOTH_INPUTS] = {
      .doc = "static force along the line of action: the mean total force of all pairs",
      .dims = "",
      .flags = FF_OPTIONAL},
+    {.name = "viscosity",
+     .unit = "",
+     .doc = "viscosity law, for the Moes numbers",
+     .dims = "",
+     .service = FF_VISCOSITY_ID,
+     .flags = FF_OPTIONAL},
+    NUMERICS_OIL_ROWS,
+    {.name = "load.back_force_mean",
+     .unit = "N",
+     .doc = "mean force of the flanks that the mean load does not press, if load.tooth_force is "
+            "without it",
+     .dims = "",
+     .flags = FF_OPTIONAL,
+     .from = "stiffness|dynamics"},
     {.name = "load.tooth_force",
      .unit = "N",
      .doc = "tooth force on the pair, quasi-static or dynamic",
@@ -54,13 +79,6 @@ const ff_port contact_tooth_inputs[CONTACT_TOOTH_INPUTS] = {
      .dims = "engagement? gear.station",
      .flags = FF_OPTIONAL,
      .from = "stiffness|dynamics"},
-    {.name = "viscosity",
-     .unit = "",
-     .doc = "viscosity law, for the Moes numbers",
-     .dims = "",
-     .service = FF_VISCOSITY_ID,
-     .flags = FF_OPTIONAL},
-    NUMERICS_OIL_ROWS,
 };
 
 /* Reads a scalar, or the first two numbers of a series; each must be finite and positive. */
@@ -116,9 +134,10 @@ static ff_status read_engagements(const ff_host *host, contact_engagement_choice
                         "engagement %ld does not exist: the load has %zu, counted from 0",
                         (long)wanted.one, p->available);
     if (p->gap && p->gaps != 1 && p->gaps != p->available)
-        return ff_failf(host, FF_INVALID, "load.gap",
-                        "load.gap has %zu engagements, load.tooth_force %zu", p->gaps,
-                        p->available);
+        return ff_failf(host, FF_INVALID, contact_tooth_inputs[p->force_row + 1].name,
+                        "%s has %zu engagements, %s %zu",
+                        contact_tooth_inputs[p->force_row + 1].name, p->gaps,
+                        contact_tooth_inputs[p->force_row].name, p->available);
     p->engagement = malloc(p->available * sizeof *p->engagement);
     if (!p->engagement)
         return FF_NOMEM;
@@ -151,24 +170,38 @@ static ff_status read_stations(const ff_host *host, const ff_array *in,
     if (status == FF_OK)
         status = read_series(host, in, CONTACT_TOOTH_RADIUS_2, p->n, 1e-100, &p->radius_2, NULL);
     if (status == FF_OK)
-        status = read_series(host, in, CONTACT_TOOTH_TOOTH_FORCE, p->n, -1e100, &p->force,
-                             &p->available);
-    if (status == FF_OK && in[CONTACT_TOOTH_GAP].data)
-        status = read_series(host, in, CONTACT_TOOTH_GAP, p->n, -1e100, &p->gap, &p->gaps);
+        status = read_series(host, in, p->force_row, p->n, -1e100, &p->force, &p->available);
+    if (status == FF_OK && in[p->force_row + 1].data)
+        status = read_series(host, in, p->force_row + 1, p->n, -1e100, &p->gap, &p->gaps);
     return status == FF_OK ? read_engagements(host, wanted, p) : status;
 }
 
-ff_status contact_tooth_path_read(const ff_host *host, const ff_array *in,
+/* Sets the mean force of all pairs of these flanks. Those that the mean load presses carry it and
+   what the others carry. */
+static void read_mean_force(const ff_array *in, int back, contact_tooth_path *p)
+{
+    const double *force = in[CONTACT_TOOTH_LINE_FORCE].data,
+                 *behind = in[CONTACT_TOOTH_BACK_FORCE_MEAN].data;
+    const double others = behind ? *behind : 0;
+    p->both_bear = others > 0;
+    p->mean_force = back ? others : force && *force >= 0 ? *force + others : 0;
+}
+
+ff_status contact_tooth_path_read(const ff_host *host, const ff_array *in, int back,
                                   contact_engagement_choice wanted, contact_tooth_path *p)
 {
     double teeth[2] = {1, 1};
-    *p = (contact_tooth_path){.oil = &in[CONTACT_TOOTH_OIL]};
-    ff_status status =
-        numerics_exchange_open(contact_tooth_inputs, CONTACT_TOOTH_INPUTS, in, &p->exchange);
+    *p = (contact_tooth_path){.force_row = back ? CONTACT_TOOTH_BACK_TOOTH_FORCE
+                                                : CONTACT_TOOTH_TOOTH_FORCE};
+    memcpy(&p->in[contact_tooth_first(back)], in,
+           (CONTACT_TOOTH_INPUTS - CONTACT_TOOTH_FIRST) * sizeof *in);
+    p->oil = &p->in[CONTACT_TOOTH_OIL];
+    const int loaded = numerics_flank(contact_tooth_inputs, CONTACT_TOOTH_INPUTS, p->in);
+    ff_status status = numerics_exchange_open_flank(contact_tooth_inputs, CONTACT_TOOTH_INPUTS,
+                                                    p->in, (loaded < 0) != back, &p->exchange);
     in = p->exchange.in;
     if (status == FF_OK)
-        status = numerics_exchange_check(host, contact_tooth_inputs, &p->exchange,
-                                         CONTACT_TOOTH_TOOTH_FORCE);
+        status = numerics_exchange_check(host, contact_tooth_inputs, &p->exchange, p->force_row);
     if (status == FF_OK)
         status = read_positive(host, in, CONTACT_TOOTH_FACE_WIDTH, 1, &p->face_width);
     if (status == FF_OK)
@@ -177,8 +210,7 @@ ff_status contact_tooth_path_read(const ff_host *host, const ff_array *in,
         status = read_positive(host, in, CONTACT_TOOTH_REDUCED_MODULUS, 1, &p->reduced_modulus);
     if (status == FF_OK)
         status = read_positive(host, in, CONTACT_TOOTH_SPEED, 1, &p->speed);
-    const double *force = in[CONTACT_TOOTH_LINE_FORCE].data;
-    p->line_force = force && *force > 0 ? *force : 0; /* unloaded gears have no reference force */
+    read_mean_force(in, back, p);
     p->ratio = teeth[0] / teeth[1];
     p->pitch = 2 * M_PI / teeth[0];
     return status == FF_OK ? read_stations(host, in, wanted, p) : status;

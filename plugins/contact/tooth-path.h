@@ -8,8 +8,12 @@
 
 #include <flankfilm/plugin.h>
 
+/* A pair of flanks that the mean load presses reads the rows from CONTACT_TOOTH_FIRST on; a pair of
+   the other flanks reads all but the last two rows. */
 enum {
-    CONTACT_TOOTH_ROLL_ANGLE,
+    CONTACT_TOOTH_BACK_TOOTH_FORCE, /* this row and the next one, the gap */
+    CONTACT_TOOTH_FIRST = CONTACT_TOOTH_BACK_TOOTH_FORCE + 2,
+    CONTACT_TOOTH_ROLL_ANGLE = CONTACT_TOOTH_FIRST,
     CONTACT_TOOTH_RADIUS_1,
     CONTACT_TOOTH_RADIUS_2,
     CONTACT_TOOTH_FACE_WIDTH,
@@ -17,12 +21,17 @@ enum {
     CONTACT_TOOTH_REDUCED_MODULUS,
     CONTACT_TOOTH_SPEED,
     CONTACT_TOOTH_LINE_FORCE,
-    CONTACT_TOOTH_TOOTH_FORCE,
-    CONTACT_TOOTH_GAP,
     CONTACT_TOOTH_VISCOSITY,
     CONTACT_TOOTH_OIL, /* this row and the next one */
-    CONTACT_TOOTH_INPUTS = CONTACT_TOOTH_OIL + 2
+    CONTACT_TOOTH_BACK_FORCE_MEAN = CONTACT_TOOTH_OIL + 2,
+    CONTACT_TOOTH_TOOTH_FORCE, /* this row and the next one, the gap */
+    CONTACT_TOOTH_INPUTS = CONTACT_TOOTH_TOOTH_FORCE + 2
 };
+
+static inline uint32_t contact_tooth_first(int back)
+{
+    return back ? 0 : CONTACT_TOOTH_FIRST;
+}
 
 extern const ff_port contact_tooth_inputs[CONTACT_TOOTH_INPUTS];
 
@@ -37,13 +46,17 @@ typedef struct contact_tooth_path {
     double pitch;              /* roll angle from one pair to the next, rad */
     double face_width, ratio;  /* ratio: omega2 / omega1 */
     double speed, reduced_modulus;
-    double line_force;          /* N; 0: not wired */
+    double mean_force;          /* of all pairs, N; 0: unknown */
+    int both_bear;              /* whether the load presses both flanks in turn */
     numerics_exchange exchange; /* the pair whose driving flanks carry the load */
-    const ff_array *oil;        /* two inputs */
+    ff_array in[CONTACT_TOOTH_INPUTS];
+    uint32_t force_row;  /* of the inputs */
+    const ff_array *oil; /* two inputs */
 } contact_tooth_path;
 
-/* Reads and checks the inputs. The caller closes the path, also after an error. */
-ff_status contact_tooth_path_read(const ff_host *host, const ff_array *in,
+/* Reads and checks the inputs of the flanks that the mean load presses, or with `back` of the
+   others. `p` must stay where it is. The caller closes it, also after an error. */
+ff_status contact_tooth_path_read(const ff_host *host, const ff_array *in, int back,
                                   contact_engagement_choice wanted, contact_tooth_path *p);
 void contact_tooth_path_close(contact_tooth_path *p);
 

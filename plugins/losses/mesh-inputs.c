@@ -49,7 +49,9 @@ static ff_status read_scalars(const ff_host *host, const ff_array *in, losses_me
     if (status == FF_OK)
         status = read_scalar(host, in, IN_CONTACT_RATIO, 1e-6, &m->contact_ratio);
     if (status == FF_OK)
-        status = read_scalar(host, in, IN_TORQUE, 0, &m->torque);
+        status = read_scalar(host, in, IN_TORQUE, m->other ? -1e18 : 0, &m->torque);
+    if (m->other)
+        m->torque = 0;
     if (status == FF_OK)
         status = read_scalar(host, in, IN_SPEED, 1e-12, &speed);
     if (status == FF_OK)
@@ -161,11 +163,46 @@ static ff_status read_oil(const ff_host *host, const ff_liquid *oil, losses_mesh
     return FF_OK;
 }
 
+/* Returns whether a pair comes into contact at the root of gear 1 (1) or at its tip (-1); 0:
+   unknown. */
+static int direction_of(const ff_array *roll)
+{
+    const size_t n = roll->data && roll->rank == 1 ? roll->shape[0] : 0;
+    size_t i = 1;
+    while (i < n && roll->data[i] == roll->data[0])
+        i++;
+    return i < n ? (roll->data[i] > roll->data[0]) - (roll->data[i] < roll->data[0]) : 0;
+}
+
+/* Reads the losses of the other flanks. */
+static ff_status read_back(const ff_host *host, const ff_array *in, losses_mesh *m)
+{
+    const ff_array *roll = &in[IN_BACK_ROLL_ANGLE];
+    ff_status status = FF_OK;
+    if (!roll->data || !in[IN_BACK_LOSS_MEAN].data)
+        return FF_OK;
+    if (m->other)
+        return ff_failf(host, FF_INVALID, "back",
+                        "these flanks are the ones that the mean load does not press: wire their "
+                        "losses to the stage of the flanks that it presses");
+    if (direction_of(roll) >= 0) /* of the exchanged pair, whose driving flanks these are */
+        return ff_failf(
+            host, FF_INVALID, "back",
+            "is the loss of the same flanks: wire the losses of a film whose contact is "
+            "contact/back-tooth-pair");
+    for (uint32_t k = 0; k <= PARTS && status == FF_OK; k++)
+        status = read_optional(host, in, IN_BACK_LOSS_MEAN + k, 1, &m->back[k]);
+    return status;
+}
+
 ff_status losses_read(const ff_host *host, const ff_array *in, const ff_liquid *oil, losses_mesh *m)
 {
     const double most = 1e18;
     *m = (losses_mesh){.shown = in[IN_ROLL_ANGLE].data};
-    if (numerics_exchange_open(losses_inputs, LOSSES_INPUTS, in, &m->exchange) != FF_OK)
+    const int loaded = numerics_flank(losses_inputs, LOSSES_INPUTS, in),
+              way = direction_of(&in[IN_ROLL_ANGLE]), back = way ? way < 0 : loaded < 0;
+    m->other = back != (loaded < 0);
+    if (numerics_exchange_open_flank(losses_inputs, LOSSES_INPUTS, in, back, &m->exchange) != FF_OK)
         return FF_NOMEM;
     in = m->exchange.in;
     m->n = in[IN_ROLL_ANGLE].rank == 1 ? in[IN_ROLL_ANGLE].shape[0] : 0;
@@ -195,6 +232,8 @@ ff_status losses_read(const ff_host *host, const ff_array *in, const ff_liquid *
         status = read_oil(host, oil, m);
     if (status == FF_OK)
         status = find_engagements(host, m);
+    if (status == FF_OK)
+        status = read_back(host, m->exchange.in, m);
     return status == FF_OK ? check_rising(host, IN_STATION, m->stations, m->station) : status;
 }
 

@@ -14,9 +14,12 @@
 /* The checked inputs, in SI, and series of n values derived from them. */
 typedef struct losses_mesh {
     size_t n, stations;
-    numerics_exchange
-        exchange; /* the pair whose driving flanks carry the load; all data below refer to it */
-    const double *shown; /* roll angles of gear 1 at the steps, as written to outputs */
+    numerics_exchange exchange; /* the pair whose driving flanks have the film; all data below refer
+                                   to it */
+    bool other;                 /* whether these are the flanks that the mean load does not press;
+                                   torque is then 0 */
+    const double *back[1 + PARTS]; /* mean losses of the other flanks, W; NULL: not wired */
+    const double *shown;           /* roll angles of gear 1 at the steps, as written to outputs */
     const double *roll, *power, *traction, *friction;
     const double *part[PARTS], *engagement; /* NULL: the film does not give it */
     size_t count, *first; /* number of engagements, and the first step of each; first[count] = n */

@@ -133,6 +133,38 @@ const ff_port losses_inputs[LOSSES_INPUTS] = {
                 .flags = FF_OPTIONAL,
                 .from = "lubricant"},
     [IN_HEAT] = NUMERICS_HEAT_ROWS("gear"),
+    [IN_BACK_ROLL_ANGLE] =
+        {.name = "back.roll_angle",
+         .unit = "rad",
+         .doc = "roll angle of gear 1 at the steps of another losses stage, that of the flanks "
+                "that the mean load does not press; their losses are then included in the means",
+         .dims = "t",
+         .flags = FF_OPTIONAL},
+    [IN_BACK_LOSS_MEAN] = {.name = "back.power_loss_mean",
+                           .unit = "W",
+                           .doc = "mean power loss of these flanks",
+                           .dims = "",
+                           .flags = FF_OPTIONAL},
+    {.name = "back.sliding_loss_mean",
+     .unit = "W",
+     .doc = "part of it due to sliding",
+     .dims = "",
+     .flags = FF_OPTIONAL},
+    {.name = "back.rolling_loss_mean",
+     .unit = "W",
+     .doc = "part of it due to rolling",
+     .dims = "",
+     .flags = FF_OPTIONAL},
+    {.name = "back.squeeze_loss_mean",
+     .unit = "W",
+     .doc = "part of it due to squeeze",
+     .dims = "",
+     .flags = FF_OPTIONAL},
+    {.name = "back.asperity_loss_mean",
+     .unit = "W",
+     .doc = "part of it due to friction of asperities",
+     .dims = "",
+     .flags = FF_OPTIONAL},
 };
 
 const ff_port losses_outputs[LOSSES_OUTPUTS] = {
@@ -146,13 +178,16 @@ const ff_port losses_outputs[LOSSES_OUTPUTS] = {
     [OUT_MESH_POWER_LOSS] =
         {.name = "mesh_power_loss",
          .unit = "W",
-         .doc = "power loss of all pairs in mesh over the mesh cycle, mean over the engagements",
+         .doc =
+             "power loss of all pairs in mesh over the mesh cycle, on these flanks, mean over the "
+             "engagements",
          .dims = "phase"},
-    [OUT_POWER_LOSS_MEAN] =
-        {.name = "power_loss_mean",
-         .unit = "W",
-         .doc = "mean power loss of the mesh over all engagements: all dissipation in its films",
-         .dims = ""},
+    [OUT_POWER_LOSS_MEAN] = {.name = "power_loss_mean",
+                             .unit = "W",
+                             .doc = "mean power loss of the mesh over all engagements: all "
+                                    "dissipation in its films, on the "
+                                    "flanks of the film and, if wired, on the back flanks",
+                             .dims = ""},
     [OUT_SLIDING_LOSS_MEAN] = {.name = "sliding_loss_mean",
                                .unit = "W",
                                .doc = "part of the power loss due to sliding",

@@ -8,36 +8,6 @@
 #include <flankfilm/plugin.h>
 
 enum {
-    IN_ROLL_ANGLE,
-    IN_POWER_LOSS,
-    IN_SLIDING_LOSS, /* this and the next three rows: the parts of the loss */
-    IN_ROLLING_LOSS,
-    IN_SQUEEZE_LOSS,
-    IN_ASPERITY_LOSS,
-    IN_ENGAGEMENT,
-    IN_TRACTION,
-    IN_FRICTION_COEFFICIENT,
-    IN_STATION,
-    IN_RADIUS_1,
-    IN_RADIUS_2,
-    IN_TEETH,
-    IN_FACE_WIDTH,
-    IN_REDUCED_MODULUS,
-    IN_CONTACT_RATIO,
-    IN_TORQUE,
-    IN_SPEED,
-    IN_OIL_TEMPERATURE,
-    IN_ROUGHNESS,
-    IN_RQ_1,
-    IN_RQ_2,
-    IN_OIL,
-    IN_HEAT, /* of the gears; three rows */
-    LOSSES_INPUTS = IN_HEAT + NUMERICS_HEAT_INPUTS
-};
-
-enum { PARTS = IN_ASPERITY_LOSS - IN_SLIDING_LOSS + 1 };
-
-enum {
     OUT_PHASE,
     OUT_MESH_POWER_LOSS,
     OUT_POWER_LOSS_MEAN,
@@ -65,6 +35,39 @@ enum {
     OUT_CONTACT_TEMPERATURE_MAX,
     LOSSES_OUTPUTS
 };
+
+enum {
+    IN_ROLL_ANGLE,
+    IN_POWER_LOSS,
+    IN_SLIDING_LOSS, /* this and the next three rows: the parts of the loss */
+    IN_ROLLING_LOSS,
+    IN_SQUEEZE_LOSS,
+    IN_ASPERITY_LOSS,
+    IN_ENGAGEMENT,
+    IN_TRACTION,
+    IN_FRICTION_COEFFICIENT,
+    IN_STATION,
+    IN_RADIUS_1,
+    IN_RADIUS_2,
+    IN_TEETH,
+    IN_FACE_WIDTH,
+    IN_REDUCED_MODULUS,
+    IN_CONTACT_RATIO,
+    IN_TORQUE,
+    IN_SPEED,
+    IN_OIL_TEMPERATURE,
+    IN_ROUGHNESS,
+    IN_RQ_1,
+    IN_RQ_2,
+    IN_OIL,
+    IN_HEAT, /* of the gears; three rows */
+    IN_BACK_ROLL_ANGLE = IN_HEAT + NUMERICS_HEAT_INPUTS,
+    IN_BACK_LOSS_MEAN, /* of the other flanks, in the order of the outputs from OUT_POWER_LOSS_MEAN
+                          on; five rows */
+    LOSSES_INPUTS = IN_BACK_LOSS_MEAN + OUT_ASPERITY_LOSS_MEAN - OUT_POWER_LOSS_MEAN + 1
+};
+
+enum { PARTS = IN_ASPERITY_LOSS - IN_SLIDING_LOSS + 1 };
 
 extern const ff_port losses_inputs[LOSSES_INPUTS];
 extern const ff_port losses_outputs[LOSSES_OUTPUTS];

@@ -322,11 +322,13 @@ static ff_status write_parts(const tooth_mesh *s, const losses_mesh *m, uint64_t
         const uint32_t row = OUT_SLIDING_LOSS_MEAN + k;
         if (!(wanted & FF_BIT(row)))
             continue;
-        if (!m->part[k])
+        if (!m->part[k] || (m->back[0] && !m->back[1 + k]))
             return ff_failf(s->host, FF_UNSUPPORTED, losses_outputs[row].name,
-                            "this output needs a film model that gives %s",
+                            "this output needs a film model that gives %s, on both flanks if both "
+                            "are wired",
                             strchr(losses_inputs[IN_SLIDING_LOSS + k].name, '.') + 1);
-        double mean = m->face_width * mean_of(m, m->part[k]);
+        double mean =
+            m->face_width * mean_of(m, m->part[k]) + (m->back[1 + k] ? *m->back[1 + k] : 0);
         if (ff_put_scalar(s->host, row, mean) != FF_OK)
             return FF_NOMEM;
     }
@@ -356,7 +358,7 @@ static const uint64_t of_transmission =
 static ff_status write_outputs(const tooth_mesh *s, const losses_mesh *m, uint64_t wanted)
 {
     const scatter of = scatter_of(m, NULL);
-    const double mean = of.mean, input = m->torque * m->omega[0];
+    const double mean = of.mean + (m->back[0] ? *m->back[0] : 0), input = m->torque * m->omega[0];
     const double bulk = bulk_of(s, m, mean);
     const double hottest = m->flash[m->hottest];
     const losses_formula f = losses_formula_of(m, s->formula, s->oil_factor);
@@ -364,8 +366,11 @@ static ff_status write_outputs(const tooth_mesh *s, const losses_mesh *m, uint64
     for (uint32_t row = 0; row < LOSSES_OUTPUTS; row++)
         if (wanted & FF_BIT(row) & of_transmission && !(input > 0))
             return ff_failf(s->host, FF_UNSUPPORTED, losses_outputs[row].name,
-                            "the torque is 0, so that no power goes through the gears, and this "
-                            "output has no value");
+                            m->other
+                                ? "the mean load does not press these flanks: ask the losses of "
+                                  "the others, with \"back\" wired to this stage"
+                                : "the torque is 0, so that no power goes through the gears, and "
+                                  "this output has no value");
     for (uint32_t row = OUT_FRICTION_FORMULA; row <= OUT_FRICTION_AGREEMENT; row++)
         if (wanted & FF_BIT(row) && !(f.coefficient > 0))
             return ff_failf(s->host, FF_UNSUPPORTED, losses_outputs[row].name,

@@ -171,13 +171,14 @@ static inline size_t numerics_exchange_partner(const ff_port *ports, size_t coun
     return i;
 }
 
-/* Sets x->in from the inputs of a model; may return FF_NOMEM. The caller closes x, also after an
-   error. */
-static inline ff_status numerics_exchange_open(const ff_port *ports, size_t count,
-                                               const ff_array *in, numerics_exchange *x)
+/* Sets x->in from the inputs of a model, for the driving flanks or with `back` for the back flanks;
+   may return FF_NOMEM. The caller closes x, also after an error. */
+static inline ff_status numerics_exchange_open_flank(const ff_port *ports, size_t count,
+                                                     const ff_array *in, int back,
+                                                     numerics_exchange *x)
 {
     size_t total = 0;
-    *x = (numerics_exchange){.in = in, .back = numerics_flank(ports, count, in) < 0, .ratio = 1};
+    *x = (numerics_exchange){.in = in, .back = back, .ratio = 1};
     if (!x->back)
         return FF_OK;
     numerics_exchange_measure(ports, count, in, x);
@@ -207,6 +208,13 @@ static inline ff_status numerics_exchange_open(const ff_port *ports, size_t coun
     }
     x->in = x->arrays;
     return FF_OK;
+}
+
+/* The same for the flanks that carry the load. */
+static inline ff_status numerics_exchange_open(const ff_port *ports, size_t count,
+                                               const ff_array *in, numerics_exchange *x)
+{
+    return numerics_exchange_open_flank(ports, count, in, numerics_flank(ports, count, in) < 0, x);
 }
 
 /* Refuses negative tooth forces: their source has treated a negative line force as one on driving

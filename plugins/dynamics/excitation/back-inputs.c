@@ -150,7 +150,8 @@ void dynamics_back_flank_line(const ff_host *host, const dynamics_inputs *inputs
     snprintf(text, sizeof text,
              "share of the time in which the flanks bear that the mean load does not press: %s",
              own ? "with stiffness, error and relief of their own; tooth_force, and films, losses "
-                   "and ratings of it, are of the others, back_tooth_force is of them"
+                   "and ratings of it, are of the others; contact/back-tooth-pair makes films and "
+                   "losses of them"
              : isnan(inputs->back_offset)
                  ? "the stiffness does not know their curves, and those of the other flanks stand "
                    "for them"

@@ -45,7 +45,7 @@ double dynamics_back_share(const dynamics_inputs *inputs, size_t station, double
 {
     const dynamics_force_levels *l = &inputs->back_levels;
     const dynamics_chosen_levels all = {l, NULL, l->count};
-    if (!l->tooth_force)
+    if (!l->tooth_force || l->count < 2) /* gears that float */
         return 0;
     force = inputs->shared ? force : inputs->reference;
     force = fmin(fmax(force, l->force[1]), l->force[l->count - 1]);

@@ -125,6 +125,17 @@ const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT] = {
              "the same of the flanks that the mean load does not press, above 0 where they bear; "
              "these meet from the tip of gear 1 to its root",
          .dims = "engagement? gear.station"},
+    [DYNAMICS_OUT_BACK_GAP] = {.name = "back_gap",
+                               .unit = "m",
+                               .doc = "separation of these flanks; 0 in contact",
+                               .dims = "engagement? gear.station"},
+    [DYNAMICS_OUT_BACK_FORCE_MEAN] =
+        {.name = "back_force_mean",
+         .unit = "N",
+         .doc = "mean mesh force of these flanks; 0 if they have no curves of their own, so that "
+                "tooth_force contains their force, below 0",
+         .dims = "",
+         .max = INFINITY},
     [DYNAMICS_OUT_STABLE_MOTIONS] =
         {.name = "stable_motions",
          .unit = "1",

@@ -100,6 +100,12 @@ double dynamics_motion_multipliers(const dynamics_motion *motion, double multipl
     return fabs(large);
 }
 
+/* The motion at an instant; `behind`: whether the back flanks touch and have their own curves. */
+typedef struct instant {
+    double force, gap, back_gap;
+    int behind;
+} instant;
+
 static void force_and_gap_at(const void *self, double phase, int left, double *force, double *gap);
 
 static dynamics_motion_view view_of(const dynamics_motion *motion)
@@ -119,29 +125,31 @@ static dynamics_motion_view view_of(const dynamics_motion *motion)
 /* Interpolates force and gap between two samples of a motion with oil between the flanks. They do
    not follow from s, since the film force bends the teeth and the flanks are further apart than s
    shows. */
-static void read_films(const dynamics_sample *a, const dynamics_sample *z, double phase,
-                       double *force, double *gap)
+static instant in_films(const dynamics_sample *a, const dynamics_sample *z, double phase)
 {
     double h = z->phase - a->phase, x = h > 0 ? fmin(fmax((phase - a->phase) / h, 0), 1) : 0;
-    *force = a->force + x * (z->force - a->force);
-    *gap = fmax(a->film + x * (z->film - a->film), 0);
+    return (instant){.force = a->force + x * (z->force - a->force),
+                     .gap = fmax(a->film + x * (z->film - a->film), 0)};
 }
 
-/* Computes force and gap at any phase of the record. s is a Hermite cubic between samples. At a
-   jump of the excitation `left` selects the values before the jump. Returns whether the back flanks
-   touch and have their own curves. */
-static int instant_at(const dynamics_motion *motion, double phase, int left, double *force,
-                      double *gap)
+static double gap_of(const dynamics_excitation *x, int side, double phase, int left, double s)
+{
+    const dynamics_piece *p = dynamics_track_piece(dynamics_track_of(x, side), phase, left);
+    const double delta = s - dynamics_piece_value(p->e, p->degree, phase - p->start);
+    return x->half_gap > 0 ? fmax(x->half_gap - side * delta, 0) : 0;
+}
+
+/* Computes force and gaps at any phase of the record. s is a Hermite cubic between samples. At a
+   jump of the excitation `left` selects the values before the jump. */
+static instant instant_at(const dynamics_motion *motion, double phase, int left)
 {
     const dynamics_excitation *excitation = motion->excitation;
     const dynamics_sample *s = motion->record.samples;
     const dynamics_motion_view view = view_of(motion);
     size_t low = dynamics_motion_view_before(&view, phase, left);
     const dynamics_sample *a = &s[low], *z = &s[low + 1];
-    if (excitation->film) {
-        read_films(a, z, phase, force, gap);
-        return 0;
-    }
+    if (excitation->film)
+        return in_films(a, z, phase);
     double h = z->phase - a->phase;
     phase = fmin(fmax(phase, a->phase), z->phase);
     double x = h > 0 ? (phase - a->phase) / h : 0;
@@ -153,26 +161,86 @@ static int instant_at(const dynamics_motion *motion, double phase, int left, dou
     if (h > 0)
         rate = (slope_a + x * (2 * c2 + 3 * x * c3)) / (h * motion->T);
     phase -= floor(0.5 * (a->phase + z->phase));
-    const dynamics_piece *piece = dynamics_excitation_piece_at(excitation, phase, left, value),
-                         *driving = dynamics_excitation_piece(excitation, phase, left);
+    const dynamics_piece *piece = dynamics_excitation_piece_at(excitation, phase, left, value);
     double since = phase - piece->start;
     double delta = value - dynamics_piece_value(piece->e, piece->degree, since);
-    *force = dynamics_mesh_force(excitation, piece, since, delta,
-                                 rate - dynamics_piece_slope(piece->e, piece->degree, since) /
-                                            motion->T);
-    delta = value - dynamics_piece_value(driving->e, driving->degree, phase - driving->start);
-    *gap = excitation->half_gap > 0 ? fmax(excitation->half_gap - delta, 0) : 0;
-    return dynamics_track_holds(excitation->back, piece);
+    rate -= dynamics_piece_slope(piece->e, piece->degree, since) / motion->T;
+    return (instant){.force = dynamics_mesh_force(excitation, piece, since, delta, rate),
+                     .gap = gap_of(excitation, 1, phase, left, value),
+                     .back_gap = gap_of(excitation, -1, phase, left, value),
+                     .behind = dynamics_track_holds(excitation->back, piece)};
 }
 
 static void force_and_gap_at(const void *self, double phase, int left, double *force, double *gap)
 {
-    if (instant_at(self, phase, left, force, gap))
-        *force = 0; /* of the driving flanks */
+    const instant at = instant_at(self, phase, left);
+    *force = at.behind ? 0 : at.force;
+    *gap = at.gap;
 }
 
-/* Gives the forces of the pairs of back flanks. A pair is at the age a, counted along gear 1, at
- * the phase back_offset - a and whole mesh cycles (theory, eq. 4.5c). */
+/* Returns the mean force of back flanks with curves of their own, by the trapezoidal rule. The
+   force of the damper jumps where they meet or separate, so that steps with a change of contact are
+   divided. */
+static double mean_behind(const dynamics_motion *motion)
+{
+    enum { PARTS = 64 };
+    const dynamics_sample *s = motion->record.samples;
+    const dynamics_motion_view view = view_of(motion);
+    const size_t count = motion->clocks.back > 0 ? dynamics_motion_view_count(&view) : 1;
+    double sum = 0;
+    for (size_t i = 0; i + 1 < count; i++) {
+        const double from = s[i].phase, h = s[i + 1].phase - from;
+        instant a = instant_at(motion, from, 0);
+        const int parts = a.behind != instant_at(motion, from + h, 1).behind ? PARTS : 1;
+        for (int k = 1; k <= parts; k++) {
+            const instant z = instant_at(motion, from + h * k / parts, k == parts);
+            sum -= h / parts * (a.behind * a.force + z.behind * z.force) / 2;
+            a = z;
+        }
+    }
+    return sum / (double)motion->cycles;
+}
+
+/* The outputs that need back flanks with curves of their own. */
+static const uint64_t of_back_flanks =
+    FF_BIT(DYNAMICS_OUT_BACK_TOOTH_FORCE) | FF_BIT(DYNAMICS_OUT_BACK_GAP);
+
+ff_status dynamics_motion_check_back(const ff_host *host, const dynamics_inputs *inputs,
+                                     const dynamics_excitation *excitation)
+{
+    const uint64_t wanted = inputs->wanted & of_back_flanks;
+    const char *why = NULL;
+    if (!excitation->both_flanks)
+        why = "this motion takes the curves of the driving flanks for the back flanks, and "
+              "tooth_force contains their force, below 0: take dynamics/shooting or "
+              "dynamics/time-integration, without oil in the gap and without a film wired back";
+    else if (excitation->half_gap == 0)
+        why = "gears without backlash bear on both flanks at once: tooth_force contains the force "
+              "of the back flanks, below 0";
+    else if (!dynamics_tracks_differ(excitation))
+        why = "the stiffness does not give the curves of the back flanks: take "
+              "stiffness/load-distribution, and gears without index deviations";
+    else if (!dynamics_floats(inputs, excitation) &&
+             (inputs->back_levels.count < 2 || !inputs->back_levels.tooth_force))
+        why = "the stiffness does not give the tooth forces of the back flanks under a load";
+    return wanted && why ? ff_failf(host, FF_UNSUPPORTED,
+                                    dynamics_motion_outputs[wanted & FF_BIT(DYNAMICS_OUT_BACK_GAP)
+                                                                ? DYNAMICS_OUT_BACK_GAP
+                                                                : DYNAMICS_OUT_BACK_TOOTH_FORCE]
+                                        .name,
+                                    "%s", why)
+                         : FF_OK;
+}
+
+/* Whether the station has the roll angle of the one before it. */
+static int is_repeated(const dynamics_inputs *inputs, size_t i)
+{
+    return inputs->roll_angle[i] - inputs->roll_angle[i - 1] < 1e-12 * inputs->pitch;
+}
+
+/* Gives the forces and gaps of the pairs of back flanks. A pair is at the age a, counted along
+   gear 1, at the phase back_offset - a and whole mesh cycles (theory, eq. 4.5c). Where two stations
+   coincide, the second is the earlier one. */
 static ff_status put_back_forces(const dynamics_motion *motion, const dynamics_inputs *inputs,
                                  const ff_host *host)
 {
@@ -181,27 +249,26 @@ static ff_status put_back_forces(const dynamics_motion *motion, const dynamics_i
     const size_t stations = inputs->stations, rows = motion->cycles * dynamics_span(inputs),
                  shape[2] = {rows, stations};
     const uint32_t rank = rows > 1 ? 2 : 1;
-    if (!(inputs->wanted & FF_BIT(DYNAMICS_OUT_BACK_TOOTH_FORCE)))
-        return FF_OK;
-    if (!dynamics_tracks_differ(x) || inputs->back_levels.count < 2)
-        return ff_failf(host, FF_UNSUPPORTED, "back_tooth_force",
-                        "needs a stiffness that knows both flanks under a load, such as "
-                        "stiffness/load-distribution, and dynamics/shooting or "
-                        "dynamics/time-integration without oil in the gap");
-    double *to = host->output(host->ctx, DYNAMICS_OUT_BACK_TOOTH_FORCE, rank, &shape[2 - rank]),
-           gap;
-    if (!to)
+    ff_status status =
+        ff_put_scalar(host, DYNAMICS_OUT_BACK_FORCE_MEAN, newton * mean_behind(motion));
+    if (status != FF_OK || !(inputs->wanted & of_back_flanks))
+        return status;
+    double *force = host->output(host->ctx, DYNAMICS_OUT_BACK_TOOTH_FORCE, rank, &shape[2 - rank]);
+    double *gap = host->output(host->ctx, DYNAMICS_OUT_BACK_GAP, rank, &shape[2 - rank]);
+    if (!force || !gap)
         return FF_NOMEM;
     const double last = dynamics_station_phase(inputs, stations - 1) * span;
     for (size_t k = 0; k < rows * stations; k++) {
         const size_t i = k % stations;
-        double age = dynamics_station_phase(inputs, i) * span, dmf;
+        double age = dynamics_station_phase(inputs, i) * span;
         double phase = (double)(k / stations) + inputs->back_offset + ceil(last) - age;
-        int bears = instant_at(motion, phase / span, 0, &dmf, &gap);
-        double force = bears ? -dmf * newton : 0;
-        to[k] = dynamics_back_share(inputs, i, force) * force;
+        const instant at = instant_at(motion, phase / span, i == 0 || is_repeated(inputs, i));
+        double mesh = at.behind ? -at.force * newton : 0;
+        force[k] = dynamics_back_share(inputs, i, mesh) * mesh;
+        gap[k] = at.back_gap * x->length;
     }
-    dynamics_put_stations(to, stations, rows * stations, inputs->back);
+    dynamics_put_stations(force, stations, rows * stations, inputs->back);
+    dynamics_put_stations(gap, stations, rows * stations, inputs->back);
     return FF_OK;
 }
 

@@ -29,6 +29,8 @@ enum {
     DYNAMICS_OUT_LANDING_TIME,
     DYNAMICS_OUT_LANDING_SPEED,
     DYNAMICS_OUT_BACK_TOOTH_FORCE,
+    DYNAMICS_OUT_BACK_GAP,
+    DYNAMICS_OUT_BACK_FORCE_MEAN,
     DYNAMICS_MOTION_OUTPUT_COUNT,
     /* outputs about other motions at the same speed */
     DYNAMICS_OUT_STABLE_MOTIONS = DYNAMICS_MOTION_OUTPUT_COUNT,
@@ -115,6 +117,10 @@ ff_status dynamics_motion_put_powers(const dynamics_motion *motion,
 
 ff_status dynamics_motion_put(const dynamics_motion *motion, const dynamics_inputs *inputs,
                               const ff_host *host);
+
+/* Refuses outputs of back flanks that have no curves of their own. */
+ff_status dynamics_motion_check_back(const ff_host *host, const dynamics_inputs *inputs,
+                                     const dynamics_excitation *excitation);
 
 /* Writes the outputs of gears that float in the middle of the backlash: no motion and no force. */
 ff_status dynamics_motion_put_floating(const dynamics_inputs *inputs,

@@ -287,6 +287,8 @@ static ff_status evaluate_driving(void *self, uint64_t wanted, const ff_array *i
     inputs.wanted = wanted;
     inputs.back = back;
     if (status == FF_OK)
+        status = dynamics_motion_check_back(m->host, &inputs, &excitation);
+    if (status == FF_OK)
         status = dynamics_refuse_fluctuation(m->host, &in[DYNAMICS_IN_FLUCTUATION_ORDER],
                                              "a series of the mesh cycle");
     const int floats = status == FF_OK && dynamics_floats(&inputs, &excitation);

@@ -454,6 +454,8 @@ static ff_status evaluate_driving(void *self, uint64_t wanted, const ff_array *i
     j.inputs.back = back;
     dynamics_film *film = NULL;
     if (status == FF_OK)
+        status = dynamics_motion_check_back(m->host, &j.inputs, &j.excitation);
+    if (status == FF_OK)
         status = dynamics_oil_read(m->host, in, &m->oil, &j.inputs, &j.excitation, &film);
     if (status == FF_OK)
         status =

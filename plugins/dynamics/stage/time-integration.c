@@ -288,6 +288,8 @@ static ff_status evaluate_driving(void *self, uint64_t wanted, const ff_array *i
     j.inputs.wanted = wanted;
     j.inputs.back = back;
     if (status == FF_OK)
+        status = dynamics_motion_check_back(m->host, &j.inputs, &j.excitation);
+    if (status == FF_OK)
         status = dynamics_oil_read(m->host, in, &m->oil, &j.inputs, &j.excitation, &j.film);
     if (status == FF_OK)
         status = dynamics_film_wire_read(m->host, in, &m->wire, &j.inputs, &j.excitation, &powers);
