@@ -378,6 +378,7 @@ class Report(lab.Lab):
 
     def test_atlas(self):
         self.call("run", CONFIGS + "li-kahraman-2011.yaml", "-o", "atlas", "--set", "mesh.use=stiffness/iso-6336", "--set",
+                  "motion.atlas={from: 1500 Hz, to: 4000 Hz}", "--set", "motion.search_starts=2", "--set", "motion.max_period=2", "--set",
                   "outputs=[motion.atlas_frequency, motion.atlas_rms, motion.atlas_stable, motion.atlas_branch, duty.mesh_frequency]")
         self.call("report", "atlas")
         dom, figures = self.look("atlas/report.html")
