@@ -24,8 +24,6 @@ typedef struct trial {
     const accuracy_record *measured;
     const char *const *settings;
     size_t setting_count;
-    accuracy_twin taken;    /* the last run whose model was accepted; without a pipeline if there
-                               is none */
     const ff_pipeline *now; /* the answer with which the next one is compared */
     double *moved;          /* by how much the accepted models move each measured output */
 } trial;
@@ -106,7 +104,7 @@ static bool is_of_other(const trial *t, const char *set, size_t stage)
 
 /* Runs the file with the model in the stage and with the settings of all stages that keep their
    reference model. */
-static void run(trial *t, size_t stage, const char *use, accuracy_twin *next)
+static const accuracy_twin *run(trial *t, size_t stage, const char *use)
 {
     const accuracy_choice *choice = t->choice;
     const char **sets = memory_alloc((choice->use_count + t->setting_count + 1) * sizeof *sets);
@@ -121,11 +119,10 @@ static void run(trial *t, size_t stage, const char *use, accuracy_twin *next)
             sets[count++] = t->settings[i];
     changed[stage] = true;
     t->scene.donor = t->now;
-    accuracy_twin_run(next, &t->scene, sets, count, &place, changed);
-    t->choice->runs++;
-    t->choice->seconds += next->work;
+    const accuracy_twin *next = accuracy_twin_run(&t->scene, sets, count, &place, changed);
     free(changed);
     free(sets);
+    return next;
 }
 
 /* Accepts the model: adds its changes to the record and continues from its answer. */
@@ -142,9 +139,7 @@ static void take(trial *t, size_t stage, const double *moves, const accuracy_twi
             .error = moves[i],
         };
     }
-    accuracy_twin_free(&t->taken);
-    t->taken = *next;
-    t->now = t->taken.pipeline;
+    t->now = next->pipeline;
     choice->differs = true;
 }
 
@@ -152,19 +147,16 @@ static void take(trial *t, size_t stage, const double *moves, const accuracy_twi
 static bool try_model(trial *t, size_t stage, const char *model, bool *stopped)
 {
     accuracy_choice *choice = t->choice;
-    accuracy_twin next;
     double *moves = memory_alloc((t->measured->count + 1) * sizeof *moves);
     const char *use = keep(t, memory_print_text("%s.use=%s", t->base->stages[stage].name, model));
-    run(t, stage, use, &next);
-    *stopped = next.stopped;
-    const char *reason = *stopped ? "" : object_to(t, stage, &next, moves);
+    const accuracy_twin *next = run(t, stage, use);
+    *stopped = next->stopped;
+    const char *reason = *stopped ? "" : object_to(t, stage, next, moves);
     choice->tried[choice->tried_count++] =
         (accuracy_tried){.stage = stage, .model = model, .taken = !reason, .reason = reason};
     if (!reason) {
-        take(t, stage, moves, &next);
+        take(t, stage, moves, next);
         choice->uses[choice->use_count++] = use;
-    } else {
-        accuracy_twin_free(&next);
     }
     free(moves);
     return !reason;
@@ -207,7 +199,6 @@ bool accuracy_choose(accuracy_choice *choice, const accuracy_scene *scene,
             choice->uses[choice->use_count++] =
                 keep(&t, memory_print_text("%s.use=%s", stage->name, stage->use));
     }
-    accuracy_twin_free(&t.taken);
     free(t.moved);
     return !stopped;
 }

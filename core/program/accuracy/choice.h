@@ -33,8 +33,6 @@ typedef struct accuracy_choice {
     accuracy_change *changes;
     size_t change_count;
     bool differs; /* true if a model other than a reference was accepted */
-    size_t runs;
-    double seconds; /* CPU time of these runs, s */
     memory_arena arena;
 } accuracy_choice;
 

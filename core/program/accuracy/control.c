@@ -34,8 +34,8 @@ static const double less_by_third_level = 8;
 enum { MOST_ATTEMPTS = 3 };
 
 typedef struct attempt {
-    accuracy_twin run;
-    accuracy_record record; /* empty if the attempt failed */
+    const accuracy_twin *run;
+    accuracy_record record; /* its errors; empty if the attempt failed */
     double at;              /* levels coarser than the presets */
 } attempt;
 
@@ -51,11 +51,10 @@ typedef struct control {
     size_t kept_count;
     attempt *best; /* the last good attempt, else the last one; NULL before the first */
     bool repeated; /* with the current models */
-    size_t attempts, twins;
-    double seconds; /* CPU time of all runs, s */
+    size_t attempts;
+    bool stopped; /* by the observer */
     const char *failure;
     char *now; /* as in the record */
-    memory_arena arena;
 } control;
 
 static bool leaves_models_open(const ff_pipeline *pipeline)
@@ -97,7 +96,7 @@ static bool is_missed(const control *c, const accuracy_error *e)
 static size_t count_kept(const control *c, const attempt *a)
 {
     size_t kept = 0;
-    for (size_t i = 0; a->run.good && i < a->record.count; i++)
+    for (size_t i = 0; a->run->good && i < a->record.count; i++)
         kept += !isnan(a->record.errors[i].goal) && !is_missed(c, &a->record.errors[i]);
     return kept;
 }
@@ -110,7 +109,7 @@ static void tell_attempt(const control *c)
     if (!c->now)
         return;
     snprintf(c->now, ACCURACY_NOW, "attempt %zu, by the presets", c->attempts + 1);
-    for (size_t i = 0; c->best && c->best->run.good && i < c->best->record.count; i++) {
+    for (size_t i = 0; c->best && c->best->run->good && i < c->best->record.count; i++) {
         const accuracy_error *e = &c->best->record.errors[i];
         goals += isnan(e->goal) ? 0 : 1;
         if (is_missed(c, e) && (!worst || e->reached / e->goal > worst->reached / worst->goal))
@@ -126,26 +125,13 @@ static void tell_attempt(const control *c)
     free(reached);
 }
 
-/* Measures an attempt's errors; earlier attempts and their twins are reused. */
+/* Measures an attempt's errors. */
 static void measure(control *c, attempt *a)
 {
-    const accuracy_twin *runs[MOST_ATTEMPTS * (1 + ACCURACY_OWN)];
-    accuracy_known known = {.runs = runs,
-                            .said = a->run.report,
-                            .place = accuracy_place(c->scene.file),
-                            .share = goal_share(c)};
-    for (size_t i = 0; i < c->kept_count; i++) {
-        runs[known.count++] = &c->kept[i].run;
-        for (size_t k = 0; k < c->kept[i].record.own_count; k++)
-            runs[known.count++] = c->kept[i].record.own[k];
-    }
     a->record.choice = c->choice;
     a->record.now = c->now;
     a->record.attempts = c->attempts + 1;
-    a->run.stopped =
-        !accuracy_measure(&a->record, a->run.run, c->scene.engine, c->scene.watch, &known);
-    c->twins += a->record.twins;
-    c->seconds += a->record.seconds;
+    c->stopped = !accuracy_measure(&a->record, &c->scene, a->run, goal_share(c));
 }
 
 /* Runs and measures the file with the current settings. */
@@ -155,26 +141,19 @@ static void try_settings(control *c, attempt *next)
     const char **sets = list_sets(c, &count);
     bool *changed = memory_alloc((c->asked->count + 1) * sizeof *changed);
     const ff_place place = accuracy_place(c->scene.file);
-    c->scene.donor = c->best && c->best->run.good ? c->best->run.pipeline : NULL;
+    c->scene.donor = c->best && c->best->run->good ? c->best->run->pipeline : NULL;
     for (size_t i = 0; i < c->open.count; i++)
-        changed[c->open.knobs[i].stage - c->asked->stages] = true;
+        changed[c->open.knobs[i].stage] = true;
     tell_attempt(c);
-    accuracy_twin_run(&next->run, &c->scene, sets, count, &place, changed);
-    accuracy_open_leave_idle(&c->open, next->run.report, place);
+    next->run = accuracy_twin_run(&c->scene, sets, count, &place, changed);
+    c->stopped = next->run->stopped;
+    accuracy_open_leave_idle(&c->open, next->run->report, place);
     next->at = c->open.at;
-    if (next->run.good)
+    if (next->run->good)
         measure(c, next);
     c->attempts++;
-    c->seconds += next->run.work;
     free(changed);
     free(sets);
-}
-
-static void attempt_free(attempt *a)
-{
-    a->record.choice = NULL; /* shared by all attempts */
-    accuracy_free(&a->record);
-    accuracy_twin_free(&a->run);
 }
 
 /* Order at which an error falls; 0 if it grows. */
@@ -189,7 +168,7 @@ static double order_of(const accuracy_error *e)
  * and taken as 1. */
 static bool predict(const control *c, const accuracy_error *e, double *finer)
 {
-    const ff_stage *stage = &c->asked->stages[e->stage - c->best->run.pipeline->stages];
+    const size_t stage = (size_t)(e->stage - c->best->run->pipeline->stages);
     const bool two = c->best->record.two_levels && !e->by_stage;
     const double goal = goal_of(c, e) * (*c->open.given ? aim_beside_fixed : aim);
     const double order = e->by_stage ? 1 : two ? 2 : order_of(e);
@@ -206,7 +185,7 @@ static bool go_on(control *c)
 {
     const accuracy_record *record = &c->best->record;
     double by = 0, wanted;
-    if (!c->best->run.good) /* finer settings may succeed */
+    if (!c->best->run->good) /* finer settings may succeed */
         return c->kept_count == 1 && accuracy_open_move(&c->open, c->open.at - 1);
     for (size_t i = 0; !c->repeated && i < record->count; i++)
         if (is_missed(c, &record->errors[i]) && predict(c, &record->errors[i], &wanted))
@@ -216,16 +195,10 @@ static bool go_on(control *c)
     return moved;
 }
 
-static void take(control *c, const attempt *next)
-{
-    c->best = &c->kept[c->kept_count++];
-    *c->best = *next;
-}
-
 static void drop_attempts(control *c)
 {
     for (size_t i = 0; i < c->kept_count; i++)
-        attempt_free(&c->kept[i]);
+        memory_arena_free(&c->kept[i].record.arena);
     c->kept_count = 0;
     c->best = NULL;
     c->repeated = false;
@@ -253,12 +226,10 @@ static bool choose_models(control *c)
     const char **sets = list_sets(c, &count);
     c->choice = memory_alloc(sizeof *c->choice);
     c->best->record.choice = c->choice;
-    c->best->run.stopped =
-        !accuracy_choose(c->choice, &c->scene, &c->best->run, &c->best->record, sets, count);
+    c->stopped =
+        !accuracy_choose(c->choice, &c->scene, c->best->run, &c->best->record, sets, count);
     free(sets);
-    c->twins += c->choice->runs;
-    c->seconds += c->choice->seconds;
-    if (c->best->run.stopped)
+    if (c->stopped)
         return false;
     if (!c->choice->differs)
         return !c->failure && go_on(c);
@@ -269,16 +240,15 @@ static bool choose_models(control *c)
 /* Makes an attempt. False if it was stopped, or failed although a coarser one had succeeded. */
 static bool try_next(control *c)
 {
-    attempt next = {.run = {.good = false}};
+    attempt next = {.run = NULL};
     try_settings(c, &next);
-    if (next.run.stopped || next.run.good || !c->best || !c->best->run.good) {
-        take(c, &next);
-        return !next.run.stopped;
-    }
-    const char *why = accuracy_twin_reason(&next.run);
-    c->failure = memory_arena_text(&c->arena, why, strlen(why));
+    const bool better = next.run->good || !c->best || !c->best->run->good;
     c->kept[c->kept_count++] = next;
-    return false;
+    if (c->stopped || better)
+        c->best = &c->kept[c->kept_count - 1];
+    else
+        c->failure = accuracy_twin_reason(next.run);
+    return better && !c->stopped;
 }
 
 /* Moves the best attempt to the end: the one that meets most goals, and the latest among equals.
@@ -301,71 +271,30 @@ static bool search(control *c)
 {
     for (bool again = true; again;) {
         again = try_next(c) && go_on(c) && c->kept_count < MOST_ATTEMPTS;
-        if (!again && c->best->run.good && !c->best->run.stopped && !c->choice &&
+        if (!again && !c->stopped && c->best->run->good && !c->choice &&
             leaves_models_open(c->asked))
             again = choose_models(c) && c->kept_count < MOST_ATTEMPTS;
     }
-    if (c->best->run.stopped)
-        return false;
-    choose_best(c);
-    return true;
-}
-
-static void note_spent(const accuracy_twin *run, accuracy_record *record)
-{
-    accuracy_spent *spent = &record->spent[record->spent_count];
-    accuracy_setting settings[ACCURACY_MOST_SETTINGS];
-    if (!run->pipeline)
-        return;
-    *spent = (accuracy_spent){.seconds = run->work};
-    size_t most = run->pipeline->count * ACCURACY_MOST_SETTINGS;
-    spent->settings = memory_arena_alloc(&record->arena, most * sizeof *spent->settings + 1);
-    for (size_t i = 0; i < run->pipeline->count; i++) {
-        const ff_stage *stage = &run->pipeline->stages[i];
-        size_t count = stage->needed && stage->loaded ? accuracy_settings(stage, settings) : 0;
-        for (size_t k = 0; k < count; k++) {
-            const char *set = accuracy_setting_at(stage, settings[k].param, 0, &record->arena);
-            if (set)
-                spent->settings[spent->setting_count++] = set;
-        }
-    }
-    record->spent_count++;
-}
-
-/* Lists the attempts with the current models, and their twins. */
-static void list_spent(const control *c, accuracy_record *record)
-{
-    size_t most = c->kept_count * (1 + ACCURACY_OWN);
-    record->spent = memory_arena_alloc(&record->arena, most * sizeof *record->spent);
-    for (size_t i = 0; i < c->kept_count; i++) {
-        const attempt *a = &c->kept[i];
-        note_spent(&a->run, record);
-        for (size_t k = 0; k < a->record.own_count; k++)
-            note_spent(a->record.own[k], record);
-    }
+    if (!c->stopped)
+        choose_best(c);
+    return !c->stopped;
 }
 
 /* Makes the best attempt the answer. */
 static void adopt(control *c, accuracy_record *record)
 {
-    ff_pipeline *asked = record->answer;
-    char *now = record->now;
+    const accuracy_record asked = *record;
     accuracy_open_move(&c->open, c->best->at);
     *record = c->best->record;
-    record->now = now;
-    list_spent(c, record);
-    record->twin = memory_alloc(sizeof *record->twin);
-    *record->twin = c->best->run;
-    record->answer = c->best->run.pipeline ? c->best->run.pipeline : asked;
+    record->now = asked.now;
+    record->runs = asked.runs;
+    record->twin = c->best->run;
+    record->answer = c->best->run->pipeline ? c->best->run->pipeline : asked.answer;
     c->kept_count--; /* the best one is the last */
-    drop_attempts(c);
     record->choice = c->choice;
     c->choice = NULL;
     record->attempts = c->attempts;
-    record->twins = c->twins;
-    record->seconds = c->seconds - record->twin->work;
-    if (c->failure)
-        record->failure = memory_arena_text(&record->arena, c->failure, strlen(c->failure));
+    record->failure = c->failure ? c->failure : record->failure;
     record->given = memory_arena_text(&record->arena, c->open.given, strlen(c->open.given));
     size_t models = record->choice ? record->choice->use_count : 0;
     record->chosen =
@@ -373,7 +302,7 @@ static void adopt(control *c, accuracy_record *record)
     for (size_t i = 0; i < models; i++)
         record->chosen[record->chosen_count++] = record->choice->uses[i];
     for (size_t i = 0; i < c->open.count; i++) {
-        if (c->open.knobs[i].idle)
+        if (c->open.levels[i].idle)
             continue;
         const char *set = accuracy_open_set(&c->open, i);
         record->chosen[record->chosen_count++] =
@@ -381,18 +310,14 @@ static void adopt(control *c, accuracy_record *record)
     }
 }
 
-bool accuracy_control(accuracy_record *record, const ff_run *run, ff_engine *engine,
-                      const ff_observer *watch, ff_report *report)
+bool accuracy_control(accuracy_record *record, const accuracy_scene *scene, ff_report *report)
 {
-    ff_pipeline *pipeline = ff_run_pipeline(run);
-    control c = {.scene = {.file = run, .engine = engine, .start = pipeline, .watch = watch},
-                 .asked = pipeline,
-                 .now = record->now};
-    accuracy_open_list(&c.open, pipeline);
+    control c = {.scene = *scene, .asked = record->answer, .now = record->now};
+    accuracy_open_list(&c.open, c.asked);
     bool finished = search(&c);
     if (finished) {
         adopt(&c, record);
-        accuracy_twin_hand_on(record->twin, accuracy_place(run), watch, report);
+        accuracy_twin_hand_on(record->twin, accuracy_place(scene->file), scene->watch, report);
     }
     bool good = finished && record->twin->good;
     drop_attempts(&c);
@@ -400,7 +325,6 @@ bool accuracy_control(accuracy_record *record, const ff_run *run, ff_engine *eng
         accuracy_choice_free(c.choice);
     free(c.choice);
     ff_run_close(c.chosen);
-    accuracy_open_free(&c.open);
-    memory_arena_free(&c.arena);
+    memory_arena_free(&c.open.arena);
     return good;
 }

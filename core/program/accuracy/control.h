@@ -11,7 +11,6 @@
  * from another run; its messages go to the observer and the report. Returns false after an error,
  * or if the observer stopped it.
  */
-bool accuracy_control(accuracy_record *record, const ff_run *run, ff_engine *engine,
-                      const ff_observer *watch, ff_report *report);
+bool accuracy_control(accuracy_record *record, const accuracy_scene *scene, ff_report *report);
 
 #endif

@@ -114,7 +114,7 @@ static void add_parts(const accuracy_twins *t, const double *shares, accuracy_er
         if (shares[i] > 0)
             e->parts[e->part_count++] =
                 (accuracy_part){.stage = &t->answer->stages[t->knobs[i].stage],
-                                .setting = t->knobs[i].setting.name,
+                                .setting = t->knobs[i].name,
                                 .error = e->relative * shares[i]};
     qsort(e->parts, e->part_count, sizeof *e->parts, by_error);
 }
@@ -177,7 +177,7 @@ static void measure_output(const accuracy_twins *t, accuracy_error *e)
     double *shares = take(t, t->count, sizeof *shares);
     accuracy_ladder levels = ladder_of(t, e);
     for (size_t i = 0; i < t->count; i++)
-        refined[i] = numbers_of_twin(t, e, &t->refined[i]);
+        refined[i] = numbers_of_twin(t, e, t->refined[i]);
     levels.refined = refined;
     levels.refined_count = t->count;
     if (!levels.half && !levels.twice)
@@ -252,72 +252,77 @@ static bool misses(const accuracy_record *record, double share)
     return missed;
 }
 
-bool accuracy_measure(accuracy_record *record, const ff_run *run, ff_engine *engine,
-                      const ff_observer *watch, const accuracy_known *known)
+/* The twins of the answer that an attempt gave, or the file itself. */
+static accuracy_twins twins_of(accuracy_record *record, const accuracy_scene *scene,
+                               const accuracy_twin *attempt)
 {
-    const ff_pipeline *pipeline = ff_run_pipeline(run);
-    accuracy_twins t = {
-        .record = record,
-        .answer = pipeline,
-        .known = known,
-        .scene = {.file = run, .engine = engine, .start = pipeline, .watch = watch}};
+    const ff_run *run = attempt ? attempt->run : scene->file;
+    accuracy_twins t = {.record = record,
+                        .scene = *scene,
+                        .answer = ff_run_pipeline(run),
+                        .said = attempt ? attempt->report : NULL,
+                        .asked = accuracy_place(scene->file)};
+    t.scene.file = run;
+    t.scene.start = t.answer;
+    t.scene.outputs = NULL;
+    return t;
+}
+
+bool accuracy_measure(accuracy_record *record, const accuracy_scene *scene,
+                      const accuracy_twin *attempt, double share)
+{
+    accuracy_twins t = twins_of(record, scene, attempt);
+    t.few = share > 0;
     list_outputs(&t);
     for (bool missed = true; missed && accuracy_twins_find(&t) && !t.stopped;) {
         conclude(&t);
-        missed = known && misses(record, known->share);
+        missed = t.few && misses(record, share);
     }
     record->two_levels = t.half && !t.quarter;
-    accuracy_twins_free(&t);
     return !t.stopped;
 }
 
-/* Why there is no finer twin: what was noted when it was run here, or what an earlier run said. */
-static const char *why_not(accuracy_record *record, const accuracy_twin *finer)
+bool accuracy_check_twin(accuracy_record *record, const accuracy_scene *scene)
 {
-    const char *said = record->told_by_finer ? accuracy_twin_reason(finer) : record->failure;
-    return memory_arena_text(&record->arena, said, strlen(said));
-}
-
-bool accuracy_check_twin(accuracy_record *record, const ff_run *run, ff_engine *engine,
-                         const ff_observer *watch)
-{
-    const ff_run *file = record->twin ? record->twin->run : run;
-    accuracy_twins t = {
-        .record = record,
-        .answer = record->answer,
-        .scene = {.file = file, .engine = engine, .start = record->answer, .watch = watch}};
-    accuracy_twin own = {.good = false};
-    const char *before = record->failure;
+    accuracy_twins t = twins_of(record, scene, record->twin);
+    const size_t before = scene->runs->count;
+    const char *failure = record->failure;
     record->failure = NULL;
-    const accuracy_twin *finer = accuracy_twins_find_finer(&t, &own);
+    const accuracy_twin *finer = accuracy_twins_find_finer(&t);
+    const bool good = finer && finer->good;
     record->checked = true;
-    record->told_by_finer = finer != &own;
-    if (!finer->good)
-        record->unchecked = why_not(record, finer);
-    record->failure = before ? before : record->failure;
+    record->told_by_finer = finer && scene->runs->count == before;
+    if (!good)
+        record->unchecked = finer ? accuracy_twin_reason(finer) : record->failure;
+    record->failure = failure ? failure : record->failure;
     for (size_t i = 0; i < record->count; i++) {
         accuracy_error *e = &record->errors[i];
-        e->apart = finer->good ? accuracy_distance(t.answer, e->stage, e->result, e->zero,
-                                                   e->absolute, finer->pipeline, &record->arena)
-                               : (double)NAN;
+        e->apart = good ? accuracy_distance(t.answer, e->stage, e->result, e->zero, e->absolute,
+                                            finer->pipeline, &record->arena)
+                        : (double)NAN;
     }
-    const bool stopped = own.stopped;
-    accuracy_twin_free(&own);
-    return !stopped;
+    return !t.stopped;
+}
+
+size_t accuracy_twin_count(const accuracy_record *record)
+{
+    return record->runs.count - record->attempts;
+}
+
+double accuracy_seconds(const accuracy_record *record)
+{
+    double seconds = 0;
+    for (size_t i = 0; i < record->runs.count; i++)
+        seconds += record->runs.list[i] == record->twin ? 0 : record->runs.list[i]->work;
+    return seconds;
 }
 
 void accuracy_free(accuracy_record *record)
 {
-    for (size_t i = 0; i < record->own_count; i++) {
-        accuracy_twin_free(record->own[i]);
-        free(record->own[i]);
-    }
-    if (record->twin)
-        accuracy_twin_free(record->twin);
+    accuracy_runs_free(&record->runs);
     if (record->choice)
         accuracy_choice_free(record->choice);
     free(record->choice);
-    free(record->twin);
     memory_arena_free(&record->arena);
     *record = (accuracy_record){.count = 0};
 }

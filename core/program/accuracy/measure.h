@@ -4,7 +4,7 @@
 #ifndef ACCURACY_MEASURE_H
 #define ACCURACY_MEASURE_H
 
-#include "../memory/memory.h"
+#include "twin.h"
 
 #include <flankfilm/engine.h>
 
@@ -18,21 +18,8 @@ typedef struct accuracy_part {
 /* Suffix of an output's error bar in files and pages, as in "h_min_error_bar". */
 #define ACCURACY_BAR "_error_bar"
 
-/* Earlier runs of the file that may serve as twins, and the answer's messages about the settings at
-   a place. */
-typedef struct accuracy_known {
-    const struct accuracy_twin *const *runs;
-    size_t count;
-    const ff_report *said;
-    ff_place place;
-    double share; /* of a goal that an error must meet: else a second twin tells it better */
-} accuracy_known;
-
 /* Room for what is being run, in words for a progress line. */
 enum { ACCURACY_NOW = 100 };
-
-/* Most twins of one answer. */
-enum { ACCURACY_OWN = 3 };
 
 /* The numerical error of an output. */
 typedef struct accuracy_error {
@@ -53,35 +40,22 @@ typedef struct accuracy_error {
     size_t part_count;
 } accuracy_error;
 
-/* One run made on the way to the answer. */
-typedef struct accuracy_spent {
-    const char **settings; /* "film.cells=362": all tunable settings, including those fixed by
-                              the file */
-    size_t setting_count;
-    double seconds; /* CPU time, s */
-} accuracy_spent;
-
 /* Starts zeroed. */
 typedef struct accuracy_record {
     accuracy_error *errors;
     size_t count;
-    size_t twins;        /* number of twins run */
+    accuracy_runs runs;  /* attempts and twins */
     bool two_levels;     /* the errors come from a single coarser twin */
-    double seconds;      /* CPU time of their stages, s */
     const char *failure; /* why a twin failed; NULL if none did */
     size_t attempts;     /* number of answers measured, the last one included; 0 if there are no
                             goals */
     const char **chosen; /* "film.cells=362": the answer's values of the settings that the file
                             leaves open */
     size_t chosen_count;
-    accuracy_spent *spent; /* attempts and their twins; empty if no setting was chosen */
-    size_t spent_count;
     const char *given;   /* "film.cells, film.steps": settings fixed by the file; "" if there are
                             none */
     ff_pipeline *answer; /* the pipeline that was run, or that of `twin` */
-    struct accuracy_twin *twin;
-    struct accuracy_twin *own[ACCURACY_OWN]; /* twins that were run for it */
-    size_t own_count;
+    const accuracy_twin *twin; /* the attempt that is the answer; NULL if there were none */
     struct accuracy_choice
         *choice;  /* Choice of models, whose errors count with the rest; NULL if none was made. */
     bool checked; /* the file asks that a finer twin checks the errors */
@@ -92,19 +66,23 @@ typedef struct accuracy_record {
 } accuracy_record;
 
 /*
- * Measures the errors of the scalars and series that the file asks for, from a completed run of it.
- * Earlier runs serve as twins if their settings fit; errors are then not split by setting, which
- * would need more twins than all the rest. Returns false if the observer stopped it.
+ * Measures the errors of the scalars and series that the file asks for, of an attempt or, if that
+ * is NULL, of the file's own run. The scene's runs serve as twins if their settings fit. `share` is
+ * the part of each goal that its error must meet; if the first twin shows that, there is no second
+ * one. With a share of 0 there are all twins, also those that split the errors by setting, which
+ * are more than all the rest. Returns false if the observer stopped it.
  */
-bool accuracy_measure(accuracy_record *record, const ff_run *run, ff_engine *engine,
-                      const ff_observer *watch, const accuracy_known *known);
+bool accuracy_measure(accuracy_record *record, const accuracy_scene *scene,
+                      const accuracy_twin *attempt, double share);
 /*
  * Holds the answer of a measured record against a twin whose settings are all a level finer, as
  * `accuracy: {check: twins}` asks. If it fails, the record says why. Returns false if the observer
  * stopped it.
  */
-bool accuracy_check_twin(accuracy_record *record, const ff_run *run, ff_engine *engine,
-                         const ff_observer *watch);
+bool accuracy_check_twin(accuracy_record *record, const accuracy_scene *scene);
+size_t accuracy_twin_count(const accuracy_record *record);
+/* CPU time of the twins and of the attempts that are not the answer, s. */
+double accuracy_seconds(const accuracy_record *record);
 void accuracy_free(accuracy_record *record);
 
 /* NULL if the output's error was not measured. */

@@ -38,29 +38,26 @@ static void note_given(accuracy_open *open, const char *stage, const char *setti
 {
     char *list =
         memory_print_text("%s%s%s.%s", open->given, *open->given ? ", " : "", stage, setting);
-    open->given = memory_arena_text(&open->arena, list, strlen(list));
-    free(list);
+    open->given = memory_arena_take(&open->arena, list);
 }
 
 void accuracy_open_list(accuracy_open *open, const ff_pipeline *asked)
 {
     const double most = largest_cost(asked);
-    accuracy_setting settings[ACCURACY_MOST_SETTINGS];
-    free(open->knobs);
+    size_t count;
+    accuracy_knob *all = accuracy_knobs(asked, &count, &open->arena);
+    open->asked = asked;
+    open->knobs = all;
+    open->levels = memory_arena_alloc(&open->arena, (count + 1) * sizeof *open->levels);
     open->count = 0;
     open->given = "";
-    open->knobs = memory_alloc((asked->count * ACCURACY_MOST_SETTINGS + 1) * sizeof *open->knobs);
-    for (size_t i = 0; i < asked->count; i++) {
-        const ff_stage *stage = &asked->stages[asked->order[i]];
-        size_t count = 0;
-        if (stage->needed && stage->loaded)
-            count = accuracy_settings(stage, settings);
-        for (size_t k = 0; k < count; k++) {
-            if (!settings[k].open)
-                note_given(open, stage->name, settings[k].name);
-            else if (accuracy_setting_at(stage, settings[k].param, 0, &open->arena))
-                open->knobs[open->count++] = (accuracy_knob){
-                    .stage = stage, .setting = settings[k], .cheap = costs_little(stage, most)};
+    for (size_t i = 0; i < count; i++) {
+        const ff_stage *stage = &asked->stages[all[i].stage];
+        if (!all[i].open) {
+            note_given(open, stage->name, all[i].name);
+        } else if (accuracy_setting_at(stage, all[i].param, 0, &open->arena)) {
+            open->levels[open->count] = (accuracy_level){.cheap = costs_little(stage, most)};
+            open->knobs[open->count++] = all[i];
         }
     }
     accuracy_open_move(open, 0);
@@ -69,50 +66,43 @@ void accuracy_open_list(accuracy_open *open, const ff_pipeline *asked)
 const char *accuracy_open_set(accuracy_open *open, size_t knob)
 {
     const accuracy_knob *k = &open->knobs[knob];
-    return accuracy_setting_at(k->stage, k->setting.param, k->level, &open->arena);
+    return accuracy_setting_at(&open->asked->stages[k->stage], k->param, open->levels[knob].level,
+                               &open->arena);
 }
 
 /* Sets the level, or the nearest one towards the preset that the setting's limits allow. */
 static void move(accuracy_open *open, size_t knob, double level)
 {
-    accuracy_knob *k = &open->knobs[knob];
-    k->level = fmax(level, accuracy_finest - (k->cheap ? ahead : 0));
-    while (k->level != 0 && !accuracy_open_set(open, knob))
-        k->level = fabs(k->level) < 1 ? 0 : k->level - copysign(1, k->level);
+    accuracy_level *l = &open->levels[knob];
+    l->level = fmax(level, accuracy_finest - (l->cheap ? ahead : 0));
+    while (l->level != 0 && !accuracy_open_set(open, knob))
+        l->level = fabs(l->level) < 1 ? 0 : l->level - copysign(1, l->level);
 }
 
 void accuracy_open_leave_idle(accuracy_open *open, const ff_report *said, ff_place place)
 {
-    for (size_t i = 0; i < open->count; i++) {
-        accuracy_knob *k = &open->knobs[i];
-        k->idle = k->idle || accuracy_is_idle(said, place, k->stage->name, k->setting.name);
-    }
+    for (size_t i = 0; i < open->count; i++)
+        open->levels[i].idle |= accuracy_is_idle(
+            said, place, open->asked->stages[open->knobs[i].stage].name, open->knobs[i].name);
 }
 
 bool accuracy_open_move(accuracy_open *open, double to)
 {
     bool moved = false;
     for (size_t i = 0; i < open->count; i++) {
-        accuracy_knob *k = &open->knobs[i];
-        double before = k->level;
-        if (!k->idle)
-            move(open, i, to - (k->cheap ? ahead : 0));
-        moved = moved || k->level != before;
+        const accuracy_level before = open->levels[i];
+        if (!before.idle)
+            move(open, i, to - (before.cheap ? ahead : 0));
+        moved = moved || open->levels[i].level != before.level;
     }
     open->at = fmax(to, accuracy_finest);
     return moved;
 }
 
-bool accuracy_open_has(const accuracy_open *open, const ff_stage *stage)
+bool accuracy_open_has(const accuracy_open *open, size_t stage)
 {
     bool has = false;
     for (size_t i = 0; i < open->count; i++)
-        has = has || (open->knobs[i].stage == stage && !open->knobs[i].idle);
+        has = has || (open->knobs[i].stage == stage && !open->levels[i].idle);
     return has;
-}
-
-void accuracy_open_free(accuracy_open *open)
-{
-    free(open->knobs);
-    memory_arena_free(&open->arena);
 }

@@ -8,18 +8,18 @@
 /* Finest level: eight times the cells and steps of the presets, 64 times the work. */
 static const double accuracy_finest = -3;
 
-/* A setting that the file leaves open. */
-typedef struct accuracy_knob {
-    const ff_stage *stage; /* in the pipeline that was asked for */
-    accuracy_setting setting;
+/* Where a setting stands that the file leaves open. */
+typedef struct accuracy_level {
     bool cheap;   /* belongs to a cheap stage */
     bool idle;    /* changes nothing */
     double level; /* levels coarser than the preset */
-} accuracy_knob;
+} accuracy_level;
 
 /* Starts zeroed. */
 typedef struct accuracy_open {
+    const ff_pipeline *asked; /* has the presets */
     accuracy_knob *knobs;
+    accuracy_level *levels; /* one for each knob */
     size_t count;
     const char *given; /* "film.cells, film.steps": settings fixed by the file; "" if there are
                           none */
@@ -37,8 +37,7 @@ void accuracy_open_leave_idle(accuracy_open *open, const ff_report *said, ff_pla
 bool accuracy_open_move(accuracy_open *open, double to);
 /* The assignment of a setting, such as "film.cells=362". */
 const char *accuracy_open_set(accuracy_open *open, size_t knob);
-/* True if a setting of the stage is open. */
-bool accuracy_open_has(const accuracy_open *open, const ff_stage *stage);
-void accuracy_open_free(accuracy_open *open);
+/* True if a setting of the stage with that index is open. */
+bool accuracy_open_has(const accuracy_open *open, size_t stage);
 
 #endif

@@ -41,16 +41,38 @@ static bool is_number(const ff_bound *bound)
            (bound->row->type == FF_INT || bound->row->type == FF_REAL) && !bound->value.text;
 }
 
-size_t accuracy_settings(const ff_stage *stage, accuracy_setting list[ACCURACY_MOST_SETTINGS])
+accuracy_knob *accuracy_knobs(const ff_pipeline *pipeline, size_t *count, memory_arena *arena)
 {
-    size_t count = 0, rows = stage->params ? stage->loaded->model->param_count : 0;
-    for (size_t i = 0; i < rows && count < ACCURACY_MOST_SETTINGS; i++) {
-        if (!is_number(&stage->params[i]))
-            continue;
-        list[count++] = (accuracy_setting){.name = stage->params[i].row->name,
-                                           .param = i,
-                                           .open = !stage->params[i].place.source,
-                                           .tolerance = stage->params[i].row->type != FF_INT};
+    accuracy_knob *list = NULL;
+    *count = 0;
+    for (size_t n = 0; n < pipeline->count; n++) {
+        const size_t at = pipeline->order[n];
+        const ff_stage *stage = &pipeline->stages[at];
+        const bool runs = stage->needed && stage->loaded && stage->params;
+        for (size_t i = 0; runs && i < stage->loaded->model->param_count; i++) {
+            if (!is_number(&stage->params[i]))
+                continue;
+            list = memory_arena_grow(arena, list, *count, sizeof *list);
+            list[(*count)++] = (accuracy_knob){.stage = at,
+                                               .name = stage->params[i].row->name,
+                                               .param = i,
+                                               .open = !stage->params[i].place.source};
+        }
     }
-    return count;
+    return list;
+}
+
+const char **accuracy_list_settings(const ff_pipeline *pipeline, size_t *count, memory_arena *arena)
+{
+    size_t all;
+    const accuracy_knob *knobs = accuracy_knobs(pipeline, &all, arena);
+    const char **list = memory_arena_alloc(arena, (all + 1) * sizeof *list);
+    *count = 0;
+    for (size_t i = 0; i < all; i++) {
+        const ff_stage *stage = &pipeline->stages[knobs[i].stage];
+        const char *set = accuracy_setting_at(stage, knobs[i].param, 0, arena);
+        if (set)
+            list[(*count)++] = set;
+    }
+    return list;
 }

@@ -118,9 +118,16 @@ static void want_the_same(const ff_pipeline *from, ff_pipeline *to)
     }
 }
 
-void accuracy_twin_run(accuracy_twin *twin, const accuracy_scene *scene, const char *const *sets,
-                       size_t count, const ff_place *place, const bool *changed)
+static accuracy_twin *add_twin(accuracy_runs *runs)
 {
+    runs->list = memory_resize(runs->list, (runs->count + 1) * sizeof(accuracy_twin *));
+    return runs->list[runs->count++] = memory_alloc(sizeof(accuracy_twin));
+}
+
+const accuracy_twin *accuracy_twin_run(const accuracy_scene *scene, const char *const *sets,
+                                       size_t count, const ff_place *place, const bool *changed)
+{
+    accuracy_twin *twin = add_twin(scene->runs);
     const ff_pipeline *like = scene->start;
     bool *affected = memory_alloc((like->count + 1) * sizeof *affected);
     memcpy(affected, changed, like->count * sizeof *affected);
@@ -148,6 +155,7 @@ void accuracy_twin_run(accuracy_twin *twin, const accuracy_scene *scene, const c
         twin->work += twin->pipeline->stages[i].work;
     }
     free(affected);
+    return twin;
 }
 
 const char *accuracy_twin_reason(const accuracy_twin *twin)
@@ -205,10 +213,15 @@ void accuracy_twin_hand_on(const accuracy_twin *run, ff_place chosen, const ff_o
                    run->notes[i].text);
 }
 
-void accuracy_twin_free(accuracy_twin *twin)
+void accuracy_runs_free(accuracy_runs *runs)
 {
-    ff_run_close(twin->run);
-    free(twin->notes);
-    memory_arena_free(&twin->arena);
-    *twin = (accuracy_twin){.pipeline = NULL};
+    for (size_t i = 0; i < runs->count; i++) {
+        accuracy_twin *twin = runs->list[i];
+        ff_run_close(twin->run);
+        free(twin->notes);
+        memory_arena_free(&twin->arena);
+        free(twin);
+    }
+    free(runs->list);
+    *runs = (accuracy_runs){.count = 0};
 }

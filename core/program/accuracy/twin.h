@@ -7,9 +7,16 @@
 
 #include <flankfilm/engine.h>
 
+/* All runs that were made for one answer, in their order: it owns them. Starts zeroed. */
+typedef struct accuracy_runs {
+    struct accuracy_twin **list;
+    size_t count;
+} accuracy_runs;
+
 /* What all twins of an answer share. */
 typedef struct accuracy_scene {
-    const ff_run *file; /* the file that a twin copies */
+    accuracy_runs *runs; /* receives the twins */
+    const ff_run *file;  /* the file that a twin copies */
     ff_engine *engine;
     /* Stages that do not depend on the changes take their results from here; NULL if none do. */
     const ff_pipeline *donor;
@@ -41,8 +48,8 @@ typedef struct accuracy_twin {
 /* Runs the file with the assignments, as if the file made them at `place`. `changed` marks the
    stages whose settings differ from the donor's: these and all stages downstream are computed; of a
    loop, all stages. */
-void accuracy_twin_run(accuracy_twin *twin, const accuracy_scene *scene, const char *const *sets,
-                       size_t count, const ff_place *place, const bool *changed);
+const accuracy_twin *accuracy_twin_run(const accuracy_scene *scene, const char *const *sets,
+                                       size_t count, const ff_place *place, const bool *changed);
 /* In a chain of cases the answer started from its neighbour's state. Its twin starts from the
    answer's final state, so that both follow the same branch. */
 void accuracy_hand_states(const ff_pipeline *from, ff_pipeline *to);
@@ -56,7 +63,6 @@ bool accuracy_is_idle(const ff_report *report, ff_place place, const char *stage
    place. */
 void accuracy_twin_hand_on(const accuracy_twin *run, ff_place chosen, const ff_observer *watch,
                            ff_report *report);
-/* Starts zeroed. */
-void accuracy_twin_free(accuracy_twin *twin);
+void accuracy_runs_free(accuracy_runs *runs);
 
 #endif

@@ -13,26 +13,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Lists the settings of all stages on which a measured output depends. */
+/* Lists the settings of all stages on which a measured output depends, without those that change
+   nothing. */
 static void list_knobs(accuracy_twins *t)
 {
-    accuracy_setting settings[ACCURACY_MOST_SETTINGS];
-    const ff_pipeline *answer = t->answer;
     memory_arena *arena = &t->record->arena;
-    t->knobs =
-        memory_arena_alloc(arena, answer->count * ACCURACY_MOST_SETTINGS * sizeof *t->knobs + 1);
-    for (size_t i = 0; i < answer->count; i++) {
-        size_t at = answer->order[i];
-        const ff_stage *stage = &answer->stages[at];
-        size_t count = 0;
-        if (stage->needed && stage->loaded)
-            count = accuracy_settings(stage, settings);
-        for (size_t k = 0; k < count; k++)
-            if (!t->known ||
-                !accuracy_is_idle(t->known->said, t->known->place, stage->name, settings[k].name))
-                t->knobs[t->count++] = (accuracy_knob){at, settings[k]};
-    }
-    t->refined = memory_arena_alloc(arena, t->count * sizeof *t->refined + 1);
+    size_t all;
+    t->knobs = accuracy_knobs(t->answer, &all, arena);
+    for (size_t i = 0; i < all; i++)
+        if (!t->said ||
+            !accuracy_is_idle(t->said, t->asked, t->answer->stages[t->knobs[i].stage].name,
+                              t->knobs[i].name))
+            t->knobs[t->count++] = t->knobs[i];
+    t->refined = memory_arena_alloc(arena, (t->count + 1) * sizeof *t->refined);
 }
 
 static void note_failure(accuracy_twins *t, const char *why)
@@ -47,8 +40,7 @@ static const int half = 1, quarter = 2, twice = -1;
 /* NULL if the setting's limits forbid it. */
 static const char *assignment_at(const accuracy_twins *t, const accuracy_knob *k, int coarser)
 {
-    return accuracy_setting_at(&t->answer->stages[k->stage], k->setting.param, coarser,
-                               &t->record->arena);
+    return accuracy_setting_at(&t->answer->stages[k->stage], k->param, coarser, &t->record->arena);
 }
 
 /* Fills the assignments of a twin and marks the stages that they change. False if a setting's
@@ -62,7 +54,7 @@ static bool list_sets(accuracy_twins *t, int at, size_t finer, const char **sets
         if (sets[i])
             continue;
         char *why = memory_print_text("%s.%s has no %s value within its limits",
-                                      t->answer->stages[k->stage].name, k->setting.name,
+                                      t->answer->stages[k->stage].name, k->name,
                                       at < 0 ? "finer" : "coarser");
         note_failure(t, why);
         free(why);
@@ -87,23 +79,24 @@ static void tell_twin(const accuracy_twins *t, int at)
                  record->attempts);
 }
 
-/* Runs a twin. The setting `finer` is at the level of `half`; SIZE_MAX: none is. */
-static void run_twin(accuracy_twins *t, int at, size_t finer, accuracy_twin *twin)
+/* Runs a twin. The setting `finer` is at the level of `half`; SIZE_MAX: none is. NULL if a
+   setting's limits forbid it. */
+static const accuracy_twin *run_twin(accuracy_twins *t, int at, size_t finer)
 {
+    const accuracy_twin *twin = NULL;
     const char **sets = memory_alloc((t->count + 1) * sizeof *sets);
     bool *changed = memory_alloc((t->answer->count + 1) * sizeof *changed);
     tell_twin(t, at);
     t->scene.donor = finer == SIZE_MAX ? t->answer : t->quarter->pipeline;
     if (list_sets(t, at, finer, sets, changed)) {
-        accuracy_twin_run(twin, &t->scene, sets, t->count, NULL, changed);
-        t->record->twins++;
-        t->record->seconds += twin->work;
+        twin = accuracy_twin_run(&t->scene, sets, t->count, NULL, changed);
         t->stopped = twin->stopped;
         if (!twin->good)
             note_failure(t, accuracy_twin_reason(twin));
     }
     free(changed);
     free(sets);
+    return twin;
 }
 
 /* True if an answer has the settings of the twin. */
@@ -114,7 +107,7 @@ static bool is_twin(const accuracy_twins *t, int at, const ff_pipeline *answer)
         same = answer->stages[i].loaded == t->answer->stages[i].loaded;
     for (size_t i = 0; same && i < t->count; i++) {
         const accuracy_knob *k = &t->knobs[i];
-        const char *has = accuracy_setting_at(&answer->stages[k->stage], k->setting.param, 0,
+        const char *has = accuracy_setting_at(&answer->stages[k->stage], k->param, 0,
                                               &t->record->arena),
                    *wanted = assignment_at(t, k, at);
         same = has && wanted && !strcmp(has, wanted);
@@ -125,34 +118,28 @@ static bool is_twin(const accuracy_twins *t, int at, const ff_pipeline *answer)
 /* A twin from earlier runs, good or not; NULL if there is none. */
 static const accuracy_twin *known_twin(const accuracy_twins *t, int at)
 {
-    for (size_t i = 0; i < t->record->own_count; i++)
-        if (t->record->own[i]->pipeline && is_twin(t, at, t->record->own[i]->pipeline))
-            return t->record->own[i];
-    for (size_t i = 0; t->known && i < t->known->count; i++)
-        if (t->known->runs[i]->pipeline && is_twin(t, at, t->known->runs[i]->pipeline))
-            return t->known->runs[i];
+    const accuracy_runs *runs = t->scene.runs;
+    for (size_t i = 0; i < runs->count; i++)
+        if (runs->list[i]->pipeline && is_twin(t, at, runs->list[i]->pipeline))
+            return runs->list[i];
     return NULL;
 }
 
-/* Finds or runs a twin; NULL if there can be none. */
+/* Finds or runs a twin; NULL if there is no good one. */
 static const accuracy_twin *find_twin(accuracy_twins *t, int at)
 {
-    const accuracy_twin *known = known_twin(t, at);
-    if (known)
-        return known->good ? known : NULL;
-    if (t->stopped || t->record->own_count == ACCURACY_OWN)
-        return NULL;
-    accuracy_twin *own = t->record->own[t->record->own_count++] = memory_alloc(sizeof *own);
-    run_twin(t, at, SIZE_MAX, own);
-    return own->good ? own : NULL;
+    const accuracy_twin *twin = known_twin(t, at);
+    if (!twin && !t->stopped)
+        twin = run_twin(t, at, SIZE_MAX);
+    return twin && twin->good ? twin : NULL;
 }
 
 /* Runs the second twin, and those that tell the settings apart. */
 static void run_quarter(accuracy_twins *t)
 {
     t->quarter = t->half ? find_twin(t, quarter) : NULL;
-    for (size_t i = 0; !t->known && t->count > 1 && t->quarter && i < t->count && !t->stopped; i++)
-        run_twin(t, quarter, i, &t->refined[i]);
+    for (size_t i = 0; !t->few && t->count > 1 && t->quarter && i < t->count && !t->stopped; i++)
+        t->refined[i] = run_twin(t, quarter, i);
 }
 
 bool accuracy_twins_find(accuracy_twins *t)
@@ -167,25 +154,17 @@ bool accuracy_twins_find(accuracy_twins *t)
     if (t->record->count == 0)
         return false;
     t->half = find_twin(t, half);
-    if (t->half && !t->known)
+    if (t->half && !t->few)
         run_quarter(t);
-    if (!t->half || (!t->known && !t->quarter))
+    if (!t->half || (!t->few && !t->quarter))
         t->twice = find_twin(t, twice);
     return t->half || t->twice;
 }
 
-const accuracy_twin *accuracy_twins_find_finer(accuracy_twins *t, accuracy_twin *own)
+const accuracy_twin *accuracy_twins_find_finer(accuracy_twins *t)
 {
     list_knobs(t);
     const accuracy_twin *known = t->count > 0 ? known_twin(t, twice) : NULL;
     t->checking = true;
-    if (!known)
-        run_twin(t, twice, SIZE_MAX, own);
-    return known ? known : own;
-}
-
-void accuracy_twins_free(accuracy_twins *t)
-{
-    for (size_t i = 0; i < t->count; i++)
-        accuracy_twin_free(&t->refined[i]);
+    return known ? known : run_twin(t, twice, SIZE_MAX);
 }

@@ -8,35 +8,29 @@
 #include "settings.h"
 #include "twin.h"
 
-/* A setting and its stage. */
-typedef struct accuracy_knob {
-    size_t stage; /* index in the pipeline */
-    accuracy_setting setting;
-} accuracy_knob;
-
 typedef struct accuracy_twins {
     accuracy_record *record;
     accuracy_scene scene;
     const ff_pipeline *answer;
-    const accuracy_known *known; /* NULL if no attempts are made */
-    accuracy_knob *knobs;        /* the settings of all stages on which a measured output
-                                    depends */
+    const ff_report *said; /* the answer's messages; NULL if no setting was chosen */
+    ff_place asked;        /* where the file asks for the accuracy; chosen settings stand there */
+    bool few;              /* one twin at a time, and none that separates the settings */
+    accuracy_knob *knobs;  /* the settings of all stages on which a measured output depends */
     size_t count;
     const accuracy_twin *half, *quarter, *twice; /* all settings 1 and 2 levels coarser, and 1 level
                                                     finer; NULL: there is none, or it failed */
-    accuracy_twin *refined; /* one for each knob, which alone is one level finer than in `quarter`;
-                               not good if it was not run */
-    bool checking;          /* the twin checks the errors that others have told */
+    const accuracy_twin **refined; /* one for each knob, which alone is one level finer than in
+                                      `quarter`; NULL if it was not run */
+    bool checking;                 /* the twin checks the errors that others have told */
     bool stopped;
 } accuracy_twins;
 
 /* Finds or runs twins. The first four members are given; the outputs to be measured are in the
- * record. If `known` is not NULL, the first call finds one twin and the second call another. False
+ * record. If only few are wanted, the first call finds one twin and the second call another. False
  * if there are no more. */
 bool accuracy_twins_find(accuracy_twins *twins);
-/* Returns a twin whose settings are all a level finer: one of the record's, or `own`, which it runs
-   with the outputs of the answer. The first three members are given. */
-const accuracy_twin *accuracy_twins_find_finer(accuracy_twins *twins, accuracy_twin *own);
-void accuracy_twins_free(accuracy_twins *twins);
+/* Returns a twin whose settings are all a level finer: an earlier run, or one with the outputs of
+   the answer. NULL if no setting can be finer. The first three members are given. */
+const accuracy_twin *accuracy_twins_find_finer(accuracy_twins *twins);
 
 #endif

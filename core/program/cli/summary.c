@@ -358,11 +358,12 @@ static void print_errors(paper *page, const results_outcome *outcome)
     if (asked)
         print_search(errors, missed);
     if (errors->count > 0) {
-        printf("  %zu %s", errors->twins, errors->twins == 1 ? "twin" : "twins");
+        const size_t twins = accuracy_twin_count(errors);
+        printf("  %zu %s", twins, twins == 1 ? "twin" : "twins");
         if (asked)
             printf(" and %zu %s before", errors->attempts - 1,
                    errors->attempts == 2 ? "attempt" : "attempts");
-        printf(": %.3g s of CPU time\n", errors->seconds);
+        printf(": %.3g s of CPU time\n", accuracy_seconds(errors));
     }
     page->heading = NULL;
 }

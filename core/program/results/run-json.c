@@ -7,6 +7,7 @@
 #include "../accuracy/axis.h"
 #include "../accuracy/choice.h"
 #include "../accuracy/lines.h"
+#include "../accuracy/settings.h"
 #include "../memory/memory.h"
 #include "../study/kinds/kinds.h"
 
@@ -270,13 +271,17 @@ static json_t *describe_tried(const results_outcome *outcome)
 static json_t *describe_spent(const accuracy_record *errors)
 {
     json_t *list = json_array();
-    for (size_t i = 0; i < errors->spent_count; i++) {
-        const accuracy_spent *spent = &errors->spent[i];
-        json_array_append_new(
-            list, json_pack("{s:o, s:o}", "settings",
-                            study_settings_record(spent->settings, spent->setting_count), "seconds",
-                            study_json_real(spent->seconds)));
+    memory_arena arena = {.blocks = NULL};
+    for (size_t i = 0; errors->attempts > 0 && i < errors->runs.count; i++) {
+        const accuracy_twin *run = errors->runs.list[i];
+        size_t count = 0;
+        const char **settings =
+            run->pipeline ? accuracy_list_settings(run->pipeline, &count, &arena) : NULL;
+        json_array_append_new(list, json_pack("{s:o, s:o}", "settings",
+                                              study_settings_record(settings, count), "seconds",
+                                              study_json_real(run->work)));
     }
+    memory_arena_free(&arena);
     return list;
 }
 
@@ -284,14 +289,14 @@ static json_t *describe_spent(const accuracy_record *errors)
 static json_t *describe_accuracy(const results_outcome *outcome)
 {
     const accuracy_record *errors = outcome->errors;
-    if (errors->twins + errors->attempts == 0)
+    if (errors->runs.count == 0)
         return json_null();
-    return json_pack("{s:s, s:I, s:I, s:o, s:o, s:o, s:o, s:o}", "asked", outcome->input->accuracy,
-                     "attempts", (json_int_t)errors->attempts, "twins", (json_int_t)errors->twins,
-                     "seconds", study_json_real(errors->seconds), "failure",
-                     results_json_text(errors->failure), "settings",
-                     study_settings_record(errors->chosen, errors->chosen_count), "models",
-                     describe_tried(outcome), "runs", describe_spent(errors));
+    return json_pack(
+        "{s:s, s:I, s:I, s:o, s:o, s:o, s:o, s:o}", "asked", outcome->input->accuracy, "attempts",
+        (json_int_t)errors->attempts, "twins", (json_int_t)accuracy_twin_count(errors), "seconds",
+        study_json_real(accuracy_seconds(errors)), "failure", results_json_text(errors->failure),
+        "settings", study_settings_record(errors->chosen, errors->chosen_count), "models",
+        describe_tried(outcome), "runs", describe_spent(errors));
 }
 
 static json_t *describe_head(const results_outcome *outcome)
