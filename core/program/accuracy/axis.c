@@ -90,13 +90,13 @@ const double *accuracy_numbers_like(const ff_pipeline *pipeline, const ff_stage 
     if (own->rank && (placed ? strcmp(along->row->name, along_other->row->name) != 0
                              : own->count != result->count))
         return NULL;
-    const accuracy_series series = {own->rank, own->count, placed ? along_other->data : NULL,
-                                    own->data, 0,          false};
+    const accuracy_series series = {.at = placed ? along_other->data : NULL,
+                                    .count = own->count,
+                                    .value = own->data},
+                          points = {.at = placed ? along->data : NULL};
     double *numbers = memory_arena_alloc(arena, result->count * sizeof *numbers);
     for (size_t i = 0; i < result->count; i++) {
-        bool right = along && i > 0 && along->data[i] == along->data[i - 1];
-        numbers[i] =
-            series.at ? accuracy_interpolate(&series, along->data[i], right) : own->data[i];
+        numbers[i] = accuracy_value_at(&series, &points, i);
         if (!isfinite(numbers[i]))
             return NULL;
     }

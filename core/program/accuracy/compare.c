@@ -65,8 +65,7 @@ static bool same_form(const accuracy_series *a, const accuracy_series *b)
            ((a->at && b->at) || a->count == b->count);
 }
 
-/* Value of one answer at point i of another. */
-static double value_at(const accuracy_series *s, const accuracy_series *points, size_t i)
+double accuracy_value_at(const accuracy_series *s, const accuracy_series *points, size_t i)
 {
     if (!s->at || !points->at)
         return s->value[i];
@@ -83,7 +82,7 @@ bool accuracy_compare(const accuracy_series *answer, const accuracy_series *refe
         return false;
     double *off = memory_alloc(reference->count * sizeof *off);
     for (size_t i = 0; i < reference->count; i++) {
-        off[i] = fabs(value_at(answer, reference, i) - reference->value[i]);
+        off[i] = fabs(accuracy_value_at(answer, reference, i) - reference->value[i]);
         finite = finite && isfinite(off[i]);
         zero = zero && reference->value[i] == reference->zero;
     }

@@ -26,6 +26,8 @@ void accuracy_error_scales(const accuracy_series *answer, double *scales);
    writes the largest. */
 double accuracy_relative(const double *off, const accuracy_series *answer, double *largest);
 double accuracy_interpolate(const accuracy_series *series, double x, bool right);
+/* Value of an answer at point i of another. */
+double accuracy_value_at(const accuracy_series *series, const accuracy_series *points, size_t i);
 /* False if the two cannot be compared or their difference is not finite. */
 bool accuracy_compare(const accuracy_series *answer, const accuracy_series *reference,
                       accuracy_difference *difference);

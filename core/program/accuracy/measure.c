@@ -193,13 +193,14 @@ static void measure_output(const accuracy_twins *t, accuracy_error *e)
 }
 
 /* Widens the bar of a number to the bar of the series from which it is picked; the settings keep
-   their shares. */
-static void widen(accuracy_error *number, double bar)
+   their shares, and the bar falls no faster than that of the series. */
+static void widen(accuracy_error *number, double bar, double order)
 {
     if (!(bar > number->bar[0] && isfinite(bar)) || number->result->data[0] == 0)
         return;
     double factor = bar / number->bar[0];
     number->bar[0] = bar;
+    number->order = fmin(number->order, order); /* drops NaN */
     find_relative(NULL, number);
     for (size_t i = 0; isfinite(factor) && i < number->part_count; i++)
         number->parts[i].error *= factor;
@@ -231,7 +232,7 @@ static void hold_to_series(const accuracy_twins *t, accuracy_error *number)
         const accuracy_error *e = &t->record->errors[i];
         if (e->stage == number->stage && e->result->rank == 1 && e->bar &&
             !strcmp(e->result->row->unit, number->result->row->unit))
-            widen(number, bar_at_extreme(number->result, e));
+            widen(number, bar_at_extreme(number->result, e), e->order);
     }
 }
 

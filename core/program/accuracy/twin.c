@@ -28,15 +28,6 @@ typedef struct observation {
     const bool *affected; /* stages that are computed anew */
 } observation;
 
-/* Stage number `i` of the group evaluated together: a loop, or the stage alone. SIZE_MAX at the
-   end. */
-static size_t together(const ff_pipeline *pipeline, const ff_stage *stage, size_t i)
-{
-    if (stage->loop)
-        return i < stage->loop->count ? pipeline->order[stage->loop->first + i] : SIZE_MAX;
-    return i == 0 ? (size_t)(stage - pipeline->stages) : SIZE_MAX;
-}
-
 static void copy_results(const ff_stage *from, ff_stage *to)
 {
     for (size_t i = 0; i < from->loaded->model->output_count; i++) {
@@ -65,18 +56,14 @@ static bool has_all(const ff_stage *from, const ff_stage *to)
 static bool recall(void *ctx, const ff_pipeline *pipeline, ff_stage *stage)
 {
     const observation *o = ctx;
-    if (!o->scene->donor || o->affected[stage - pipeline->stages])
-        return false;
-    for (size_t i = 0; together(pipeline, stage, i) != SIZE_MAX; i++) {
-        size_t at = together(pipeline, stage, i);
-        if (!has_all(&o->scene->donor->stages[at], &pipeline->stages[at]))
-            return false;
-    }
-    for (size_t i = 0; together(pipeline, stage, i) != SIZE_MAX; i++) {
-        size_t at = together(pipeline, stage, i);
-        copy_results(&o->scene->donor->stages[at], &pipeline->stages[at]);
-    }
-    return true;
+    const ff_pipeline *donor = o->scene->donor;
+    ff_stage *to;
+    bool all = donor && !o->affected[stage - pipeline->stages];
+    for (size_t i = 0; all && (to = run_together(pipeline, stage, i)); i++)
+        all = has_all(&donor->stages[to - pipeline->stages], to);
+    for (size_t i = 0; all && (to = run_together(pipeline, stage, i)); i++)
+        copy_results(&donor->stages[to - pipeline->stages], to);
+    return all;
 }
 
 static int32_t progress(void *ctx, const ff_stage *stage, double fraction)

@@ -69,3 +69,10 @@ ff_result *run_output(const ff_pipeline *pipeline, const char *path, const ff_st
     int output = known ? ff_model_find_output((*stage)->loaded->model, name) : -1;
     return output < 0 ? NULL : &(*stage)->results[output];
 }
+
+ff_stage *run_together(const ff_pipeline *pipeline, const ff_stage *stage, size_t i)
+{
+    if (stage->loop && i < stage->loop->count)
+        return &pipeline->stages[pipeline->order[stage->loop->first + i]];
+    return !stage->loop && i == 0 ? &pipeline->stages[stage - pipeline->stages] : NULL;
+}

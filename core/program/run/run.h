@@ -22,6 +22,10 @@ bool run_has_errors(ff_run *run);
  * is missing. NULL: there is no such output, or its model is not loaded. */
 ff_result *run_output(const ff_pipeline *pipeline, const char *path, const ff_stage **stage);
 
+/* Stage `i` of those that are evaluated together: the stages of a loop, or the stage alone. NULL
+   after the last. */
+ff_stage *run_together(const ff_pipeline *pipeline, const ff_stage *stage, size_t i);
+
 /* False after an error, which the report contains, or if the observer stopped the run. */
 bool run_start(ff_run *run, const ff_observer *watch);
 

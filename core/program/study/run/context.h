@@ -163,6 +163,8 @@ bool study_write_submitted(study_context *context);
 
 /* outcome.c: returns the result of a case. */
 const study_outcome *study_outcome_of(study_context *context, size_t number);
+/* Returns its quality line of that name, "film.load_balance", or NULL. */
+const study_quality *study_line_of(const study_outcome *outcome, const char *name);
 
 /* scale.c: returns the stage of "stage.name", or NULL. Sets *param to the index of the parameter
    with that name, or to SIZE_MAX if it is not in use or is not a number. */

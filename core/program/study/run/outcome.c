@@ -125,3 +125,11 @@ const study_outcome *study_outcome_of(study_context *context, size_t number)
         submitted->outcome = read_outcome(context, context->keys[number]);
     return submitted->outcome;
 }
+
+const study_quality *study_line_of(const study_outcome *outcome, const char *name)
+{
+    for (size_t i = 0; i < outcome->quality_count; i++)
+        if (!strcmp(outcome->quality[i].name, name))
+            return &outcome->quality[i];
+    return NULL;
+}

@@ -8,6 +8,7 @@
 
 #include "../../memory/file.h"
 #include "../../memory/memory.h"
+#include "../../run/run.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -69,15 +70,6 @@ static char *read_text(kept_bytes *in)
     read_bytes(in, &length, sizeof length);
     const char *from = take_bytes(in, length);
     return from && length ? memory_copy_text(from, length) : NULL;
-}
-
-/* Returns stage `i` of those stored in the same file: the stages of a loop, or a single stage.
-   Returns NULL after the last. */
-static ff_stage *together(const ff_pipeline *pipeline, const ff_stage *stage, size_t i)
-{
-    if (stage->loop && i < stage->loop->count)
-        return &pipeline->stages[pipeline->order[stage->loop->first + i]];
-    return !stage->loop && i == 0 ? &pipeline->stages[stage - pipeline->stages] : NULL;
 }
 
 static void write_results(const ff_stage *stage, FILE *out)
@@ -173,8 +165,8 @@ static bool read_kept(int fd, const ff_pipeline *pipeline, const ff_stage *stage
     /* the first pass only checks the file, so that a stage is never filled from a damaged one */
     for (int fill = 0; fill < 2 && whole; fill++) {
         kept_bytes in = {text + sizeof sum, size - sizeof sum, true};
-        for (size_t i = 0; whole && together(pipeline, stage, i); i++)
-            whole = read_results(together(pipeline, stage, i), fill, &in);
+        for (size_t i = 0; whole && run_together(pipeline, stage, i); i++)
+            whole = read_results(run_together(pipeline, stage, i), fill, &in);
     }
     free(text);
     return whole;
@@ -199,8 +191,8 @@ bool study_reuse_recall(void *ctx, const ff_pipeline *pipeline, ff_stage *stage)
     size_t index = (size_t)(stage - pipeline->stages);
     study_reuse_stats *own = &reuse->stats[index];
     bool fresh = false;
-    for (size_t i = 0; reuse->fresh && together(pipeline, stage, i); i++)
-        fresh = fresh || reuse->fresh[together(pipeline, stage, i) - pipeline->stages];
+    for (size_t i = 0; reuse->fresh && run_together(pipeline, stage, i); i++)
+        fresh = fresh || reuse->fresh[run_together(pipeline, stage, i) - pipeline->stages];
     if (reuse->directory < 0 || fresh || own->idle > MOST_IDLE ||
         (own->seconds > 0 && own->seconds < worth_keeping))
         return false;
@@ -231,8 +223,8 @@ static size_t write_kept(int fd, const ff_pipeline *pipeline, const ff_stage *st
     if (!out)
         return 0;
     fwrite(&sum, sizeof sum, 1, out);
-    for (size_t i = 0; together(pipeline, stage, i); i++)
-        write_results(together(pipeline, stage, i), out);
+    for (size_t i = 0; run_together(pipeline, stage, i); i++)
+        write_results(run_together(pipeline, stage, i), out);
     bool whole = fclose(out) == 0 && length <= LARGEST;
     if (whole) {
         sum = study_hash(STUDY_HASH_START ^ FORM, text + sizeof sum, length - sizeof sum);
@@ -251,8 +243,8 @@ void study_reuse_keep(void *ctx, const ff_pipeline *pipeline, const ff_stage *st
     size_t index = (size_t)(stage - pipeline->stages);
     bool good = true;
     double seconds = 0;
-    for (size_t i = 0; together(pipeline, stage, i); i++) {
-        const ff_stage *one = together(pipeline, stage, i);
+    for (size_t i = 0; run_together(pipeline, stage, i); i++) {
+        const ff_stage *one = run_together(pipeline, stage, i);
         good = good && one->ran && one->status == FF_OK;
         seconds += one->seconds;
     }

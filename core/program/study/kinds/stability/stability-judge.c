@@ -26,15 +26,6 @@ static const double most_times = 3;
 /* A relative difference by rounding, which the estimates do not cover. */
 static const double rounding = 1e-9;
 
-/* Returns the line of quality of that name, or NULL. */
-static const study_quality *line_of(const study_outcome *answer, const char *name)
-{
-    for (size_t i = 0; i < answer->quality_count; i++)
-        if (!strcmp(answer->quality[i].name, name))
-            return &answer->quality[i];
-    return NULL;
-}
-
 static bool output_of(const study_map *map, const study_outcome *answer, const char *name,
                       double *value)
 {
@@ -73,7 +64,7 @@ static bool is_among(const char *name, const char *const *names, size_t count)
 static bool condition_holds(const study_map *s, const study_condition *c,
                             const study_outcome *answer, double *value)
 {
-    const study_quality *line = c->than ? NULL : line_of(answer, c->name);
+    const study_quality *line = c->than ? NULL : study_line_of(answer, c->name);
     *value = line ? number_or_zero(line->value) : NAN;
     if (!c->than)
         return line && line->verdict != FF_GOOD;
@@ -188,7 +179,7 @@ static void judge_claim(study_cell *cell, const study_map *s, const study_claim 
     if (!output_of(s, answer, claim->output, &value) || !output_of(s, twin, claim->output, &other))
         return;
     for (size_t i = 0; i < claim->estimate_count; i++) {
-        const study_quality *line = line_of(answer, claim->estimates[i]);
+        const study_quality *line = study_line_of(answer, claim->estimates[i]);
         promised = promised || line;
         estimate += !line ? 0 : isnan(line->value) ? (double)INFINITY : fabs(line->value);
     }

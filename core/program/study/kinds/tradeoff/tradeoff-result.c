@@ -106,10 +106,8 @@ static double stated_error(const study_tradeoff *t, size_t point, size_t output,
             return NAN;
     if (known)
         return accuracy_relative(estimate->values, &own, &largest);
-    for (size_t i = 0; i < answer->quality_count && !absolute; i++)
-        if (!strcmp(answer->quality[i].name, context->extras[extra]))
-            return answer->quality[i].value;
-    return NAN;
+    const study_quality *line = study_line_of(answer, context->extras[extra]);
+    return line && !absolute ? line->value : (double)NAN;
 }
 
 static json_t *error_of(const study_tradeoff *t, size_t point, size_t reference, size_t output,
@@ -189,13 +187,11 @@ static json_t *describe_front(const study_tradeoff *t, const double *cost, const
 static double count_of(const study_tradeoff *t, const study_outcome *answer, size_t count)
 {
     const study_output *result = &answer->outputs[t->context->output_count + count];
+    const study_quality *line = study_line_of(answer, t->counts[count]);
     double sum = 0;
     for (size_t i = 0; result->values && i < result->count; i++)
         sum += result->values[i];
-    for (size_t i = 0; !result->values && i < answer->quality_count; i++)
-        if (!strcmp(answer->quality[i].name, t->counts[count]))
-            return answer->quality[i].value;
-    return result->values ? sum : (double)NAN;
+    return result->values ? sum : line ? line->value : (double)NAN;
 }
 
 static json_t *describe_candidate(const study_tradeoff *t, size_t point, double *cost)
