@@ -169,6 +169,12 @@ class Control(lab.Lab):
             self.assertEqual(answer["outputs"]["last.value"]["error"]["order"] is None, twins == 1)
             self.assertGreaterEqual(self.error(answer), error_of(answer["accuracy"]["settings"]) / 2)
 
+    def test_the_bar_of_an_extreme_falls_as_that_of_its_series(self):
+        """Around its least value the wave moves from level to level by as much; the value itself is of order 2."""
+        answer = self.ask("accuracy={last.value: 5 %}", "last.jitter=0.05")
+        self.assertGreater(self.error(answer), 0.2)
+        self.assertEqual((answer["verdict"], answer["accuracy"]["attempts"]), ("doubtful", 1))
+
     def test_where_the_stage_estimates_more_all_its_settings_become_finer(self):
         """20 % with a tolerance of 0.01 %: of an estimate the first order is taken."""
         answer = self.ask("accuracy={last.wave: 5 %}", "last.seen=0.2")["accuracy"]["settings"]
