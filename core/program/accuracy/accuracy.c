@@ -21,7 +21,7 @@ bool accuracy_run(accuracy_record *record, ff_run *run, ff_engine *engine, const
         good = accuracy_control(record, &scene, report);
     } else {
         accuracy_want_beside(pipeline, true);
-        good = run_start(run, watch) && accuracy_measure(record, &scene, NULL, 0);
+        good = run_start(run, watch) && accuracy_measure(record, &scene, NULL, ACCURACY_PARTS);
     }
     if (good && accuracy_has_check(run))
         good = accuracy_check_twin(record, &scene);

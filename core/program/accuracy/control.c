@@ -131,7 +131,8 @@ static void measure(control *c, attempt *a)
     a->record.choice = c->choice;
     a->record.now = c->now;
     a->record.attempts = c->attempts + 1;
-    c->stopped = !accuracy_measure(&a->record, &c->scene, a->run, goal_share(c));
+    c->stopped = !accuracy_measure(&a->record, &c->scene, a->run,
+                                   goal_share(c) < 1 ? ACCURACY_ORDER : ACCURACY_ENOUGH);
 }
 
 /* Runs and measures the file with the current settings. */

@@ -140,6 +140,12 @@ static bool goes_down(const accuracy_ladder *l)
     return (l->half && l->quarter) || !l->twice;
 }
 
+/* The level whose difference from the answer counts. */
+static const double *nearest(const accuracy_ladder *l)
+{
+    return !goes_down(l) ? l->twice : l->half ? l->half : l->quarter;
+}
+
 static convergence convergence_of(const accuracy_ladder *l, const bool *typical)
 {
     const double *a = goes_down(l) ? l->answer : l->twice, *b = goes_down(l) ? l->half : l->answer,
@@ -178,7 +184,7 @@ static void mark_answer(const accuracy_ladder *l, bool *typical)
 {
     double *sizes = memory_alloc(l->count * sizeof *sizes);
     for (size_t i = 0; i < l->count; i++)
-        sizes[i] = apart(l, goes_down(l) ? l->half : l->twice, l->answer, i);
+        sizes[i] = apart(l, nearest(l), l->answer, i);
     mark_typical(l, sizes, typical);
     free(sizes);
 }
@@ -189,9 +195,11 @@ static double error_at(const accuracy_ladder *l, size_t i, bool typical, const c
     double observed = typical ? c->typical : c->all, growth = growth_to_use(l, observed);
     double coarse = fmax(growth, fmin(fabs(observed), most_coarse_growth)); /* fmax and fmin drop
                                                                                NaN */
+    double near = apart(l, nearest(l), l->answer, i), far = coarse_difference(l, i);
     if (!goes_down(l))
-        return safety * apart(l, l->answer, l->twice, i) * growth / (growth - 1);
-    double near = apart(l, l->half, l->answer, i), far = coarse_difference(l, i);
+        return safety * near * growth / (growth - 1);
+    if (!l->half)
+        return safety * near / (growth * growth - 1);
     if (typical) /* a large move of coarser levels alone is no part of the answer's error */
         far = fmin(far, c->coarse_limit);
     return safety * fmax(near, far / coarse) / (growth - 1);
@@ -225,7 +233,7 @@ static void raise_to_largest(const accuracy_ladder *l, const double *all, const 
 
 double accuracy_estimate(const accuracy_ladder *l, double *error, double *shares)
 {
-    assert(l->answer && (l->half || l->twice));
+    assert(l->answer && (l->half || l->quarter || l->twice));
     assert(l->refined_count == 0 || l->refined);
     double *all = memory_alloc(l->count * sizeof *all);
     bool *typical = memory_alloc(l->count * sizeof *typical);

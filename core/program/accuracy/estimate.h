@@ -23,7 +23,7 @@ typedef struct accuracy_ladder {
  * Writes error[count], the estimated error of each number of the answer, and shares[refined_count],
  * the part that each setting causes: their sum is 1, or they are all 0 if it is not known. Returns
  * the observed order, log2 of the growth of the differences; NaN if nothing differs or there are
- * only two levels. `half` or `twice` must be given.
+ * only two levels. One of `half`, `quarter` and `twice` must be given.
  */
 double accuracy_estimate(const accuracy_ladder *ladder, double *error, double *shares);
 

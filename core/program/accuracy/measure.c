@@ -180,7 +180,7 @@ static void measure_output(const accuracy_twins *t, accuracy_error *e)
         refined[i] = numbers_of_twin(t, e, t->refined[i]);
     levels.refined = refined;
     levels.refined_count = t->count;
-    if (!levels.half && !levels.twice)
+    if (!levels.half && !levels.quarter && !levels.twice)
         return;
     e->bar = take(t, levels.count, sizeof *e->bar);
     e->order = accuracy_estimate(&levels, e->bar, shares);
@@ -245,11 +245,11 @@ static void conclude(const accuracy_twins *t)
         hold_to_series(t, &record->errors[i]);
 }
 
-static bool misses(const accuracy_record *record, double share)
+static bool misses(const accuracy_record *record)
 {
     bool missed = false;
     for (size_t i = 0; i < record->count; i++)
-        missed = missed || record->errors[i].reached > share * record->errors[i].goal;
+        missed = missed || record->errors[i].reached > record->errors[i].goal;
     return missed;
 }
 
@@ -270,14 +270,14 @@ static accuracy_twins twins_of(accuracy_record *record, const accuracy_scene *sc
 }
 
 bool accuracy_measure(accuracy_record *record, const accuracy_scene *scene,
-                      const accuracy_twin *attempt, double share)
+                      const accuracy_twin *attempt, enum accuracy_effort effort)
 {
     accuracy_twins t = twins_of(record, scene, attempt);
-    t.few = share > 0;
+    t.few = effort != ACCURACY_PARTS;
     list_outputs(&t);
     for (bool missed = true; missed && accuracy_twins_find(&t) && !t.stopped;) {
         conclude(&t);
-        missed = t.few && misses(record, share);
+        missed = effort == ACCURACY_ORDER || (effort == ACCURACY_ENOUGH && misses(record));
     }
     record->two_levels = t.half && !t.quarter;
     return !t.stopped;

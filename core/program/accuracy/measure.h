@@ -65,15 +65,20 @@ typedef struct accuracy_record {
     memory_arena arena;
 } accuracy_record;
 
+/* How many twins measure an answer. */
+enum accuracy_effort {
+    ACCURACY_ENOUGH, /* a second one only if the first leaves an error above its goal */
+    ACCURACY_ORDER,  /* two, which show the order */
+    ACCURACY_PARTS,  /* also those that split the errors by setting: more than all the rest */
+};
+
 /*
  * Measures the errors of the scalars and series that the file asks for, of an attempt or, if that
- * is NULL, of the file's own run. The scene's runs serve as twins if their settings fit. `share` is
- * the part of each goal that its error must meet; if the first twin shows that, there is no second
- * one. With a share of 0 there are all twins, also those that split the errors by setting, which
- * are more than all the rest. Returns false if the observer stopped it.
+ * is NULL, of the file's own run. The scene's runs serve as twins if their settings fit. Returns
+ * false if the observer stopped it.
  */
 bool accuracy_measure(accuracy_record *record, const accuracy_scene *scene,
-                      const accuracy_twin *attempt, double share);
+                      const accuracy_twin *attempt, enum accuracy_effort effort);
 /*
  * Holds the answer of a measured record against a twin whose settings are all a level finer, as
  * `accuracy: {check: twins}` asks. If it fails, the record says why. Returns false if the observer

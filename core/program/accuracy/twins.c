@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Twins of one answer, a ladder of levels. All settings of all stages are one level coarser in the
- * first twin and two levels coarser in the second. Then, unless earlier runs are known, each
- * setting in turn is one level finer than in the second, which shows its part of the error. These
- * are cheap: all else is coarse, and stages upstream are known. If a coarser twin fails because the
- * answer itself is coarse, a finer one takes its place.
+ * Twins of one answer, a ladder of levels: all settings of all stages are one level coarser, or two
+ * levels. If few are wanted, the twin by two levels comes first, which costs a fraction of the
+ * other. Else each setting in turn is one level finer than in that twin, which shows its part of
+ * the error. These are cheap: all else is coarse, and stages upstream are known. If a coarser twin
+ * fails because the answer itself is coarse, a finer one takes its place.
  */
 #include "twins.h"
 
@@ -134,28 +134,29 @@ static const accuracy_twin *find_twin(accuracy_twins *t, int at)
     return twin && twin->good ? twin : NULL;
 }
 
-/* Runs the second twin, and those that tell the settings apart. */
-static void run_quarter(accuracy_twins *t)
+/* Runs the twins that tell the settings apart. */
+static void run_refined(accuracy_twins *t)
 {
-    t->quarter = t->half ? find_twin(t, quarter) : NULL;
-    for (size_t i = 0; !t->few && t->count > 1 && t->quarter && i < t->count && !t->stopped; i++)
+    for (size_t i = 0; t->count > 1 && t->half && t->quarter && i < t->count && !t->stopped; i++)
         t->refined[i] = run_twin(t, quarter, i);
 }
 
 bool accuracy_twins_find(accuracy_twins *t)
 {
-    if (t->half || t->twice) { /* a second call */
-        if (t->quarter || t->twice || !t->half)
-            return false;
-        run_quarter(t);
-        return t->quarter != NULL;
-    }
-    list_knobs(t);
+    const bool again = t->half || t->quarter || t->twice;
+    if (again && (t->half || t->twice))
+        return false;
+    if (!again)
+        list_knobs(t);
     if (t->record->count == 0)
         return false;
+    if (t->few && !again && (t->quarter = find_twin(t, quarter)))
+        return true;
     t->half = find_twin(t, half);
     if (t->half && !t->few)
-        run_quarter(t);
+        t->quarter = find_twin(t, quarter);
+    if (!t->few)
+        run_refined(t);
     if (!t->half || (!t->few && !t->quarter))
         t->twice = find_twin(t, twice);
     return t->half || t->twice;

@@ -10,7 +10,7 @@ typedef struct order {
     const ff_host *host;
     int64_t cells, steps, least, most, sure, shown;
     int32_t exact, steady;
-    double tolerance, order, strength, gain, heat, guess, loosest, blunt, seen, scatter, jitter;
+    double tolerance, order, strength, gain, heat, guess, loosest, blunt, seen, scatter, drift;
 } order;
 
 static const ff_param params[] = {
@@ -39,10 +39,8 @@ static const ff_param params[] = {
                 "tolerance of 0.01 %"),
     FF_QUANTITY("scatter", "1", order, scatter, 0, "0", NULL, 0, 1, 0, 0,
                 "what the model is off by there"),
-    FF_QUANTITY("jitter", "1", order, jitter, 0, "0", NULL, 0, 1, 0, 0,
-                "by this share the wave is above its law with 4^n cells, and below it with "
-                "others, but "
-                "where it is least"),
+    FF_QUANTITY("drift", "1", order, drift, 0, "0", NULL, 0, 1, 0, 0,
+                "share by which twice the cells raise the wave, but where it is least"),
     FF_COUNT("least", order, least, 0, "0", NULL, 0, 1e6, 0, 0, "with fewer cells it fails"),
     FF_COUNT("most", order, most, 0, "1000000", NULL, 1, 1e6, 0, 0, "with more cells it fails"),
     FF_COUNT("shown", order, shown, 0, "1000000", NULL, 1, 1e6, 0, 0,
@@ -105,7 +103,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
             time[i] = points > 1 ? (double)i / (double)(points - 1) : 0.75;
             wave[i] = value * (2 + sin(6.283185307179586 * time[i]));
             if (time[i] != 0.75)
-                wave[i] *= fmod(log2((double)o->cells), 2) == 0 ? 1 + o->jitter : 1 - o->jitter;
+                wave[i] *= 1 + o->drift * (log2((double)o->cells) - 6);
             off[i] = time[i] >= 0.5 ? (seen + o->scatter) * wave[i] : 0;
         }
     }
