@@ -14,6 +14,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Share of a goal that the stages' estimates must stay below for the first twin to be the cheapest:
+   its difference from the answer is many times the error. */
+static const double far_below = 0.25;
+
 /* Smallest error that is stated, as a share of the goal: twins may agree by chance. */
 static const double least_error = 0.1;
 
@@ -78,11 +82,16 @@ static void list_outputs(accuracy_twins *t)
     free(text);
 }
 
+static accuracy_series series_of(const double *at, const accuracy_error *e)
+{
+    return (accuracy_series){e->result->rank, e->result->count, at,
+                             e->result->data, e->zero,          e->absolute};
+}
+
 /* Computes the relative error of an output: typical along a series, and largest. */
 static void find_relative(const double *at, accuracy_error *e)
 {
-    accuracy_series answer = {e->result->rank, e->result->count, at,
-                              e->result->data, e->zero,          e->absolute};
+    accuracy_series answer = series_of(at, e);
     double largest;
     e->reached = accuracy_relative(e->bar, &answer, &largest);
     answer.absolute = false;
@@ -144,10 +153,9 @@ static void add_changes(const accuracy_twins *t, const accuracy_ladder *levels, 
 static accuracy_ladder ladder_of(const accuracy_twins *t, const accuracy_error *e)
 {
     const ff_result *result = e->result, *along = accuracy_axis_of(t->answer, e->stage, result);
+    const accuracy_series answer = series_of(NULL, e);
     double *scale = take(t, result->count, sizeof *scale);
-    accuracy_error_scales(
-        &(accuracy_series){result->rank, result->count, NULL, result->data, e->zero, e->absolute},
-        scale);
+    accuracy_error_scales(&answer, scale);
     return (accuracy_ladder){.count = result->count,
                              .at = along ? along->data : NULL,
                              .scale = scale,
@@ -245,6 +253,22 @@ static void conclude(const accuracy_twins *t)
         hold_to_series(t, &record->errors[i]);
 }
 
+/* True if stages estimate errors, and none comes near its goal. */
+static bool are_far_below(const accuracy_record *record)
+{
+    bool any = false, all = true;
+    for (size_t i = 0; i < record->count; i++) {
+        const accuracy_error *e = &record->errors[i];
+        const ff_result *estimate = accuracy_estimate_of(e->stage, e->result);
+        const accuracy_series answer = series_of(NULL, e);
+        double largest;
+        any = any || estimate;
+        all = all && !(estimate &&
+                       accuracy_relative(estimate->data, &answer, &largest) > far_below * e->goal);
+    }
+    return any && all;
+}
+
 static bool misses(const accuracy_record *record)
 {
     bool missed = false;
@@ -275,6 +299,7 @@ bool accuracy_measure(accuracy_record *record, const accuracy_scene *scene,
     accuracy_twins t = twins_of(record, scene, attempt);
     t.few = effort != ACCURACY_PARTS;
     list_outputs(&t);
+    t.far = t.few && are_far_below(record);
     for (bool missed = true; missed && accuracy_twins_find(&t) && !t.stopped;) {
         conclude(&t);
         missed = effort == ACCURACY_ORDER || (effort == ACCURACY_ENOUGH && misses(record));

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Twins of one answer, a ladder of levels: all settings of all stages are one level coarser, or two
- * levels. If few are wanted, the twin by two levels comes first, which costs a fraction of the
- * other. Else each setting in turn is one level finer than in that twin, which shows its part of
- * the error. These are cheap: all else is coarse, and stages upstream are known. If a coarser twin
+ * levels. If few are wanted, one of the two comes first, and the other only if it is needed. Else
+ * each setting in turn is one level finer than in the coarser twin, which shows its part of the
+ * error. These are cheap: all else is coarse, and stages upstream are known. If a coarser twin
  * fails because the answer itself is coarse, a finer one takes its place.
  */
 #include "twins.h"
@@ -137,26 +137,29 @@ static const accuracy_twin *find_twin(accuracy_twins *t, int at)
 /* Runs the twins that tell the settings apart. */
 static void run_refined(accuracy_twins *t)
 {
-    for (size_t i = 0; t->count > 1 && t->half && t->quarter && i < t->count && !t->stopped; i++)
+    for (size_t i = 0; t->count > 1 && t->quarter && i < t->count && !t->stopped; i++)
         t->refined[i] = run_twin(t, quarter, i);
 }
 
 bool accuracy_twins_find(accuracy_twins *t)
 {
-    const bool again = t->half || t->quarter || t->twice;
-    if (again && (t->half || t->twice))
+    const bool again = t->half || t->quarter;
+    if (t->twice || (t->half && t->quarter))
         return false;
     if (!again)
         list_knobs(t);
     if (t->record->count == 0)
         return false;
-    if (t->few && !again && (t->quarter = find_twin(t, quarter)))
-        return true;
-    t->half = find_twin(t, half);
-    if (t->half && !t->few)
+    if (t->few && (again ? t->half != NULL : t->far)) {
         t->quarter = find_twin(t, quarter);
-    if (!t->few)
+        if (t->quarter || again)
+            return t->quarter != NULL;
+    }
+    t->half = find_twin(t, half);
+    if (!t->few && t->half) {
+        t->quarter = find_twin(t, quarter);
         run_refined(t);
+    }
     if (!t->half || (!t->few && !t->quarter))
         t->twice = find_twin(t, twice);
     return t->half || t->twice;

@@ -15,6 +15,7 @@ typedef struct accuracy_twins {
     const ff_report *said; /* the answer's messages; NULL if no setting was chosen */
     ff_place asked;        /* where the file asks for the accuracy; chosen settings stand there */
     bool few;              /* one twin at a time, and none that separates the settings */
+    bool far;              /* the first of few is two levels coarser */
     accuracy_knob *knobs;  /* the settings of all stages on which a measured output depends */
     size_t count;
     const accuracy_twin *half, *quarter, *twice; /* all settings 1 and 2 levels coarser, and 1 level

@@ -162,12 +162,20 @@ class Control(lab.Lab):
         self.assertGreater(self.error(answer), 0.0001)
 
     def test_a_second_twin_tells_what_one_leaves_too_large(self):
-        """0.24 % of 64 cells: to 16, which cost least, it says 4.6 %, and 32 more show the order."""
-        for goal, twins in ((5, 1), (3, 2), (1, 2)):
+        """0.24 % of 64 cells: one twin has three times what lies between, 2.2 %, two the order."""
+        for goal, twins in ((3, 1), (1, 2)):
             answer = self.ask(f"accuracy={goal} %")
             self.assertEqual((answer["accuracy"]["attempts"], answer["accuracy"]["twins"]), (1, twins))
             self.assertEqual(answer["outputs"]["last.value"]["error"]["order"] is None, twins == 1)
             self.assertGreaterEqual(self.error(answer), error_of(answer["accuracy"]["settings"]) / 2)
+
+    def test_where_the_stage_estimates_far_less_the_first_twin_is_coarser(self):
+        """By 0.1 % that the last stage estimates. To 16 cells it says 4.6 %, and 32 more show the order."""
+        for goal, cells in ((5, {"64", "16"}), (3, {"64", "16", "32"}), (0.35, {"64", "32", "16"})):
+            answer = self.ask(f"accuracy={goal} %", "last.seen=0.001")
+            self.assertEqual({run["settings"]["last.cells"] for run in answer["accuracy"]["runs"]}, cells)
+            self.assertGreaterEqual(self.error(answer), error_of(answer["accuracy"]["settings"]) / 2)
+            self.assertLessEqual(self.error(answer), goal / 100)
 
     def test_the_bar_of_an_extreme_falls_as_that_of_its_series(self):
         """Around its least value the wave moves from level to level by as much; the value itself is of order 2."""

@@ -75,6 +75,9 @@ static void test_two_levels(void)
     accuracy_ladder l = {.count = 1, .answer = &answer, .half = &half};
     check_true("no order", isnan(estimate(&l, &error)));
     check_near("three times", error, 0.03, 0.01);
+    l = (accuracy_ladder){.count = 1, .answer = &answer, .quarter = &half};
+    check_true("no order", isnan(estimate(&l, &error)));
+    check_near("of two levels", error, safety * 0.01, 1e-9);
     double twice = 0.99;
     l = (accuracy_ladder){.count = 1, .answer = &answer, .twice = &twice};
     check_true("no order", isnan(estimate(&l, &error)));
