@@ -79,7 +79,6 @@ def main():
     for title, lines in (
         ("Missing:", lost),
         ("Skipped:", [f"{test['name']}: {reason(test)}" for test in ran if outcome(test) == "skipped"]),
-        ("Failed:", [test["name"] for test in ran if outcome(test) == "failed"]),
         ("Not part of it, campaigns of docs/campaigns.md:",
          re.findall(r"^\|[^|`]*\| `([^`]*)`", campaigns, re.M)),
         ("Most CPU time:", [f"{cpu(test):6.1f} s  {test['name']}"
@@ -99,6 +98,9 @@ def main():
     if not ran:
         total["failed"] += 1
     print()
+    failures = [test for test in ran if outcome(test) == "failed"]
+    for test in failures:
+        print(f"Failed: {test['name']}", *(test["stdout"] + test.get("stderr", "")).splitlines()[-20:], sep="\n  | ")
     print(", ".join(f"{total[kind]} {kind}" for kind in kinds[:2 + (total["skipped"] > 0)]))
     return total["failed"] > 0
 

@@ -10,8 +10,9 @@ unset FLANKFILM_PLUGIN_PATH
 kept=$2/docs/validation
 for page in paper benchmarks; do
     sh "$kept/$page.sh" "$1" "$lab" quick
-    # what the quick run leaves out: what stands last, and a sentence on a finer surface
-    sed -e '/^## Beyond the paper/,$d' -e 's/Waves down to 5 um .* cells of 1\.3 um\. //' "$kept/$page.md" > "$lab/kept.md"
+    # what the quick run leaves out: what stands last, and a sentence on a finer surface; the commit is another
+    sed -i '/^<!-- made at /d' "$lab/$page.md"
+    sed -e '/^## Beyond the paper/,$d' -e '/^<!-- made at /d' -e 's/Waves down to 5 um .* cells of 1\.3 um\. //' "$kept/$page.md" > "$lab/kept.md"
     awk -f "$kept/compare.awk" "$lab/kept.md" "$lab/$page.md" || {
         echo "sh docs/validation/$page.sh build writes the page anew"
         exit 1
