@@ -48,7 +48,7 @@ TEXT
     cat <<'TEXT'
 | [What relief does to resonance, jumps and the number of motions](relief.md) | a load-dependent mesh force moves folds | 40 um of relief: highest motion at 2274 Hz, not at 2047 Hz |
 | [Do the error bars hold?](error-bars.md) | yes | 669 of 671 scalars, 754 of 773 series |
-| [What limits me, against brute force](uncertainty.md) | the reported effects of uncertain inputs agree with brute force | 42 of 44 lines, by 8000 samples each |
+| [What limits me, against brute force](uncertainty.md) | the reported effects of uncertain inputs agree with brute force | for laws of an earlier commit, which the page names |
 | [What was once wrong without a word](rows.md) | each error found by an audit is corrected or reported as doubtful | row by row |
 | [Do films know their errors?](effectivity.md) | yes for h_min and h_central without heat; no for pressure peaks | of 62 drawn films, bars hold at 95.5 to 100 % of the instants of each sort |
 
