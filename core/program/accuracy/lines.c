@@ -23,9 +23,10 @@ static bool ends_in_error(const char *name)
     return length > tail && !strcmp(name + length - tail, ending);
 }
 
-/* "h_min_space_error" concerns the output with the longest name with which the line begins. Fields
-   have no measured error. */
-const ff_result *accuracy_estimated(const ff_stage *stage, const char *line)
+/* Returns the measured output whose error the line of this name estimates; NULL if it is another
+   kind of line. "h_min_space_error" concerns the output with the longest name with which the line
+   begins. Fields have no measured error. */
+static const ff_result *estimated(const ff_stage *stage, const char *line)
 {
     size_t longest = 0;
     const ff_result *found = NULL;
@@ -47,7 +48,7 @@ const ff_result *accuracy_estimated(const ff_stage *stage, const char *line)
 static bool is_of(const ff_stage *stage, const ff_quality *line, const ff_result *result)
 {
     const char *name = result->row->name;
-    const ff_result *of = ends_in_error(name) ? NULL : accuracy_estimated(stage, line->name);
+    const ff_result *of = ends_in_error(name) ? NULL : estimated(stage, line->name);
     size_t stem = of ? strlen(of->row->name) : 0;
     return of && !strncmp(name, of->row->name, stem) && (!name[stem] || name[stem] == '_') &&
            !strcmp(result->row->unit, of->row->unit);
@@ -89,7 +90,7 @@ bool accuracy_may_estimate(const ff_port *row, const ff_port *of)
 static bool has_line_of(const ff_stage *stage, const ff_result *result)
 {
     for (size_t i = 0; i < stage->quality_count; i++)
-        if (accuracy_estimated(stage, stage->quality[i].name) == result)
+        if (estimated(stage, stage->quality[i].name) == result)
             return true;
     return false;
 }
@@ -129,7 +130,7 @@ static void drop_estimates(const accuracy_record *record, const ff_pipeline *ans
             if (stage->wires[k].stage >= 0)
                 feeds[stage->wires[k].stage] = true;
         for (size_t k = stage->quality_count; k-- > 0;)
-            if (accuracy_estimated(stage, stage->quality[k].name) &&
+            if (estimated(stage, stage->quality[k].name) &&
                 !isinf(stage->quality[k].value)) /* an infinite estimate means a value known only
                                                     from below, which no twin can tell */
                 ff_drop_quality(stage, k);
@@ -163,26 +164,26 @@ char *accuracy_describe(const accuracy_error *e)
     return text;
 }
 
-/* Prints an error as the goal is stated. */
-static char *print_error(const accuracy_error *e, double error, int digits)
+/* Prints an error as the goal is stated, "0.54 %" or "0.31 K"; to be freed. */
+static char *print_number(const accuracy_error *e, double error, int digits)
 {
     return e->absolute ? memory_print_text("%.*g %s", digits, error, e->result->row->unit)
                        : memory_print_text("%.*g %%", digits, 100 * error);
 }
 
-char *accuracy_print_error(const accuracy_error *of, double error)
+static char *print_error(const accuracy_error *of, double error)
 {
-    return isnan(error) ? memory_print_text("not known") : print_error(of, error, 2);
+    return isnan(error) ? memory_print_text("not known") : print_number(of, error, 2);
 }
 
 char *accuracy_print_reached(const accuracy_error *e)
 {
-    return accuracy_print_error(e, e->bar ? e->reached : (double)NAN);
+    return print_error(e, e->bar ? e->reached : (double)NAN);
 }
 
 char *accuracy_print_goal(const accuracy_error *e)
 {
-    return isnan(e->goal) ? memory_print_text("%s", "") : print_error(e, e->goal, 3);
+    return isnan(e->goal) ? memory_print_text("%s", "") : print_number(e, e->goal, 3);
 }
 
 char *accuracy_print_check(const accuracy_record *record, const accuracy_error *e)
@@ -191,7 +192,7 @@ char *accuracy_print_check(const accuracy_record *record, const accuracy_error *
         return memory_print_text("the finer run failed: %s", record->unchecked);
     if (isnan(e->apart))
         return memory_print_text("it cannot be compared with a finer run");
-    char *apart = accuracy_print_error(e, e->apart);
+    char *apart = print_error(e, e->apart);
     char *text = memory_print_text("%s from a twin a level finer%s%s", apart,
                                    record->told_by_finer ? ", which has also told the error" : "",
                                    isnan(e->reached)        ? "; the error itself is not known"

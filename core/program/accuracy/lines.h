@@ -12,8 +12,6 @@ void accuracy_tell(const accuracy_record *record, const ff_pipeline *answer);
 /* Prints "0.54 %", as the goal does "0.31 K", or "not known" if no twin can tell the error; to be
    freed. */
 char *accuracy_print_reached(const accuracy_error *error);
-/* Prints an error as the goal is stated, "0.54 %" or "0.31 K"; to be freed. */
-char *accuracy_print_error(const accuracy_error *of, double error);
 /* Prints the goal; "" if there is none; to be freed. */
 char *accuracy_print_goal(const accuracy_error *error);
 /* Prints "at few points up to 3 %; film.cells 0.3 %, tooth.points 0.1 %; order 2.1", or the parts
@@ -21,9 +19,6 @@ char *accuracy_print_goal(const accuracy_error *error);
 char *accuracy_describe(const accuracy_error *error);
 /* Prints how far the answer is from a finer twin, or why that is not known; to be freed. */
 char *accuracy_print_check(const accuracy_record *record, const accuracy_error *error);
-/* The stage's measured output whose error the line of this name estimates; NULL if it is another
-   kind of line. */
-const ff_result *accuracy_estimated(const ff_stage *stage, const char *line);
 /* Largest relative error that the stage's lines state for the output, or for an output in the same
    unit whose name begins the output's name, such as "h_min" for "h_min_lowest". NaN if there is
    none. */

@@ -112,7 +112,8 @@ report_extremes report_find_extremes(const ff_array *array)
     return found;
 }
 
-double report_find_scalar(report_page *page, const char *output, size_t index)
+/* Returns the scalar output of that name of any stage, in SI; NaN when there is none. */
+static double find_scalar(report_page *page, const char *output, size_t index)
 {
     double value = NAN;
     for (size_t v = 0; v < page->view->variable_count && !isfinite(value); v++) {
@@ -159,7 +160,7 @@ report_marks report_find_marks(report_page *page, size_t index)
                                                       "roll_hpstc", "roll_tip"};
     report_marks marks;
     for (size_t i = 0; i < REPORT_MARKS; i++)
-        marks.roll[i] = report_find_scalar(page, outputs[i], index);
+        marks.roll[i] = find_scalar(page, outputs[i], index);
     if (!isfinite(marks.roll[1]) && !isfinite(marks.roll[3]))
         find_jumps(page, index, &marks);
     return marks;

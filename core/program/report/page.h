@@ -95,8 +95,6 @@ int report_find_bar(const results_view *view, size_t variable);
 bool report_is_bar(const results_view_variable *variable);
 /* Whether a series is what another output that the file asks for is plotted against. */
 bool report_is_axis(const results_view *view, size_t series);
-/* Returns the scalar output of that name of any stage, in SI; NaN when there is none. */
-double report_find_scalar(report_page *page, const char *output, size_t index);
 /* Loads unless something has failed; data is NULL when there is nothing. */
 ff_array report_load(report_page *page, int variable, size_t index);
 void report_release(report_page *page, ff_array *array);
