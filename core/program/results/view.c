@@ -198,7 +198,7 @@ static int is_figures(const struct dirent *entry)
 /* Leaves out what cannot be read, is not text or is too long. */
 static void read_figure(results_reader *reader, const char *name)
 {
-    enum { MOST = 1 << 21 };
+    enum { MOST = 1 << 23 };
     int fd = file_open(reader->directory, name, NULL);
     char *text = memory_alloc(MOST);
     ssize_t length = fd >= 0 ? read(fd, text, MOST) : -1;

@@ -73,10 +73,11 @@ static FILE *open_file(const study_answer *answer, const char *ending)
 }
 
 static void put_json(const study_answer *answer, const char *ending, const json_t *value,
-                     int digits)
+                     int digits, size_t indent)
 {
     FILE *out = open_file(answer, ending);
-    json_dumpf(value, out, JSON_INDENT(1) | JSON_REAL_PRECISION((size_t)(digits ? digits : 6)));
+    json_dumpf(value, out,
+               JSON_INDENT(indent) | JSON_REAL_PRECISION((size_t)(digits ? digits : 6)));
     fputc('\n', out);
     fclose(out);
 }
@@ -112,8 +113,8 @@ void study_answer_close(study_answer *answer)
             study_table_csv(answer->tables[i], out);
     fclose(out);
     json_t *page = page_of(answer);
-    put_json(answer, "json", answer->value, answer->digits);
-    put_json(answer, "figure.json", page, 0);
+    put_json(answer, "json", answer->value, answer->digits, 1);
+    put_json(answer, "figure.json", page, 0, 0); /* on one line: thousands of cells are many */
     answer->context->facts = answer->facts ? answer->facts : facts_of(answer);
     for (size_t i = 0; i < answer->table_count; i++)
         json_decref(answer->tables[i]->rows);
