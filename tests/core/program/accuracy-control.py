@@ -360,10 +360,10 @@ class Control(lab.Lab):
         for wrong in ("{check: twin}", "{check: [twins]}"):
             self.assertIn("write check: twins", self.call("check", "order.yaml", "--set", f"accuracy={wrong}", code=2))
 
-    def test_the_progress_says_what_is_missing(self):
-        self.write("slow.yaml", FILE.replace("last: {", "wave: {use: toy/wave, amplitude: 2 mm, work: 1.2 s}\n  last: {").replace("[last.", "[wave.total, last."))
+    def progress_of(self, name):
+        """What a run prints on a terminal."""
         leader, follower = os.openpty()
-        run = subprocess.Popen([self.program, "run", "slow.yaml", "-o", "slow"], stdout=subprocess.DEVNULL, stderr=follower)
+        run = subprocess.Popen([self.program, "run", name + ".yaml", "-o", name], stdout=subprocess.DEVNULL, stderr=follower)
         os.close(follower)
         said = b""
         try:
@@ -372,7 +372,17 @@ class Control(lab.Lab):
         except OSError: # the program has ended
             pass
         self.assertEqual(run.wait(), 0)
-        self.assertIn("attempt 1, by the presets; wave (toy/wave)", said.decode())
+        return said.decode()
+
+    def test_the_progress_says_what_is_missing(self):
+        self.write("slow.yaml", FILE.replace("last: {", "wave: {use: toy/wave, amplitude: 2 mm, work: 1.2 s}\n  last: {").replace("[last.", "[wave.total, last."))
+        self.assertIn("attempt 1, by the presets; wave (toy/wave)", self.progress_of("slow"))
+
+    def test_the_progress_says_what_a_twin_is_for(self):
+        self.write("busy.yaml", FILE.replace("0.1 %", "{all: 5 %, check: twins}").replace("before: first", "before: first, work: 0.8 s"))
+        said = self.progress_of("busy")
+        for words in ("attempt 1, by the presets", "a coarser twin tells the errors of attempt 1", "a finer twin checks the errors"):
+            self.assertIn(f"{words}; last (toy/order)", said)
 
     def test_a_study(self):
         self.write("study.yaml", FILE + "study: {sweep: {last.strength: [1, 30]}}\n")

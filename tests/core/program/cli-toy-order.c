@@ -5,12 +5,14 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <time.h>
 
 typedef struct order {
     const ff_host *host;
     int64_t cells, steps, least, most, sure, shown;
     int32_t exact, steady;
-    double tolerance, order, strength, gain, heat, guess, loosest, blunt, seen, scatter, drift;
+    double tolerance, order, strength, gain, heat, guess, loosest, blunt, seen, scatter, drift,
+        work;
 } order;
 
 static const ff_param params[] = {
@@ -41,6 +43,7 @@ static const ff_param params[] = {
                 "what the model is off by there"),
     FF_QUANTITY("drift", "1", order, drift, 0, "0", NULL, 0, 1, 0, 0,
                 "share by which twice the cells raise the wave, but where it is least"),
+    FF_QUANTITY("work", "s", order, work, 0, "0 s", NULL, 0, 10, 0, 0, "how long to seem busy"),
     FF_COUNT("least", order, least, 0, "0", NULL, 0, 1e6, 0, 0, "with fewer cells it fails"),
     FF_COUNT("most", order, most, 0, "1000000", NULL, 1, 1e6, 0, 0, "with more cells it fails"),
     FF_COUNT("shown", order, shown, 0, "1000000", NULL, 1, 1e6, 0, 0,
@@ -73,6 +76,17 @@ static ff_status ready(void *self)
     return FF_OK;
 }
 
+/* Waits, and tells how far it is. */
+static void seem_busy(const order *o)
+{
+    enum { PARTS = 20 };
+    const struct timespec part = {0, (long)(1e9 * o->work / PARTS)};
+    for (int i = 0; o->work > 0 && i < PARTS; i++) {
+        nanosleep(&part, NULL);
+        o->host->progress(o->host->ctx, (double)i / PARTS);
+    }
+}
+
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     order *o = self;
@@ -87,6 +101,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         return ff_failf(o->host, FF_NOCONV, NULL, "%g is too loose", o->tolerance);
     if (o->tolerance > o->blunt)
         points -= (size_t)log2(o->tolerance / o->blunt);
+    seem_busy(o);
     value += o->exact ? 0 : o->tolerance > o->blunt ? 3 * o->blunt : o->tolerance;
     if (o->cells >= o->shown)
         value += 0.05;
