@@ -304,22 +304,14 @@ static void add_span(const report_scalar *f, json_t *row)
     }
 }
 
-/* Adds how a scalar is distributed over a sample; of the lambda ratio, how often it is below 1,
-   where flanks touch. */
+/* Adds how a scalar is distributed over a sample. */
 static void add_distribution(const report_scalar *f, json_t *row)
 {
     static const double percents[] = {0, 5, 50, 95, 100};
-    size_t kept, below = 0;
+    size_t kept;
     double *list = report_sort(f->values, f->count, &kept);
     for (size_t i = 0; i < sizeof percents / sizeof *percents; i++)
         json_array_append_new(row, value_cell(f, report_percentile(list, kept, percents[i])));
-    while (below < kept && list[below] < 1)
-        below++;
-    const bool lambda =
-        !strcmp(f->page->view->variables[f->variable]->output, "lambda_ratio_lowest");
-    json_array_append_new(row, lambda ? json_sprintf("below 1 in %zu of %zu cases (%.3g %%)", below,
-                                                     kept, 100 * (double)below / (double)kept)
-                                      : json_string(""));
     free(list);
 }
 
@@ -328,8 +320,8 @@ static void write_spans(report_page *page)
     const results_view *view = page->view;
     const bool sample = report_is_sample(view);
     json_t *rows = json_array();
-    json_t *head = sample ? json_pack("[s, s, s, s, s, s, s, s]", "quantity", "stage", "least",
-                                      "5 %", "median", "95 %", "largest", "")
+    json_t *head = sample ? json_pack("[s, s, s, s, s, s, s]", "quantity", "stage", "least", "5 %",
+                                      "median", "95 %", "largest")
                           : json_pack("[s, s, s, s, s, s]", "quantity", "stage", "least", "where",
                                       "largest", "where");
     for (size_t v = 0; v < view->variable_count; v++) {
