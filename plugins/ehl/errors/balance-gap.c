@@ -14,7 +14,7 @@ static double smooth_gap(const ehl_march *m, size_t i)
     return eq->h[i] + (eq->rough ? eq->rough[i] : 0) - (plastic ? plastic[i] : 0);
 }
 
-/* Returns the same for all nodes. */
+/* Returns the smooth gaps of all nodes. */
 static const double *smooth_gaps(ehl_balance *b, const ehl_march *m)
 {
     if (!m->solver->reynolds->rough && !m->state[0].film.plastic)

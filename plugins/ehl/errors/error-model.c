@@ -371,7 +371,7 @@ static void put_transported(ehl_results *r, const ehl_transported *e, const cont
         double share = ehl_known_error(e->by_cells[k] / film[k]), *part = &r->row_in_space[k];
         if (!rigid || fabs(share) * film[k] > *part)
             *part = share * film[k];
-        r->row_in_space[EHL_MEASURED + k] = 1;
+        r->row_in_space[EHL_ORIGIN + k] = EHL_TRANSPORTED;
     }
     r->transported = 1;
 }

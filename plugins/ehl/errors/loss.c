@@ -89,10 +89,10 @@ static double entrained_past(size_t n, const double *restrict h, double end)
 }
 
 /*
- * Returns what faces in the outer half of the inlet dissipate, `power` by 2 dx, off what the
- * entrainment of a steady film does, 12 eta0 u_r^2 (h - h_e)^2/h^3: flanks whose radius changes by
- * R' in time squeeze x^2 R'/(2 R^2) there, whose power grows with the domain
- * (docs/theory.md, 7.17).
+ * Returns by how much the dissipation in the outer half of the inlet differs from that of a steady
+ * film, 12 eta0 u_r^2 (h - h_e)^2/h^3 along the way. `power` is 2 dx times the dissipation of each
+ * face. If the radius changes by R' in time, the flanks squeeze the oil at x^2 R'/(2 R^2), and the
+ * power of that grows with the domain (docs/theory.md, 7.17).
  */
 static double squeezed_far_off(const ehl_march *m, const double *power)
 {
@@ -104,7 +104,8 @@ static double squeezed_far_off(const ehl_march *m, const double *power)
     return fabs(ehl_sum(outer, power) / (2 * eq->dx) - entrained * eq->dx);
 }
 
-/* The mobility of the faces is made anew: that of the last Newton step is off by its change. */
+/* Returns the powers of the newest film. The mobility of the faces is computed again, since that of
+   the last Newton step belongs to the film before that step. */
 static pressure_flow flow_of(const ehl_results *r, const ehl_march *m)
 {
     ehl_reynolds *eq = m->solver->reynolds;

@@ -12,7 +12,7 @@
 /* Films of the rows that are looked at. */
 typedef double (*films)[EHL_PASSED];
 
-/* Steps of the run are joined until the oil moves by this share of a cell. */
+/* Steps of the run are joined until the oil has moved by this share of a cell. */
 static const double joined = 0.2;
 
 static double value(const ehl_results *r, size_t row, uint32_t output)
@@ -44,9 +44,9 @@ static double way_between(const ehl_results *r, const ehl_history *h, size_t row
            (to - from);
 }
 
-/* The way to the outlet from where the pressure flow makes the film, some build-up lengths in front
-   of the contact. From twice or four times as many lengths on errors stay within 0.2 % of the film.
- */
+/* Returns the length of a passage: from the point where the pressure flow makes the film, some
+   build-up lengths in front of the contact, to the outlet. Twice or four times as many lengths
+   change the errors by at most 0.2 % of the film. */
 static double length_of_passage(const ehl_results *r, const ehl_march *m, const ehl_history *h,
                                 size_t row)
 {
@@ -114,7 +114,7 @@ static size_t next_row(const ehl_results *r, const ehl_passage *p, const ehl_his
     return next;
 }
 
-/* Whether a step of that length joins steps of the run. */
+/* Whether steps over which the oil moves by `way` join steps of the run. */
 static int joins(const ehl_results *r, const ehl_passage *p, double way)
 {
     const ehl_history h = engagement_of(r, p, p->first);
@@ -126,8 +126,8 @@ static int joins(const ehl_results *r, const ehl_passage *p, double way)
     return 0;
 }
 
-/* Marches to the last row and keeps the films of those that a step leads to, from the first one on;
- * of the last one how it changes, too, unless `at_last` is NULL. */
+/* Marches to the last row, and keeps the films of the rows from p->first on that a step ends at. If
+ * `at_last` is not NULL it also keeps how the last film changes. */
 static ff_status pass(const ehl_results *r, const ehl_march *run, const ehl_passage *p, double way,
                       ehl_grid_level *l, films film, ehl_instant_film *at_last)
 {
@@ -163,12 +163,12 @@ static ff_status pass(const ehl_results *r, const ehl_march *run, const ehl_pass
     return status;
 }
 
-/* Does so on `times` the cells of the run. */
+/* Marches like pass, on `times` the cells of the run. */
 static ff_status pass_on(const ehl_results *r, const ehl_march *run, const ehl_passage *p,
                          double way, size_t times, films film, ehl_instant_film *at_last)
 {
-    /* what films leave adds up on the way, and how the last one changes is told by its difference
-     */
+    /* the errors of the solutions add up on the way, and the change of the last film is a small
+       difference of two films */
     const double tolerance = at_last ? 5e-5 : 2e-4;
     ehl_solver kind = *run->solver;
     ehl_grid_level l = {0};
@@ -189,7 +189,7 @@ static films films_on(const ehl_passage *p, films all, int level)
     return all + (size_t)level * (p->last - p->first + 1);
 }
 
-/* Gives a row that no step led to the larger error of its neighbours, since a film may jump from
+/* Gives a row at which no step ends the larger error of its neighbours, since h_min may jump from
  * one dip to another between them. */
 static void take_larger(films all, size_t count, films error)
 {
@@ -203,13 +203,14 @@ static void take_larger(films all, size_t count, films error)
         }
 }
 
-/* Finds the errors from the films of all levels; the order of the finest gives what is left there.
- */
+/* Finds the errors from the films up to the level `finest`. The error that is left on that level
+ * follows from the order of the cells. */
 static void find_errors(const ehl_results *r, const ehl_march *m, const ehl_passage *p, films all,
                         int finest, films error)
 {
     const uint32_t of[] = {EHL_H_MIN, EHL_H_CENTRAL};
-    /* errors that all levels share cancel in their difference; with heat these are much the same */
+    /* errors that all levels share cancel in their difference, and a film with heat has nearly the
+       same relative errors as one without */
     const double within = m->heat || m->thermal ? 10 : 0.25;
     const double left = ldexp(1, -ehl_carrying_order(m->solver->reynolds));
     const films before = films_on(p, all, finest - 1), fine = films_on(p, all, finest);
@@ -231,7 +232,7 @@ static void find_errors(const ehl_results *r, const ehl_march *m, const ehl_pass
     take_larger(all, count, error);
 }
 
-/* Returns how many of the films that count differ from those of the run. */
+/* Returns how many rows count whose film differs from that of the run. */
 static size_t differing(const ehl_results *r, const ehl_passage *p, ehl_row_counts *counts,
                         int kind, films error)
 {
@@ -256,8 +257,8 @@ static ff_status pass_twins(const ehl_results *r, const ehl_march *m, const ehl_
 ff_status ehl_passage_errors(const ehl_results *r, const ehl_march *m, ehl_passage *p,
                              ehl_row_counts *counts, int kind)
 {
-    /* Many steps of a run are shorter than a fifth of a cell. If its load vibrates, longer steps
-     * give other films. */
+    /* Many steps of a run move the oil by less than a fifth of a cell. If its load vibrates, joined
+     * steps give other films; the march is then repeated with shorter ones. */
     const double shorter = 0.25;
     const size_t count = p->last - p->first + 1;
     films tried = calloc(3 * count, sizeof *tried);

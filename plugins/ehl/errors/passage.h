@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Instants of a run, and the passage of the contact before the first of them, on the cells of the
- * run, on twice and on four times as many: what the films owe to the cells in the inlet, on their
- * way and at the outlet.
+ * Errors by the cells, measured: instants of a run, and the passage of the contact before the first
+ * of them, are computed again on the cells of the run, on twice and on four times as many. The
+ * errors include those of the inlet, of the way through the contact and of the outlet.
  */
 #ifndef EHL_PASSAGE_H
 #define EHL_PASSAGE_H
@@ -27,8 +27,8 @@ typedef struct ehl_passage {
 /* Whether a row counts for the error of an output. */
 typedef int ehl_row_counts(const ehl_results *r, size_t row, int kind);
 
-/* Chooses the rows: around one row, those that `count`, at most a passage away from it. They begin
- * a passage before. */
+/* Chooses the rows around one row that `count` and lie at most a passage away from it. The march
+ * begins a passage before them. */
 void ehl_passage_about(ehl_passage *p, const ehl_results *r, const ehl_march *m, size_t row,
                        ehl_row_counts *counts, int kind);
 
@@ -41,17 +41,17 @@ int ehl_outlet_moves(const ehl_passage *p, const ehl_results *r, size_t row);
 ff_status ehl_passage_errors(const ehl_results *r, const ehl_march *m, ehl_passage *p,
                              ehl_row_counts *counts, int kind);
 
-/* Refines these errors by four times the cells. FF_OK, or a failure after which the errors before
- * stand. */
+/* Finds these errors on four times the cells. FF_OK, or a failure after which the earlier errors
+ * remain. */
 ff_status ehl_passage_refine(const ehl_results *r, const ehl_march *m, ehl_passage *p);
 
-/* Marches from a passage before to a row, on so many times the cells of the run, and keeps the film
-   there; f->change has room for its nodes. */
+/* Marches to a row from a passage before it, on `times` the cells of the run, and keeps the film of
+   the row; f->change has room for its nodes. */
 ff_status ehl_passage_to(const ehl_results *r, const ehl_march *m, ehl_passage *p, size_t row,
                          size_t times, ehl_instant_film *f);
 
-/* Marches from a passage before row `first` to `last`, on so many times the cells of the run, and
-   fills in the films of all rows from the first one on. */
+/* Marches from a passage before row `first` to row `last`, on `times` the cells of the run, and
+   fills in the films of these rows. */
 ff_status ehl_passage_again(const ehl_results *r, const ehl_march *m, ehl_passage *p, size_t first,
                             size_t last, size_t times, double (*film)[EHL_PASSED]);
 

@@ -9,12 +9,15 @@
 #include "carried.h"
 #include "space-error.h"
 
-/* Columns of the errors by the cells. Those of EHL_BOUNDS, in m and Pa, are bounds; for a film
- * whose EHL_MEASURED + EHL_LEAST or EHL_CENTRAL is 1 they are the error itself, negative if the
- * film is too thin. EHL_NARROW, for p_max: infinite if the cells do not resolve a peak; the
- * remaining error if more cells did; else 0. EHL_TIP, for p_max, Pa: a lower bound of its error if
- * the film is not computed on more cells. */
-enum { EHL_MEASURED = EHL_BOUNDS, EHL_NARROW = EHL_MEASURED + EHL_BOUNDS, EHL_TIP, EHL_SPACE };
+/* Where an error by the cells comes from: a bound, the transport of errors, or more cells. */
+enum { EHL_BOUNDED, EHL_TRANSPORTED, EHL_FINER };
+
+/* Columns of the errors by the cells, m and Pa: those of EHL_BOUNDS, and where each one comes from.
+ * If that is not EHL_BOUNDED the error of a film has a sign, and is negative if the film is too
+ * thin. EHL_NARROW, for p_max: infinite if the cells do not resolve a peak; the remaining error if
+ * more cells did; else 0. EHL_TIP, for p_max, Pa: a lower bound of its error if the film is not
+ * computed on more cells. */
+enum { EHL_ORIGIN = EHL_BOUNDS, EHL_NARROW = EHL_ORIGIN + EHL_BOUNDS, EHL_TIP, EHL_SPACE };
 
 /* A table of rows of equal width, which grows, since their number is only known at the end. */
 typedef struct ehl_rows {

@@ -18,9 +18,15 @@ static double *part_of(const ehl_results *r, size_t row, int kind)
     return &r->space.data[row * EHL_SPACE + (size_t)kind];
 }
 
+/* Whether the part of a row is its error, with its sign, and not a bound. */
+static int is_signed(const ehl_results *r, size_t row, int kind)
+{
+    return *part_of(r, row, EHL_ORIGIN + kind) > EHL_BOUNDED;
+}
+
 static int is_measured(const ehl_results *r, size_t row, int kind)
 {
-    return *part_of(r, row, EHL_MEASURED + kind) > 0;
+    return *part_of(r, row, EHL_ORIGIN + kind) > EHL_TRANSPORTED;
 }
 
 /* Whether the row has a bound; films below 2 % of the largest load have none. */
@@ -137,7 +143,7 @@ static double error_of(const ehl_results *r, int kind)
     double error = error_of_row(r, worst_row(r, kind), kind), highest = HUGE_VAL;
     for (size_t i = 0; i < r->series.count && kind == EHL_LEAST && r->lowest_alone; i++) {
         double part = *part_of(r, i, kind);
-        highest = fmin(highest, film_of(r, i, kind) + (is_measured(r, i, kind) ? -part : part));
+        highest = fmin(highest, film_of(r, i, kind) + (is_signed(r, i, kind) ? -part : part));
     }
     return isfinite(highest) ? fmax(error, highest / r->lowest - 1) : error;
 }
@@ -168,20 +174,29 @@ static double largest_share(const ehl_results *r, const ehl_passage *p, int kind
     return share > 0 ? share : 1;
 }
 
-/* Replaces bounds by measured errors, and multiplies the bounds of rows that were not measured by
- * the largest ratio found. A film without load has no bound; its error counts only if the lowest
- * film alone is wanted. */
+/* Whether what was measured elsewhere tells of this row: of all bounds, and of transported errors
+ * that are not small. */
+static int takes_share(const ehl_results *r, size_t row, int kind)
+{
+    return !is_signed(r, row, kind) ||
+           (!is_measured(r, row, kind) &&
+            fabs(*part_of(r, row, kind)) > EHL_FILM_LIMIT / 2 * film_of(r, row, kind));
+}
+
+/* Replaces what is known of the errors by measured errors, and multiplies that of rows that were
+ * not measured by the largest ratio found. A film without load has no bound; its error counts only
+ * if the lowest film alone is wanted. */
 static void put_errors(ehl_results *r, const ehl_passage *p, int kind)
 {
     double share = largest_share(r, p, kind);
     for (size_t i = 0; i < r->series.count; i++) {
         double *part = part_of(r, i, kind);
         if (i < p->first || i > p->last) {
-            *part *= is_measured(r, i, kind) ? 1 : share;
+            *part *= takes_share(r, i, kind) ? share : 1;
         } else if ((has_bound(r, i, kind) || is_extreme(r, kind)) &&
                    !isnan(p->error[i - p->first][kind])) {
             *part = p->error[i - p->first][kind] * film_of(r, i, kind);
-            *part_of(r, i, EHL_MEASURED + kind) = 1;
+            *part_of(r, i, EHL_ORIGIN + kind) = EHL_FINER;
             r->measured[kind] = 1;
         }
     }
@@ -201,8 +216,16 @@ static int is_looked_at(const ehl_passage *p, size_t row)
     return row >= p->first && row <= p->last;
 }
 
+/* Whether the row of the lowest film is measured: if its film is too thin by much, or if bounds,
+ * which are those of steady films, stand where the outlet moves. */
+static int lowest_counts(const ehl_results *r, const ehl_passage *p, size_t row, double enough)
+{
+    return is_signed(r, row, EHL_LEAST) ? error_of(r, EHL_LEAST) > enough
+                                        : ehl_outlet_moves(p, r, row);
+}
+
 /* Returns the row to measure next; SIZE_MAX: none. It is the worst row if that is not measured yet;
- * else that of the lowest film if its outlet moves, since bounds hold for steady films. */
+ * else that of the lowest film, if that counts. */
 static size_t find_row(const ehl_results *r, const ehl_passage *p, int kind, double enough)
 {
     size_t row = worst_row(r, kind);
@@ -210,7 +233,7 @@ static size_t find_row(const ehl_results *r, const ehl_passage *p, int kind, dou
         return row;
     row = lowest_row(r);
     return is_extreme(r, kind) && !is_measured(r, row, kind) && !is_looked_at(p, row) &&
-                   ehl_outlet_moves(p, r, row)
+                   lowest_counts(r, p, row, enough)
                ? row
                : SIZE_MAX;
 }
@@ -224,17 +247,26 @@ static int order_decides(const ehl_results *r, const ehl_march *m, int kind)
     return found <= EHL_FILM_LIMIT && 2 * found > EHL_FILM_LIMIT;
 }
 
+/* Puts the measured errors in place of what is known of the output that they were measured for. A
+ * transported error stands on its own, so that the passage serves the other output as well. */
+static void put_measured(ehl_results *r, const ehl_march *m, const ehl_passage *p, int kind)
+{
+    put_errors(r, p, kind);
+    if (m->transport)
+        put_errors(r, p, kind == EHL_LEAST ? EHL_CENTRAL : EHL_LEAST);
+}
+
 /* Measures the errors of the films around a row. */
 static ff_status measure_passage(ehl_results *r, const ehl_march *m, ehl_passage *p, size_t row,
                                  int kind)
 {
-    int moves = is_extreme(r, kind) && ehl_outlet_moves(p, r, row);
-    ehl_row_counts *counts = moves ? is_low : is_doubtful;
+    int low = is_extreme(r, kind) && (is_signed(r, row, kind) || ehl_outlet_moves(p, r, row));
+    ehl_row_counts *counts = low ? is_low : is_doubtful;
     ehl_passage_destroy(p);
     ehl_passage_about(p, r, m, row, counts, kind);
     ff_status status = ehl_passage_errors(r, m, p, counts, kind);
     if (status == FF_OK)
-        put_errors(r, p, kind);
+        put_measured(r, m, p, kind);
     return status;
 }
 
@@ -256,7 +288,7 @@ static ff_status measure_film(ehl_results *r, const ehl_march *m, ehl_passage *p
     if (status == FF_OK && p->film && order_decides(r, m, kind)) {
         status = ehl_passage_refine(r, m, p);
         if (status == FF_OK)
-            put_errors(r, p, kind);
+            put_measured(r, m, p, kind);
     }
     ehl_passage_destroy(p);
     return status == FF_NOMEM || status == FF_STOPPED ? status : FF_OK;
@@ -364,10 +396,9 @@ ff_status ehl_results_measure(ehl_results *r, const ehl_march *m, const ehl_hist
     ff_status status = FF_OK;
     if (r->rough || m->solver->outside)
         return FF_OK;
-    const int bounded = count > 1 && !r->transported;
-    if (bounded && ehl_wants_h_min(r->wanted))
+    if (count > 1 && ehl_wants_h_min(r->wanted))
         status = measure_film(r, m, &p, EHL_LEAST);
-    if (status == FF_OK && bounded && ehl_wants_h_central(r->wanted))
+    if (status == FF_OK && count > 1 && ehl_wants_h_central(r->wanted))
         status = measure_film(r, m, &p, EHL_CENTRAL);
     if (status == FF_OK && ehl_wants_p_max_itself(r->wanted) && !m->heat && !m->thermal)
         status = ehl_narrow_peaks(r, m, &p);
@@ -397,10 +428,10 @@ static void report_cells(const ehl_results *r, const ehl_march *m, int kind, con
     else if (kind == EHL_PEAK && fabs(r->share - 1) > 0)
         snprintf(how, sizeof how, "; by its film on %d times the cells %.3g of what bounds it",
                  r->finest, r->share);
-    else if (kind != EHL_PEAK && r->transported)
-        snprintf(how, sizeof how, "; 1.5 times what their transport tells");
     else if (kind != EHL_PEAK && r->measured[kind])
         snprintf(how, sizeof how, "; measured by the last passage of the contact on more cells");
+    else if (kind != EHL_PEAK && r->transported)
+        snprintf(how, sizeof how, "; 1.5 times what their transport tells");
     if (kind == EHL_PEAK && isinf(error))
         snprintf(enough, sizeof enough,
                  "; a peak as narrow as a few cells is not resolved: p_max is at least what they "
@@ -427,7 +458,7 @@ int ehl_results_estimate_cells(const ehl_results *r)
     if (r->rough || !(ehl_wants_h_min(r->wanted) || ehl_wants_h_central(r->wanted)))
         return 0;
     return !r->lowest_alone || r->series.count == 0 || has_bound(r, lowest_row(r), EHL_LEAST) ||
-           is_measured(r, lowest_row(r), EHL_LEAST);
+           is_signed(r, lowest_row(r), EHL_LEAST);
 }
 
 void ehl_results_report_cells(const ehl_results *r, const ehl_march *m)

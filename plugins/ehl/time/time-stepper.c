@@ -20,7 +20,8 @@ static const double MOST_CHANGE_AT_CONTACT_LOSS = 0.05;
 /* The last step of an interval takes all that is left if a shorter one would leave less than 1e-3
  * of the interval. */
 static const double ALMOST_ALL = 0.999;
-/* Steps that Newton's method cannot take without load are followed by one 16th of the interval. */
+/* After a step without load for which Newton's method has failed, the next step is one 16th of the
+ * interval. */
 static const double AFTER_FAILURE = 16;
 
 int ehl_march_step_too_large(const ehl_march *m)
