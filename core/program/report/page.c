@@ -39,10 +39,3 @@ void report_print(FILE *out, const char *html, ...)
     va_end(texts);
     fputs(html, out);
 }
-
-void report_put_badge(FILE *out, const char *verdict)
-{
-    const char *colour = strcmp(verdict, "failed") != 0 ? verdict : "bad";
-    if (*verdict)
-        report_print(out, "<span class=\"badge %s\">%s</span>", colour, verdict);
-}

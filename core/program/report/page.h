@@ -30,9 +30,6 @@ void report_put_text(FILE *out, const char *text);
 /* Writes markup of the page's own, with a text in the place of each %s, which is escaped. */
 void report_print(FILE *out, const char *html, ...);
 
-/* Writes a verdict in its colour; "" writes nothing. */
-void report_put_badge(FILE *out, const char *verdict);
-
 /*
  * table.c is the printer of all tables, of the page's sections and of studies alike. It writes, and
  * takes, {"class", "caption", "summary", "folded", "head", "rows"}, all but the rows optional. A

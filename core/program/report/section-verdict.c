@@ -212,7 +212,7 @@ static void write_judgement(report_page *page)
     size_t counts[FF_RANGE + 1] = {0};
     count_verdicts(page->view, counts);
     fputs("<p class=\"judgement\">", page->out);
-    report_put_badge(page->out, page->view->cases[0]->verdict);
+    report_put_part(page->out, report_badge(page->view->cases[0]->verdict));
     if (counts[FF_DOUBTFUL] + counts[FF_BAD] == 0)
         fprintf(page->out,
                 " No check casts doubt on these numbers: <a href=\"#quality\">all %zu are "
@@ -386,11 +386,11 @@ static void write_counts(report_page *page)
         idle += !*verdict || !strcmp(verdict, "refused");
     }
     fputs("<p class=\"judgement\">", page->out);
-    report_put_badge(page->out, failed        ? "failed"
-                                : bad         ? "bad"
-                                : doubtful    ? "doubtful"
-                                : idle < good ? "good"
-                                              : "");
+    report_put_part(page->out, report_badge(failed        ? "failed"
+                                            : bad         ? "bad"
+                                            : doubtful    ? "doubtful"
+                                            : idle < good ? "good"
+                                                          : ""));
     fprintf(page->out, " Of %zu cases, %zu are good, %zu doubtful, %zu bad and %zu failed",
             view->case_count, good, doubtful, bad, failed);
     if (idle > 0)
