@@ -120,11 +120,11 @@ const ff_port gear_spur_outputs[GEAR_SPUR_OUTPUTS] = {
      .unit = "rad",
      .doc = "roll angles of the profile points of the back flanks, which carry the load if the "
             "torque is negative",
-     .dims = "gear profile"},
+     .dims = "gear back_profile"},
     {.name = "back_profile_deviation",
      .unit = "m",
      .doc = "deviation of the back flank at back_profile_roll",
-     .dims = "gear profile"},
+     .dims = "gear back_profile"},
     {.name = "pitch_deviation_1",
      .unit = "m",
      .doc =
