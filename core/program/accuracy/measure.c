@@ -253,20 +253,19 @@ static void conclude(const accuracy_twins *t)
         hold_to_series(t, &record->errors[i]);
 }
 
-/* True if stages estimate errors, and none comes near its goal. */
+/* True if no error that a stage estimates comes near its goal. */
 static bool are_far_below(const accuracy_record *record)
 {
-    bool any = false, all = true;
+    bool all = true;
     for (size_t i = 0; i < record->count; i++) {
         const accuracy_error *e = &record->errors[i];
         const ff_result *estimate = accuracy_estimate_of(e->stage, e->result);
         const accuracy_series answer = series_of(NULL, e);
         double largest;
-        any = any || estimate;
         all = all && !(estimate &&
                        accuracy_relative(estimate->data, &answer, &largest) > far_below * e->goal);
     }
-    return any && all;
+    return all;
 }
 
 static bool misses(const accuracy_record *record)
