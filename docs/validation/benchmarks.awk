@@ -93,6 +93,6 @@ BEGIN {
     if (failed) exit 1
     print "# Numbers known from elsewhere\n"
     print "```sh\nsh docs/validation/benchmarks.sh build\n```\n"
-    print "writes this page; the references stand, with their sources, in `benchmarks.awk`. A difference below\n1e-5 % is printed as 0. Exact and independent films are in [steady films](film-steady.md)."
+    print "writes this page; the references and their sources are in `benchmarks.awk`. A difference below\n1e-5 % is printed as 0. Exact and independent films are in [steady films](film-steady.md)."
     geometry(); contact(); laws(); stiffness(); motions(); momentum()
 }

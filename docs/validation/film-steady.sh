@@ -51,40 +51,39 @@ TEXT
 References are solutions of an independent program (dense Newton, penalty cavitation, Hertz's
 scaling, a second-order wedge), extrapolated from 513, 1025 and 2049 nodes; Roelands with
 z = 0.68 and alpha = 22 1/GPa, the compression of Dowson & Higginson. The domain of the table begins
-at -4 a (-6 a isoviscous, -8 a and -12 a at M = 10 and 5) and is that of the references; the two
-models without a solution see an inlet without end. `order` is that of the last three grids; it is
-empty where the error has changed its sign among them.
+at -4 a (-6 a isoviscous, -8 a and -12 a at M = 10 and 5), as in the references; the two
+models that use formulas assume an infinite inlet. `order` is that of the last three grids; it is
+empty if the error changes its sign among them.
 
 TEXT
     tables table
     cat <<'TEXT'
 
-Finite-volume comes from below and control-volume from above: their difference shows the error of
-both. Control-volume needs fewer cells, because its wedge knows rho h where it needs it and carries
-it on without an error where the pressure flow has died out.
+Finite-volume converges from below and control-volume from above, so their difference shows the error of
+both. Control-volume needs fewer cells, because its wedge uses rho h at the right places and transports
+it without error where the pressure flow has vanished.
 
 The second table is a check without a reference: rho H at the middle of a compressible film is close
 to Moes' incompressible one.
 
 ## Formulas
 
-The distance of h_min and h_central from `ehl/finite-volume` on 1024 cells, lowest and highest over
-the range, with Roelands' law and compression, and with Barus' law and without.
+Differences of h_min and h_central from `ehl/finite-volume` on 1024 cells, lowest and highest over
+the range: with Roelands' law and compression, and with Barus' law without compression.
 
 TEXT
     tables formula
     cat <<'TEXT'
 
-h_min of Moes and of Dowson & Toyoda, and h_central of Dowson & Higginson, are not theirs: the one is
-the central film times 0.725 + 0.07/(1 + alpha p_H), the other that of Dowson & Toyoda. Under a
-compressible oil Moes' central film is divided by rho/rho0 in the middle; the other formulas are
-taken as they are printed; Pan & Hamrock's central film is nearer to that of compressible oils.
+Moes and Dowson & Toyoda give no h_min; here it is the central film times 0.725 + 0.07/(1 + alpha p_H). Dowson &
+Higginson give no h_central; here it is that of Dowson & Toyoda. For a compressible oil Moes' central film is divided by rho/rho0 in the
+middle; the other formulas are used as printed. Pan & Hamrock's central film is closer to that of compressible oils.
 
 ## Inlet
 
-What the default inlet leaves out of the film of the gear contact of Li & Kahraman 2011 (Roelands,
-M = 16, L = 4.8 at the nominal load), against a domain nine times as long with the same distance of
-the nodes; `as stated` is the line `starvation` of the quality record.
+The part of the film that the default inlet leaves out for the gear contact of Li & Kahraman 2011 (Roelands,
+M = 16, L = 4.8 at the nominal load), by comparison with a domain nine times as long with the same node
+spacing; `as stated` is the line `starvation` of the quality record.
 
 TEXT
     tables domain

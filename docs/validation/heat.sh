@@ -35,13 +35,12 @@ def ratio(hot, cold):
 print("""# Films with heat
 
 Made by `sh docs/validation/heat.sh build`. The temperature of the teeth is the largest unknown of every number here. Losses are
-computed at two values of it. Films are computed at the temperature of the oil, the least it can be, and, as the error bar of
+computed at two values of it. Films are computed with teeth at the oil temperature, the lowest possible value, and, as the error bar of
 this input, with teeth and entering oil 10 K warmer. Films of gears have 256 cells and 400 steps here.
 
 ## The film by each step of the ladder
 
-`configs/li-kahraman-2011.yaml`, `h_min_lowest` over that of `thermal: none`. A step `mean`, a parabola across the film, is
-left out on purpose: it would repeat what `full` does, and save little time.
+`configs/li-kahraman-2011.yaml`, `h_min_lowest` over that of `thermal: none`. There is no step `mean`, a parabola across the film, since it would save little time compared with `full`.
 
 | point | none | inlet | full | full, teeth 10 K warmer | Gupta's formula |
 |---|---|---|---|---|---|""", flush=True)
@@ -56,7 +55,7 @@ for name, sets in points.items():
 
 print("""
 Gupta's value is the least of the quality line `inlet_heating` over all instants. With as little heat as here it reduces the film
-five to six times as much as `full` does: its reduction goes with Q^0.64, the heat itself with Q. `inlet` leaves out that the flanks warm up.
+five to six times as much as `full` does, since its reduction varies as Q^0.64, but the heat as Q. `inlet` neglects that the flanks warm up.
 
 ## Formulas of the inlet against the full solution
 
@@ -92,8 +91,8 @@ for slip in (0, 0.2, 1, 1.9):
             slip, speed, L, ratio(central(hot, "hot"), h), ratio(central(warm, "hot"), h), ratio(central(heated, "heated"), h),
             1 - cold["cold/inlet_heating"], 1 / (1 + 0.241 * (1 + 14.8 * Z ** 0.83) * L ** 0.64)), flush=True)
 print("""
-`-`: no film was found, and the run says so. At 20 m/s the cells leave an error of 13 to 27 % of `full` (its line
-`h_central_space_error`): formulas are judged up to 10 m/s.
+`-`: no film was found, which the run reports. At 20 m/s the error of `full` due to the cells is 13 to 27 % (its line
+`h_central_space_error`), so the formulas are judged up to 10 m/s.
 
 Where a formula holds, by this table: in pure rolling both are within 3 % of the film, and `inlet` within 8 %. With sliding
 neither is. Gupta's film is 1 to 10 % too thin up to 2 m/s, and 15 to 33 % at 10 m/s; Wilson & Sheu's, whose sliding part is
@@ -119,8 +118,8 @@ print("""
 ## Loss of a spur gear mesh
 
 `configs/validation/mesh-loss-heat.yaml`: Petry-Johnson, Kahraman, Anderson & Chase 2007/2008, 413 N m; data, laws, the
-oil over temperature and the rule for the bulk temperature were written down before the first run. All four laws at both
-temperatures are shown, none is selected. Oil at 110 degC; the measured interval assumes the loss of one mesh; if it is that of
+oil over temperature and the rule for the bulk temperature were written down before the first run. All four laws are shown at both
+temperatures; none is selected. Oil at 110 degC; the measured interval assumes the loss of one mesh; if it is that of
 both meshes of a back-to-back rig, each has half of it.
 
 | laws | rpm | teeth, degC | loss, kW | teeth, degC | loss, kW | measured, kW | |

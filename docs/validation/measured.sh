@@ -130,8 +130,8 @@ Every number of this page comes from
 sh docs/validation/measured.sh build
 ```
 
-which writes the page. Each set of data is one YAML and one CSV file of `configs/validation`: what is printed, how it was
-derived, and the run that is held against it, so that a reader without the paper can redo it. The films of this page are
+which writes the page. Each set of data is one YAML and one CSV file of `configs/validation`: the printed data, how they were
+derived, and the run that is compared with them, so that a reader without the paper can repeat it. The films of this page are
 isothermal.
 
 ## Rolling force
@@ -142,13 +142,13 @@ TEXT
     rolling
     cat <<'TEXT'
 
-The claim is 15 % for M from 2 on. The loss has the tail of the inlet in front of the domain ([theory,
-7.11](../theory.md#7-film)), which the sources at hand do not say of the fit; at small L it then lies just beyond the claim.
+Agreement within 15 % is claimed for M from 2 on. Our loss includes the part of the inlet in front of the domain ([theory,
+7.11](../theory.md#7-film)); whether the fit includes it is not known. At small L the difference then slightly exceeds the claim.
 
 ## Loss of a spur gear mesh
 
-`mesh-loss.yaml`: Petry-Johnson, Kahraman, Anderson & Chase 2007/2008, 413 N m. The measured values are intervals that
-printed percentages leave, and rest on its being one mesh: two of a back-to-back rig would be half of it for each. Gears,
+`mesh-loss.yaml`: Petry-Johnson, Kahraman, Anderson & Chase 2007/2008, 413 N m. The measured values are intervals because of
+rounded percentages. They assume the loss of one mesh; for the two meshes of a back-to-back rig each would have half. Gears,
 oil, laws and the rule for the temperature were written down before the first run; all are shown.
 
 TEXT
@@ -159,14 +159,14 @@ TEXT
     slopes
     cat <<'TEXT'
 
-Measured losses flatten from 8000 rpm on; those of isothermal films do not. What the oil's constants move, one at a time:
+Measured losses level off from 8000 rpm on; those of isothermal films do not. Effect of the oil's constants, one at a time:
 
 TEXT
     spread
     cat <<'TEXT'
 
-The law of eta(p) and the Eyring stress move the loss far more than the constants of the oil within 10 %:
-by these data no law is right. What would settle it: traction of this oil over slip and pressure, its
+The law of eta(p) and the Eyring stress change the loss far more than the constants of the oil within 10 %:
+these data agree with no law. To decide, one would need the traction of this oil over slip and pressure, its
 viscosity over temperature, the temperature of the teeth, and whether one mesh or two were measured.
 
 ## Pressure of FZG C-mod gears
@@ -185,8 +185,8 @@ and is not compared.
 - The mesh loss by laws of measured oils: [friction and loss against measurement](friction.md).
 - The mesh loss with heat in the film at two temperatures of the teeth, and inlet heating by Gupta and by Wilson & Sheu
   against a film with heat: [films with heat](heat.md).
-- Traction of squalane: curves are known as figures alone. Losses of the FZG gears: the same.
-- ISO/TR 6336-30, example 1: helical gears, of virtual numbers of teeth that are no whole numbers; this program is for
+- Traction of squalane, and losses of the FZG gears: the curves are available only as figures.
+- ISO/TR 6336-30, example 1: its gears are helical, and their virtual numbers of teeth are not whole numbers; this program is for
   spur gears. The formula of c' for spur gears stands in [benchmarks](benchmarks.md).
 TEXT
 } > "$work/measured.md"

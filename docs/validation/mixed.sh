@@ -50,11 +50,10 @@ Every number of this page comes from
 sh docs/validation/mixed.sh build
 ```
 
-which writes the page from `tests/bench/bench-mixed.c`: one tooth pair of Li & Kahraman 2011 over its
-path of contact, Rq 0.5 um on both flanks with waves of 40 to 800 um, as a profile filtered at 40 um
-has them, and nothing taken off (`roughness_cutoff: 0 um`) unless a row says so; means over the path. The last row of each group is the mean over the surfaces and the
-standard deviation of its samples, of the shares of the load, lambda, the friction coefficient,
-the share of the load on metal that yields and the highest plastic part of the gap in turn. Cells per inlet are those over sqrt(2 h/k), the length over which an asperity draws in its film,
+which writes the page from `tests/bench/bench-mixed.c`: one tooth pair of Li & Kahraman 2011 over its path of contact. Both flanks
+have Rq 0.5 um and waves of 40 to 800 um, like a profile filtered at 40 um; no further waves are removed (`roughness_cutoff: 0 um`) unless a row
+says so. Values are means over the path. The last row of each group has means and standard deviations over the surfaces:
+the shares of the load, lambda, the friction coefficient, the share of the load on metal that yields, and the highest plastic part of the gap. Cells per inlet are those over sqrt(2 h/k), the length over which an asperity draws in its film,
 for the contact film of 1 nm and the rms curvature k of the flanks: `asperity_resolution` in the
 quality of every run, which says `share not resolved` below 1.
 
@@ -72,10 +71,9 @@ above 0.01.
 
 ## Steps
 
-A step is divided so that the oil moves a cell at most, a sixteenth of \`roughness_cutoff\` where that is
-more, and half of an asperity's inlet where flanks touch, but not less than a quarter of a cell; where
-asperities carry less than 0.01 of the load, further as the square root of 0.01 over their share. Here
-the steps are as many as the column says.
+A step is divided so that the oil moves at most one cell, or a sixteenth of \`roughness_cutoff\` if that is more. If flanks touch, it moves at
+most half of an asperity's inlet, but at least a quarter of a cell. If asperities carry less than 0.01 of the load, this length is multiplied by
+the square root of 0.01 over their share. In this table the column gives the number of steps.
 
 TEXT
     head
@@ -91,8 +89,8 @@ and $2 % of it at most.
 
 ## Open valleys
 
-\`valleys: ventilated\`, open at both ends of 0.2 mm along the tooth: the oil behind the ridges runs
-off, and the asperities take its load.
+With \`valleys: ventilated\`, valleys are open at both ends of 0.2 mm along the tooth: the oil behind the ridges flows
+off, and the asperities carry its load.
 
 TEXT
     rm -f "$work/all"
@@ -106,7 +104,7 @@ From 512 to 1024 cells the share changes by $1 % of it at most.
 
 ## Shorter waves
 
-The same Rq with waves from 20 um on asks for more cells than these:
+The same Rq with waves from 20 um on needs more cells than these:
 
 TEXT
     rm -f "$work/all"
@@ -120,8 +118,8 @@ From 256 to 512 cells the share changes by $1 %; the runs say that it is not res
 
 ## Waves that the cells do not resolve
 
-The preset takes off what 16 cells of the grid do not resolve. With that cut-off of 512 cells kept, the
-share is one of the flanks and the oil:
+The preset removes waves that 16 cells of the grid do not resolve. With the cut-off for 512 cells kept, the
+share depends only on the flanks and the oil:
 
 TEXT
     rm -f "$work/all"
@@ -133,8 +131,8 @@ TEXT
     set -- "$1" $(change 1024 4 2048)
     cat <<TEXT
 
-From 512 to 1024 cells it changes by $1 %, from there to 2048 by $2 %. With the preset it moves with what is
-left out, which \`roughness_left_out\` tells; above 5 % of Rq that is outside of the model's range:
+From 512 to 1024 cells it changes by $1 %, from there to 2048 by $2 %. With the preset it depends on the removed waves. The line \`roughness_left_out\` shows them; above 5 % of Rq they
+are outside the model's range:
 
 TEXT
     head
@@ -158,9 +156,9 @@ TEXT
     rows hardness=2 cells=1024 least=15 most=15
     cat <<TEXT
 
-In all runs the load is balanced to 1e-8 and no step failed; steps cut are instants on whose way steps
-were cut. Behind ridges across a line contact the oil has no way out: what it carries there is the
-trapped share. The highest pressures are past what the oil's law stands for.
+In all runs the load is balanced to 1e-8 and no step failed; "steps cut" counts the instants before which steps
+were cut. Behind ridges across a line contact the oil cannot escape: the load that it carries there is the
+trapped share. The highest pressures are beyond the range of the oil's law.
 TEXT
 } > "$work/mixed.md"
 mv "$work/mixed.md" "$here/mixed.md"

@@ -165,7 +165,7 @@ function figure2(  i, e) {
     row("eq. (11) with V_occ = 0.6132 and K0' = 10.076 goes through the points that Bair et al. measured", \
         F("eta/eta0 = %.3g, %.3g, %.3g, %.3g at 0.2, 0.4, 0.6, 1 GPa", ratio[2], ratio[4], ratio[6], ratio[10]), \
         "their points were known", -1)
-    say("eta0, B and K0 are not legible in the text at hand, nor are the points. `configs/lubricants/mil-l-23699.yaml` " \
+    say("In the available text eta0, B, K0 and the points are not legible. `configs/lubricants/mil-l-23699.yaml` " \
         "says where its values come from. The other laws of the card share eta0 and the film-forming coefficient.")
 }
 # one row for the motion from f_n/n down
@@ -209,16 +209,16 @@ function figure3(  k0, n, low, i, h, fmass, a, b, least) {
     least = face * over("Is", "load_per_width", lpstc - 1) / (0.13 * over("Ifs", "h_central", lpstc - 1))
     row("the lubricant is several orders stiffer than the mesh, by the Hamrock-Dowson formula", F("W/(0.13 h_central), as h falls with the load to the power -0.13 (Dowson & Higginson), is %.0f times the mean of k", least / k0), "over 100 times", least > 100 * k0)
     softening("aslope", 1)
-    say("All this is with the chord F/(e_l - e) for k, as the paper has it (`definition: secant`). A small vibration sees the slope dF/d(e_l), the preset of the model, " \
-        F("whose mean is %.1f %% higher. f_n is given, so that the mass takes that up; with the slope the rms of s at I, II and III is %.3f, %.3f and %.2f um for %.3f, %.3f and %.2f with the chord, and the upper motion starts at %.0f Hz for %.0f.", \
+    say("This section uses the chord F/(e_l - e) for k, as the paper does (`definition: secant`). For a small vibration, k is the slope dF/d(e_l), the preset of the model, " \
+        F("whose mean is %.1f %% higher. f_n is given, so the mass changes in proportion; with the slope the rms of s at I, II and III is %.3f, %.3f and %.2f um for %.3f, %.3f and %.2f with the chord, and the upper motion starts at %.0f Hz for %.0f.", \
           100 * (s["kslope.stiffness_mean"] / k0 - 1), 1e6 * s["Islope.dte_rms"], 1e6 * s["IIslope.dte_rms"], 1e6 * s["IIIslope.dte_rms"], 1e6 * s["Im.dte_rms"], 1e6 * s["IIm.dte_rms"], 1e6 * s["IIIm.dte_rms"], begins, h["begins"]))
-    say("The linear amplitudes are as large as the harmonics of k and cannot be confirmed before the paper's are known; " \
-        "the upper branch hardly depends on k. Beyond the figure there are resonances at f_n/4 and below, as harmonics 5 to 7 " \
-        "of a k(t) with jumps make them, and from about 2100 to 2200 Hz the lower motion is unstable. All branches: [dynamics](dynamics.md); k by other models: [stiffness](stiffness.md).")
+    say("The linear amplitudes are proportional to the harmonics of k and cannot be confirmed until those of the paper are known; " \
+        "the upper branch hardly depends on k. Beyond the figure there are resonances at f_n/4 and below, due to harmonics 5 to 7 " \
+        "of a k(t) with jumps, and from about 2100 to 2200 Hz the lower motion is unstable. All branches: [dynamics](dynamics.md); k by other models: [stiffness](stiffness.md).")
     say("Which k(t) would give the figure? At f_n/n the linear motion swings by k_n/(2 zeta k) of the static deflection, so that contact is lost from k_n = 2 zeta k up: " \
         F("%.3f 1e8 N/m. With the first three harmonics of this k alone, in parts of their size, the second motion spans, with its rms at the lower end:", 2 * 0.01 * k0 / 1e8))
     over_sizes()
-    say("Separate peaks with III on the upper branch want a k1 of about a third of this one, and k2 and k3 somewhat above the threshold. The measured response of the pair would settle it.")
+    say("Separate peaks with III on the upper branch require a k1 of about a third of this one, and k2 and k3 slightly above the threshold. The measured response of the pair would decide.")
 }
 function figure4(  i, u, rmax, rmin, sr0) {
     head("Fig. 4: radii and speeds", 4)
@@ -261,9 +261,9 @@ function figure5(  i, w, n, sx, sy, sxx, sxy, b, a, worst, x, y, rise, jump, fla
         zero += v["IIId.roll_angle", i] - v["IIId.roll_angle", i - 1]
     zero /= v["IIId.roll_angle", count["IIId"]] - v["IIId.roll_angle", 1]
     row("III: sizable portions of the cycle without load", F("%.0f %% of the path below 1 %% of the largest W_s; flanks apart %.0f %% of the time", 100 * zero, 100 * s["IIIm.contact_loss"]), "above 20 %", zero > 0.2)
-    say(F("At LPSTC W_s jumps up while k(t), and with it the mesh force, jumps down: W_d, in proportion to their product, jumps by no more than %.3f at I. ", v["Iw.dynamic", n + 2] / v["Iw.dynamic", n + 1]) \
-        F("II lies at %.2f f_n: the mesh force has the second harmonic's two waves, yet s is led by the first, which resonance lifts as well. ", 2085 / 3242) \
-        "Before III lands the damper, which acts in free flight too (their eq. 2a), leaves a small force.")
+    say(F("At LPSTC W_s jumps up while k(t), and with it the mesh force, jumps down. W_d is proportional to their product and jumps only by a factor of %.3f at I. ", v["Iw.dynamic", n + 2] / v["Iw.dynamic", n + 1]) \
+        F("II lies at %.2f f_n: the mesh force has the two waves of the second harmonic, but the first one dominates s, since resonance amplifies it, too. ", 2085 / 3242) \
+        "Before the landing at III the damper, which also acts in free flight (their eq. 2a), leaves a small force.")
 }
 function figure6(  P, q, x, y, up, down, c, places, level, m, d) {
     head("Fig. 6: least film", 6)
@@ -309,16 +309,16 @@ function figure6(  P, q, x, y, up, down, c, places, level, m, d) {
     row("III: no lasting film, flanks away from each other for much of the cycle", F("flanks apart %.0f %% of the time; h_min up to %.1f um; lowest %.3f um at %.2f deg, under W_s %.3f um", 100 * s["IIIm.contact_loss"], 1e6 * x, 1e6 * lowest("IIIfd", "h_min"), \
         peak("IIIfd", "h_min", sap, tip, -1), 1e6 * lowest("IIIfs", "h_min")), "over 20 %; over 1 um", 0.5 * (s["IIIm.contact_loss"] > 0.2) + 0.5 * (x > 1e-6))
     say("The tooth force jumps over 0.2 deg of roll (`load_ramp`), since a step has no converged p_max. The size of the paper's spikes is not printed. " \
-        "Before a landing the damper's small force and the approach keep the film at a fraction of a micrometre. Above 1 um the curve of III is cut off. In flight the paper puts 5 N on the flanks; here the film is carried on without " \
-        "a load balance, so its h in flight is that of the gap.")
+        "Before a landing the damper's small force and the approach keep the film at a fraction of a micrometre. Above 1 um the curve of III is cut off. During contact loss the paper applies 5 N to the flanks; here the film continues without " \
+        "a load balance, so its h is then that of the gap.")
 }
 # adds the doubtful lines of a run's quality record
 function doubtful(run, name, stage_,  path, line, part) {
     path = in_ "/" run ".said"
-    while ((getline line < path) > 0) if (line ~ /held to .*: (doubtful|bad)/) {
+    while ((getline line < path) > 0) if (line ~ /, limit .*: (doubtful|bad)/) {
         split(line, part, ","); sub(/^ */, "", part[1])
         if (index(part[1], stage_ ".") != 1) continue
-        sub(/.*held to /, "", line); sub(/:.*/, "", line)
+        sub(/.*, limit /, "", line); sub(/:.*/, "", line)
         doubts = doubts (doubts == "" ? "" : "; ") name ": `" part[1] "` (limit " line ")"
     }
     close(path)
@@ -442,7 +442,7 @@ BEGIN {
     print "```sh\nsh docs/validation/paper.sh build\n```\n"
     print "from `configs/li-kahraman-2011.yaml` (512 cells, 1000 steps); no number is typed. The curves of"
     print "the paper are not available as numbers and many digits of its text are lost, so its statements are"
-    print "what can be held against the program. \"Agrees when\" is the rule that gives the verdict."
+    print "what can be compared with the program. \"Agrees when\" is the rule that gives the verdict."
     print "\nI, II and III are its points of operation: 1250, 2085 and 2375 Hz, III on the upper branch.\n"
     printf "Of %d statements ", verdict["agrees"] + verdict["partly"] + verdict["differs"]
     printf "%d agree, %d agree in part and %d differ. ", verdict["agrees"], verdict["partly"], verdict["differs"]

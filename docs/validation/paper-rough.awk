@@ -132,11 +132,11 @@ function figure11(  set, first, i, fine_touch, cells, why) {
         "over twice the peaks", spread(set, "peaks") > 2 * M[set, "smooth_peaks", first])
     row("the influence of W_d on p and h is evident", F("correlation of the zone with W_d %s", shown(set, "by_load", 2, 1)), "above 0.5", spread(set, "by_load") > 0.5)
     for (i = 1; i <= count["finer"]; i++) fine_touch += v["finer.contact_ratio", i] > 0
-    why = "Why: other traces touch at other places, so that no single spike can agree, and the zone of ten positions hangs on single asperities. "
+    why = "Why: other traces touch at other places, so no single spike can agree, and the zone at ten positions depends on single asperities. "
     if (spread(set, "touch") < 5)
-        why = why "The oil between two asperities is all but solid under their peak of p and has little way out: the film thins to some nanometres there, and for part of the time to the 1 nm that counts as contact; waves of 20 um ask for more cells than these runs have before that share is settled ([mixed lubrication](mixed.md)). "
+        why = why "Under the pressure peaks of asperities the oil is almost solid and can hardly escape: the film falls to some nanometres there, and for part of the time to 1 nm, which counts as contact. For waves of 20 um that share has not converged with the cells of these runs ([mixed lubrication](mixed.md)). "
     cells = over("Is", "entrainment_speed", pitch) * (tip - sap) / deg / s["duty.speed"] / 1000 / (4 * highest("Is", "hertz_half_width") / 512)
-    why = why F("In one of the paper's 1000 steps the oil moves %.1f of its cells, which smears waves of 20 um; here it moves one at most. ", cells)
+    why = why F("In one of the paper's 1000 steps the oil moves %.1f of its cells, which smears waves of 20 um; here it moves at most one. ", cells)
     if (!quick)
         why = why F("Waves down to 5 um (first surface, 1024 cells) touch over %.1f %% of the time, with up to %.0f GPa; the traces of the paper may reach down to its cells of 1.3 um. ", \
             100 * fine_touch / count["finer"], highest("finer", "p_max") / 1e9)
@@ -167,5 +167,5 @@ function all_points(  q, l, P, L, set) {
         text = text "| " P ", W_" L " | " shown(set, "lambda", 2, both_rq * 1e6) " | " F("%.3f", 1e6 * smooth_film[set]) " | " shown(set, "h_min", 1, 1e9) " | " shown(set, "thin_time", 0, 100) " | " \
             shown(set, "p_max", 1, 1e-9) " | " shown(set, "touch_time", 1, 100) " | " shown(set, "share", 2, 100) " | " shown(set, "friction", 4, 1) " | " shown(set, "zone", 2, 1) " |\n"
     }
-    say("The mean film is that over the middle half of the Hertz width: what the peaks of both flanks, held apart by their own peaks of p, leave between them.")
+    say("The mean film is taken over the middle half of the Hertz width. It is the space between the flanks, which pressure peaks at their asperities keep apart.")
 }

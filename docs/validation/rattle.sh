@@ -215,12 +215,12 @@ Written by
 sh docs/validation/rattle.sh build
 ```
 
-All this is one way: `squeeze: series` of `dynamics/shooting` without a film wired back ([theory](../theory.md#oil-between-landing-flanks)).
+No film is wired back on this page: it uses `squeeze: series` of `dynamics/shooting` ([theory](../theory.md#oil-between-landing-flanks)).
 
 ## Where the branch of parted flanks ends
 
 The mesh of small modulation, k1/k = 0.049, of [both ways](two-way.md#where-oil-ends-the-branch-of-parted-flanks): the pair of Li & Kahraman
-2011 with a stiffness of three harmonics. The end is the fold to which the branch runs down.
+2011 with a stiffness of three harmonics. The end is the fold that the branch reaches at falling speed.
 
 ![End of the branch over viscosity, load and backlash](rattle.svg)
 
@@ -232,9 +232,9 @@ TEXT
     table 3
     cat <<'TEXT'
 
-More oil and less load move the end up: what an approach takes is given by the oil (4.9), and a motion without oil is in proportion to
-the load. Without oil backlash does not matter until flights reach the back flank, below 80 um, or above 400 N m; with oil the end
-moves by 7 Hz (5.006 mPa s) and 25 Hz (27.7 mPa s) from 80 to 200 um.
+More oil and less load raise the end: the momentum that an approach takes depends on the oil (4.9), while a motion without oil is proportional to
+the load. Without oil, backlash matters only if flights reach the back flank, that is below 80 um or above 400 N m. With oil, the end
+shifts by 7 Hz (5.006 mPa s) and 25 Hz (27.7 mPa s) from 80 to 200 um.
 
 TEXT
     sensitivity
@@ -245,8 +245,8 @@ Half of the effect arises in gaps below 3 um, four fifths below 10 um: if the su
 
 ## Light load
 
-`configs/rattle.yaml`: the pair idles, with tip relief of 10 um, whose transmission error of 5 um drives it. "Touches": the share of the time in which a film is as thin
-as `handover_film`, 0.2 um. Numbers of motions that never repeat are taken over 64 mesh cycles, and depend on round-off.
+`configs/rattle.yaml`: the pair idles, and the transmission error of 5 um of its tip relief of 10 um excites it. "Touches" is the share of the time in which a film is as thin
+as `handover_film`, 0.2 um. For motions that never repeat, the numbers are means over 64 mesh cycles and depend on round-off.
 
 ```sh
 flankfilm run configs/rattle.yaml
@@ -256,18 +256,18 @@ TEXT
     light
     cat <<'TEXT'
 
-- By squeeze alone oil bears a load for good only where flanks hop, and each hop draws oil in anew: over a mesh cycle the load's momentum F T_m
-  must stay below what an approach takes until hand-over (4.9), 2 A h_c^-1/2, which is 0.76 N m here for one pair and one hop. Flanks that do not hop are squeezed
-  together in the end. Small steps of another model give such a motion to 5e-5 (`meson test branch-ends`).
-- The wedge of the rolling flanks bears loads without hops. At 1250 Hz it holds a film of 0.2 um under 4.9 eta0 u R b/h_c, some 120 N, or
-  9 N m; the transmission error uses that up:
+- By squeeze alone, oil carries a load permanently only if the flanks bounce, since each bounce draws in new oil. Over a mesh cycle the momentum of the load, F T_m,
+  must be less than an approach takes until hand-over (4.9), 2 A h_c^-1/2, which is 0.76 N m here for one pair and one bounce. Flanks that do not bounce finally
+  touch. Another model with small steps gives such a motion to 5e-5 (`meson test branch-ends`).
+- The wedge of the rolling flanks carries loads without bouncing. At 1250 Hz it holds a film of 0.2 um under 4.9 eta0 u R b/h_c, about 120 N, or
+  9 N m, but the transmission error reduces this:
 
 TEXT
     errors
     cat <<'TEXT'
 
-The largest torque, of 0.5, 1, 2, 4, 6, 8 and 12 N m, up to which all are borne for good ("none": not even the first). If one motion rattles
-and another is borne, the one that the search of the branch `lower` found counts; round-off may decide which, as at 20 um and 1 N m.
+The table has the largest torque, of 0.5, 1, 2, 4, 6, 8 and 12 N m, up to which the oil carries all of them permanently ("none": not even the first). If one motion rattles
+and another is carried, the one found by the search for the branch `lower` counts; round-off may decide which, as at 20 um and 1 N m.
 Flanks are rigid and the oil isoviscous: Hertz and piezoviscosity, which both make the film thicker, matter from some 50 MPa on.
 
 ## Points I, II and III
@@ -278,10 +278,10 @@ TEXT
     paper
     cat <<'TEXT'
 
-At I and II flanks do not part, and the oil between parted flanks has nothing to do: what differs is the spring, since with
-`squeeze: series` the teeth bend on the chord of the mesh, not on its slope (4.3a). At III oil takes little from a motion that
-is 970 Hz above the end of its branch; that end moves little, because k1/k is larger than in the mesh above: the excitation feeds more than the oil takes.
-The run-up decides whether a machine runs at III or on the lower branch, which exists there, too; the oil between parted flanks does not.
+At I and II the flanks do not separate, so the oil has no effect. The results differ because of the spring: with
+`squeeze: series` the teeth follow the chord of the mesh, not its slope (4.3a). At III the oil takes little energy from the motion, which
+is 970 Hz above the end of its branch. That end shifts little, because k1/k is larger than in the mesh above: the excitation supplies more energy than the oil takes.
+Whether a machine runs at III or on the lower branch, which also exists there, depends on the run-up, not on this oil.
 TEXT
 } > "$here/rattle.md.new"
 mv "$here/rattle.md.new" "$here/rattle.md"

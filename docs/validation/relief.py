@@ -92,8 +92,8 @@ def main():
 
 `python3 docs/validation/relief.py build` writes this page. The 50/50 pair of Li and Kahraman 2011 and a 25/50 pair, both of 3 mm,
 20 mm wide and with the force of 250 N m on 50 teeth; linear relief from HPSTC; `stiffness/load-distribution` with analytical
-compliance, `dynamics/shooting`, the mass of the gears. `frozen` has sharing and slope of the mean load at any force, `shared` those of
-the force of the instant ([theory](../theory.md#4-dynamics), 4.3b).
+compliance, `dynamics/shooting`, the mass of the gears. `frozen` uses sharing and slope of the mean load for any force, `shared` those of
+the force at each instant ([theory](../theory.md#4-dynamics), 4.3b).
 
 Damping 0.05: natural frequency, highest motion of the map from 1800 to 3800 Hz, and its first two folds. Between the folds a slow sweep
 upwards and one downwards show different motions.

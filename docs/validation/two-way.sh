@@ -194,72 +194,72 @@ sh docs/validation/two-way.sh build
 
 The pair of Li & Kahraman 2011 at its three points (`configs/two-way.yaml`, 512 cells, 1000 steps): friction as
 torques on both gears, rolling resistance likewise, the thickness of the loaded film in series with the teeth
-([theory](../theory.md#motion-and-film-both-ways)). "films" counts the rounds until what comes back changes by less than 1e-4; of the two without any effect the second is not computed.
+([theory](../theory.md#motion-and-film-both-ways)). "films" counts the rounds until the feedback changes by less than 1e-4; without any effect, the second round is not computed.
 
 TEXT
     both
     cat <<'TEXT'
 
-All three together change the vibration by less than 1 % at these points, and the film by less: that the motion is
-computed without its film was right for them. Oil squeezed in flight adds a little at point III.
+All three together change the vibration by less than 1 % at these points, and the film by less. The motion may therefore
+be computed without its film there. Oil squeezed in flight adds a little at point III.
 
 ## Where the power goes
 
-In W. What the torques put in at the mean speeds of the gears, and what the prescribed changes of stiffness and transmission
-error put in, against what the films take, what friction takes from the vibration, and the damper:
+In W. The power put in by the torques at the mean speeds of the gears and by the prescribed changes of stiffness and transmission
+error, compared with the power that is taken by the films, by friction from the vibration, and by the damper:
 
 TEXT
     books
     cat <<'TEXT'
 
-Where contact is kept the books close to less than 5e-4 of the loss, which is the film's own error (its `energy_balance`
-and `power_loss_space_error`). Where flanks part, a motion that knows no film in flight gives the film less than it takes, and
-`power_balance` says so. With `squeeze: series` film and motion land together: the same force squeezes both, and what
-of the film the motion squeezes itself is not counted again. What is left there misses 1e-3. Most of it is the domain of the film, which is
-fitted to loaded flanks and too short to squeeze all the oil in a gap of some micrometres, and the wedge of the rolling flanks, which the film has
-in flight and `squeeze` has with `squeeze_rolling` alone:
+If contact is kept, the balance closes to less than 5e-4 of the loss, which is the film's own error (its `energy_balance`
+and `power_loss_space_error`). If flanks separate, a motion without a film during contact loss supplies less power than the film takes;
+the line `power_balance` shows this. With `squeeze: series` film and motion land together: the same force squeezes both, and
+the squeeze that is part of the motion is not counted twice. The remaining difference there is above 1e-3. Most of it has two causes: the domain of the film
+is fitted to loaded flanks and too short to squeeze all the oil in a gap of some micrometres; and during contact loss the film includes the wedge of the rolling
+flanks, which `squeeze` includes only with `squeeze_rolling`:
 
 TEXT
     refined
     cat <<'TEXT'
 
-What is left with the finest of them, 1.1e-3 to 1.3e-3, is known term by term (16 half widths, 1000 steps, the wedge in flight). A film begins loaded at
-the start of active profile, where k(t) steps: with less elastic energy than the contact of Hertz by which `separation` measures it, which is given
-as the pair enters and never taken, and with compressed oil, which gives back what nobody put in. The error of the cells falls with their square:
+The remainder with the finest cells, 1.1e-3 to 1.3e-3, is known term by term (16 half widths, 1000 steps, the wedge during contact loss). At
+the start of active profile, where k(t) jumps, the film begins loaded. It then has less elastic energy than the Hertzian contact that `separation` assumes, and
+its compressed oil releases energy that was never put in. The error of the cells falls with their square:
 
 TEXT
     python3 "$here/two-way-books.py" "$build/flankfilm" "$configs/two-way.yaml"
     cat <<'TEXT'
 
-The loop takes two to four films at I and II, and at III up to six to 1e-4: from the third round on `separation` of the flanks that land falls to a
-seventh in each. Anderson's method with one past round, tried in the engine, saves none of them, with or without squeeze in flight; with the wedge in flight it takes
-five for seven. What keeps it from saving more was not measured; that the instant at which flanks part changes from the second round to the third may be why. It was left out.
+The loop takes two to four films at I and II, and up to six at III, for 1e-4: from the third round on, the change of `separation` of landing flanks falls to a
+seventh in each round. Anderson's method with one past round was tried in the engine. It saves no round, with or without squeeze in flight; with the wedge in flight it takes
+five rounds instead of seven. It was left out. Why it does not save more was not measured; a reason may be that the instant of separation changes between the second and the third round.
 
 ## Where oil ends the branch of parted flanks
 
-A mesh of small modulation, k1/k = 0.049, in which the branch with parted flanks runs down to a fold. A small-step
-model of it, one pair of constant radius followed by fixed steps of time and swept down in steps of 10 Hz, found how much oil moves that
-end, in series with the tooth and side by side with it (the teeth rigid until the film is `handover_film` thick). It is repeated as a
-test (`build/tests/plugins/dynamics/test-dynamics-branch-ends 400 2000`): the first speed at which flanks no longer part, beside what was noted.
+In a mesh of small modulation, k1/k = 0.049, the branch with separated flanks ends at a fold when the speed falls. A model with small fixed
+time steps, one pair of constant radius and a sweep down in steps of 10 Hz showed how far oil shifts this end: oil in series with the tooth,
+and parallel to it (the teeth are rigid until the film is `handover_film` thick). It is repeated as a
+test (`build/tests/plugins/dynamics/test-dynamics-branch-ends 400 2000`): the first speed at which flanks no longer separate, beside the original result.
 
 TEXT
     small
     cat <<'TEXT'
 
-Rigid teeth overrate the oil, since the tooth bends where the gap would have to close: side by side is not built. In series
+Rigid teeth overestimate the effect of the oil, since in reality the tooth bends instead of closing the gap; the parallel arrangement is therefore not available. In series,
 half the `handover_film` moves the end by less than a step of 10 Hz. The return map of `dynamics/shooting` with the same one pair has its folds at 1935.9, 2007.8 and
-2292.2 Hz, 2 to 4 Hz from where the sweep loses the branch, and the model of fixed steps comes back to its motions to 1e-5 (`meson test branch-ends`).
+2292.2 Hz, 2 to 4 Hz from the speeds at which the sweep loses the branch, and the model with fixed steps reproduces its motions to 1e-5 (`meson test branch-ends`).
 
 TEXT
     ends
     cat <<'TEXT'
 
-One way the folds are 2 and 11 Hz above those of one pair: here the radii run along the path of contact and two pairs share the oil. Both ways the thickness of the loaded film, which falls as it is squeezed and
-costs work, takes power from the vibration, at point III 7 % of what the damper takes, 9 % with squeeze in flight (`film_power` beside `damper_loss`), and
-the branch ends at a higher speed for it. Near its end the frozen films of an atlas do not tell (`atlas_films`), so
-that this column is by runs at speeds 25 to 100 Hz apart, each from the branch `upper` on its own, with 256 cells, 500 steps and at most 30 rounds.
+Without a film wired back, the folds are 2 and 11 Hz above those of one pair, since here the radii vary along the path of contact and two pairs share the oil. With the film wired back,
+squeezing the loaded film takes power from the vibration: at point III 7 % of that of the damper, 9 % with squeeze in flight (`film_power` and `damper_loss`).
+The branch therefore ends at a higher speed. Near this end the fixed films of an atlas are not reliable (`atlas_films`), so
+this column comes from separate runs at speeds 25 to 100 Hz apart, each from the branch `upper`, with 256 cells, 500 steps and at most 30 rounds.
 
-The end over viscosity, load and backlash, and loads that oil keeps apart for good: [oil between parted flanks](rattle.md).
+The end over viscosity, load and backlash, and loads that oil carries permanently: [oil between parted flanks](rattle.md).
 TEXT
 } > "$here/two-way.md.new"
 mv "$here/two-way.md.new" "$here/two-way.md"

@@ -61,7 +61,7 @@ INTRODUCTION = """# What limits me, against brute force
 
 The sentence that ends a study of [uncertain inputs](../guide/studies.md#what-limits-me), on three gear pairs, each bar against what it stands for:
 
-- *numerical*: all cells, steps, stations and points of the case doubled, and doubled twice (elements of teeth four times as many, once);
+- *numerical*: all cells, steps, stations and points of the case doubled, and doubled twice (elements of teeth once, four times as many);
 - *model*: the change by each model with the film's cells doubled, and over the first 10 of the plain samples;
 - *inputs*: plain samples of the whole case, drawn by another seed than the study's. Numbers behind ± are their standard errors.
 
@@ -69,9 +69,9 @@ The sentence that ends a study of [uncertain inputs](../guide/studies.md#what-li
 python3 docs/validation/uncertainty.py build/flankfilm . DIRECTORY SAMPLES > docs/validation/uncertainty.md
 ```
 
-It goes on where it was broken off. A bar of grids *holds* where it is not below the change; one of a model where it is that on the finer cells
-to a tenth of itself or the numerical bar; an interval of 95 % where it meets that of the plain samples (of some 25 such lines one or two may miss).
-The brute force of a share is a range, from what straight lines explain: T_i >= S_i >= r_i^2, and T_i <= 1 - sum r_k^2 over the other inputs."""
+An interrupted run is continued. A numerical bar *holds* if it is not below the change; a model's bar if it agrees with that on the finer cells
+to a tenth of itself or to the numerical bar; a 95 % interval if it overlaps that of the plain samples (of some 25 such lines one or two may miss).
+For a share, brute force gives a range from linear regression: T_i >= S_i >= r_i^2, and T_i <= 1 - sum r_k^2 over the other inputs."""
 
 DIFFERS = """
 ## What differs

@@ -44,9 +44,8 @@ TEXT
 
 The paper's own table and fit differ among themselves by far more than 5 % at the longest waves.
 Two sets of points are more than 5 % off the paper's table: the highest waves of one half-width,
-where the table leaves the smooth course of its own rows, and the low waves of an eighth. Neither comes from the grid here, as the
-refinement shows: the shortest waves settle above the table, and a coarse grid takes away from them,
-never adds.
+where the table deviates from the smooth trend of its own rows, and the low waves of an eighth. Neither is due to the grid, as the
+refinement shows: the shortest waves converge to values above the table, and a coarse grid only makes them smaller.
 
 ## Refinement
 

@@ -130,8 +130,8 @@ static ff_status set_backlash(const ff_host *host, const gear_spur_spec *g, gear
     for (int i = 0; i < 2 && !stated; i++)
         if (g->allowance.count > 0 || g->span.count > 0 || g->over_pins.count > 0)
             p->allowance[i] = gear_measured_allowance(g, p, i);
-    /* what the backlash exceeds its minimum by: that of full teeth if the backlash is given,
-       otherwise 0 */
+    /* excess of the backlash over its minimum: that of full teeth if the backlash is given,
+     * otherwise 0 */
     const double spare =
         stated ? p->backlash - full : full - (p->allowance[0] + p->allowance[1]) * cosine;
     p->rounding_of_backlash = gear_rounding_of_backlash(g, p);

@@ -28,14 +28,16 @@ double stiffness_back_offset(const stiffness_gears *g)
     return offset - floor(offset);
 }
 
-/* The node of a mirrored curve: `part` of the way from node `low` of the flank to the next. */
+/* A node of a mirrored curve: the fraction `part` of the way from node `low` of the flank to the
+ * next one. */
 typedef struct node {
     double phase;
     size_t low;
     double part;
 } node;
 
-/* Adds the nodes of the flank from phase `to` down to phase `from`, at `shift` less their phase. */
+/* Adds the nodes of the flank from phase `to` down to phase `from`, each at `shift` minus its
+ * phase. */
 static size_t add_falling(const stiffness_cycle *c, double from, double to, double shift,
                           node *nodes)
 {
@@ -47,7 +49,7 @@ static size_t add_falling(const stiffness_cycle *c, double from, double to, doub
     return n;
 }
 
-/* Returns the node at a phase of the flank: its limit from below or from above. */
+/* Returns the node at a phase of the flank, as the limit from below or from above. */
 static node node_at(const stiffness_cycle *c, double phase, int side)
 {
     size_t i = 0;

@@ -20,8 +20,8 @@ typedef struct stiffness_deviations {
 ff_status stiffness_deviations_read(const ff_host *host, const ff_array *in,
                                     stiffness_deviations *d);
 
-/* Reads the profiles of the flanks that the line force does not press; `same`: they are those of
- * the others, which are `d`. Index deviations of these flanks are not known. */
+/* Reads the profiles of the back flanks; `same`: they equal those of the driving flanks, `d`. Their
+ * index deviations are not known. */
 ff_status stiffness_deviations_read_back(const ff_host *host, const ff_array *in,
                                          const stiffness_deviations *d, stiffness_deviations *back,
                                          bool *same);

@@ -191,7 +191,7 @@ static stiffness_flank flank_of(const samples *v, const stiffness_level_rows *le
     return (stiffness_flank){&v->cycle, v->stiffness, v->error, v->loaded, *levels};
 }
 
-/* Solves the mesh cycle of the back flanks for themselves. The rows of the levels are in one block,
+/* Solves the mesh cycle of the back flanks separately. The rows of the levels are in one block,
  * whose start is that of `error`. */
 static ff_status solve_back(const stiffness_source *source, samples *v, stiffness_level_rows *rows)
 {
@@ -213,8 +213,8 @@ static ff_status solve_back(const stiffness_source *source, samples *v, stiffnes
     return block ? stiffness_levels_solve(&s, &v->cycle, rows) : FF_NOMEM;
 }
 
-/* Gives the curves of the back flanks, which are those of `v` if both flanks are alike and the
- * levels of these are known. */
+/* Writes the curves of the back flanks. They are those of `v` if both flanks are equal and the
+ * levels of `v` are known. */
 static ff_status publish_back(const stiffness_source *s, uint64_t wanted, const samples *v,
                               const stiffness_level_rows *levels)
 {

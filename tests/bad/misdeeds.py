@@ -57,7 +57,7 @@ TOLD = {
     **dict.fromkeys(["_exit", "_Exit", "exit-group", "exit-thread", "execl", "execvp", "execve", "raw-exec", "raw-execat"],
                     "ended the program during {}: exit code 0"),
     "raise": "ended the program during {}: signal 15 (Terminated)",
-    "kill": "ended the program during {}: signal 9 (Killed), its own or of a system that is short of memory",
+    "kill": "ended the program during {}: signal 9 (Killed), sent by its own code or by a system that is short of memory",
     "stop": "ended the program during {}: signal 19 (Stopped (signal))",
     "killpg": "ended the program during {}: signal 10 (User defined signal 1)",
     "thread-kill": "ended the program during {}: signal 12 (User defined signal 2)",

@@ -13,7 +13,7 @@ bool fe_check_quality(const ff_stage *stage, ff_report *report)
         const ff_quality *line = &stage->quality[i];
         if (line->verdict == FF_BAD)
             good = ff_error(report, FF_FAULT_RUN, stage->place, NULL,
-                            "%s: its result cannot be trusted: %s is %.3g, held to %.3g%s%s",
+                            "%s: its result cannot be trusted: %s is %.3g, limit %.3g%s%s",
                             stage->name, line->name, line->value, line->limit,
                             line->text ? ": " : "", line->text ? line->text : "");
     }

@@ -77,8 +77,8 @@ bool cli_beside(const char *name, const char *first, const char *second, ff_repo
     if (WIFEXITED(status) && WEXITSTATUS(status) == NOT_THERE)
         return ff_error(
             report, FF_FAULT_INPUT, FF_NOWHERE,
-            "it comes with flankfilm where Python is there, and needs its package netCDF4",
-            "the program %s is not beside this one", name);
+            "flankfilm installs it if Python is available; it needs the Python package netCDF4",
+            "the program %s is not in the folder of this one", name);
     return ff_error(report, FF_FAULT_RUN, FF_NOWHERE, NULL, "%s: %s", name,
-                    *said ? said : "it ended before its work was done");
+                    *said ? said : "it ended early");
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Programs that stand beside this one. */
+/* Programs in the folder of this one. */
 #ifndef CLI_BESIDE_H
 #define CLI_BESIDE_H
 

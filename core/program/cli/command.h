@@ -39,8 +39,8 @@ int cli_run_study(cli_session *session, const cli_options *options);
 /* Returns the model that --executor names, with the parameters that --with gives. NULL after an
  * error. */
 ff_instance *cli_executor_open(ff_engine *engine, const cli_options *options, ff_report *report);
-/* Finds the part of the cases that Slurm gives to this process: by its array, and by its tasks
- * unless array_only. False after an error. */
+/* Finds the part of the cases that Slurm assigns to this process, from its array index and, unless
+ * array_only, its task number. False after an error. */
 bool cli_shard_find(study_run *run, bool array_only, ff_report *report);
 
 #endif

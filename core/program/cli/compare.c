@@ -13,8 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Splits "results/study:3" into the directory, which is to be freed, and the case, counted from
- * 1; 0: none is named. */
+/* Splits "results/study:3" into the directory, which is to be freed, and the number of the case,
+ * from 1; 0 if none is named. */
 static char *split(const char *operand, size_t *number)
 {
     const char *colon = strrchr(operand, ':');

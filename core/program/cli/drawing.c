@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Prints the gears of a pipeline as a drawing states them. For values with a tolerance it tries
- * every combination of ends, so that each number stands beside the least and the largest that it
- * can be. */
+/* Prints the gears of a pipeline as a drawing states them. If values have a tolerance, it tries
+ * every combination of their limits, and prints each number with its smallest and largest value. */
 #include "drawing.h"
 
 #include "../accuracy/models.h"
@@ -109,7 +108,7 @@ static bool is_pair(const ff_stage *stage)
     return true;
 }
 
-/* Sets a value to one of its ends. */
+/* Sets a value to one end of its tolerance. */
 static void set_end(ff_run *run, const study_toleranced *t, bool high)
 {
     char *text = memory_print_text("%s=%.17g %s", t->path,
@@ -118,7 +117,7 @@ static void set_end(ff_run *run, const study_toleranced *t, bool high)
     free(text);
 }
 
-/* Takes the numbers of a run. The first run gives the values; later ones widen their ranges. */
+/* Records the numbers of a run. The first run gives the values; later ones widen their ranges. */
 static void take(drawing *d, ff_run *run, bool first)
 {
     for (size_t i = 0; i < ROWS; i++) {
@@ -137,8 +136,8 @@ static void take(drawing *d, ff_run *run, bool first)
     }
 }
 
-/* Keeps the parameters as the file writes them; "[15 um]", one value for both gears, becomes "15
- * um". */
+/* Stores the parameters as they are written in the file; "[15 um]", one value for both gears,
+ * becomes "15 um". */
 static void keep_words(drawing *d, const ff_stage *stage)
 {
     for (size_t i = 0; i < WORDS; i++) {
@@ -219,13 +218,14 @@ static void print_table(const drawing *d)
     ff_clean_text(title, sizeof title, pipeline->title ? pipeline->title : d->options->operand);
     printf("%s\n\n%-*s  %-*s  gear 2\n", title, LABEL + 2, d->stage, VALUE, "gear 1");
     for (size_t i = 0; i < ROWS; i++)
-        if (d->numbers[i].count > 0) /* 0 if the drawing lacks this row */
+        if (d->numbers[i].count > 0) /* 0 if the drawing does not have this row */
             print_row(&rows[i], &d->numbers[i]);
     for (size_t i = 0; i < WORDS; i++)
         if (*d->words[i])
             printf("  %-*s  %s\n", LABEL, words[i].label, d->words[i]);
     if (d->toleranced_count)
-        printf("\nIn brackets: the least and the largest within the tolerances of the file.\n");
+        printf("\nIn brackets: the smallest and the largest value within the tolerances of the "
+               "file.\n");
 }
 
 static json_t *list_of(const double *numbers, size_t count)
@@ -276,7 +276,7 @@ static bool measure(drawing *d)
         return false;
     for (long corner = 0; d->toleranced_count && corner < 1L << d->toleranced_count; corner++)
         if (!evaluate(d, corner)) {
-            fprintf(stderr, "%s: gears within the tolerances of the file cannot be made\n",
+            fprintf(stderr, "%s: some gears within the tolerances of the file cannot be made\n",
                     d->stage);
             return false;
         }
@@ -305,7 +305,7 @@ int cli_print_drawing(cli_session *session, const cli_options *options)
         tables++;
     }
     if (!tables)
-        fprintf(stderr, "no stage that runs is a pair of gears\n");
+        fprintf(stderr, "none of the stages that run is a pair of gears\n");
     if (good && tables && options->json)
         results_json_print(json_incref(answer));
     json_decref(answer);

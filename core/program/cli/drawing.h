@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Prints what a drawing says of a pair of gears. */
+/* Prints the table of a drawing of a gear pair. */
 #ifndef CLI_DRAWING_H
 #define CLI_DRAWING_H
 

@@ -128,7 +128,7 @@ static void print_choice(const json_t *choice)
     {
         memory_add_text(&names, "%s%s", i ? ", " : "", json_string_value(entry));
     }
-    char *text = memory_print_text("the reference of %s; a run tries %s in its place",
+    char *text = memory_print_text("the reference of %s; a run also tries %s",
                                    text_of(choice, "use"), *names ? names : "no other");
     terminal_print_wrapped(text, printf("  "), 4);
     free(text);
@@ -172,7 +172,7 @@ static void print_loop(const json_t *loop)
         printf("%s %s", i ? "," : "", json_string_value(entry));
     }
     printf("; in at most %" JSON_INTEGER_FORMAT
-           " rounds, until what comes back changes by no more than %g\n",
+           " rounds, until the feedback changes by no more than %g\n",
            json_integer_value(json_object_get(loop, "rounds")),
            json_number_value(json_object_get(loop, "tolerance")));
     json_array_foreach(json_object_get(loop, "wires"), i, entry)
@@ -215,7 +215,8 @@ static void print_plan(const ff_pipeline *pipeline, const char *file, const json
     }
 }
 
-/* Returns what a case assigns beyond its name and the assignments of the first case. */
+/* Returns the assignments of a case, without its name and without those that the first case has,
+ * too. */
 static json_t *settings_of(const study_definition *study, size_t index)
 {
     json_t *list = json_array();
@@ -299,7 +300,7 @@ static int explain(cli_session *session, const cli_options *options)
     terminal_print_messages(session->report, stderr, terminal_colour(stderr));
     print_plan(pipeline, options->operand, stages);
     if (session->study)
-        fputs("\nstudy (a case of it stands above): ", stdout);
+        fputs("\nstudy (one of its cases is shown above): ", stdout);
     if (session->study)
         cli_print_cases(session->study);
     print_compared(compared);
@@ -338,11 +339,11 @@ static int confirm(cli_session *session, const cli_options *options)
         printf("; %zu of %zu cases%s%s)\n", session->tried, cases,
                *study_further(session->study) ? ", " : "", study_further(session->study));
     else if (session->tried == cases)
-        printf("; %zu cases, each of them)\n", cases);
+        printf("; all %zu cases)\n", cases);
     else
         printf(cases > CLI_MOST_ROWS && session->study->rows
-                   ? "; %zu cases, the first 1000 of them and the last)\n"
-                   : "; %zu cases, each value once)\n",
+                   ? "; %zu cases, of which the first 1000 and the last were checked)\n"
+                   : "; %zu cases, of which each value was checked once)\n",
                cases);
     return code;
 }
@@ -385,11 +386,11 @@ int cli_explain(const cli_options *options)
 {
     bool yaml = cli_option(options, "yaml"), drawing = cli_option(options, "drawing");
     if (yaml && options->json) {
-        cli_wrong_usage(options, "explain prints YAML or JSON, not both");
+        cli_wrong_usage(options, "choose --yaml or --json: explain prints one of them");
         return FF_FAULT_INPUT;
     }
     if (yaml && drawing) {
-        cli_wrong_usage(options, "explain prints the file or the drawing, not both");
+        cli_wrong_usage(options, "choose --yaml or --drawing: explain prints one of them");
         return FF_FAULT_INPUT;
     }
     return with_session(options, false, yaml ? resolve : drawing ? draw : explain);

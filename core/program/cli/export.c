@@ -19,10 +19,10 @@
 
 typedef struct form {
     const char *name;
-    const char *suffix; /* of one file: ".html"; "": the form fills a directory */
+    const char *suffix; /* ending of the file, such as ".html"; "" if the export is a directory */
     const char *begins; /* the first bytes of a file that the program wrote */
-    /* Writes from the view of the results; NULL: a program beside this one reads the directory
-     * itself. */
+    /* Writes the file from the view of the results; NULL: another program does, and reads the
+     * directory itself. */
     bool (*write)(const results_view *view, const results_target *target,
                   const cli_options *options);
 } form;
@@ -51,7 +51,7 @@ static const form forms[] = {
 };
 enum { FORMS = sizeof forms / sizeof *forms };
 
-/* Returns the form of that name; NULL after an error. */
+/* Returns the format with that name; NULL after an error. */
 static const form *find_form(const char *name, ff_report *report)
 {
     const char *names[FORMS];
@@ -62,12 +62,12 @@ static const form *find_form(const char *name, ff_report *report)
     }
     const char *near = ff_nearest(name, names, FORMS);
     ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, "results can be written as csv or netcdf",
-             "--to %.80s: there is no such form%s%s%s", name, near ? "; did you mean \"" : "",
+             "--to %.80s: unknown format%s%s%s", name, near ? "; did you mean \"" : "",
              near ? near : "", near ? "\"?" : "");
     return NULL;
 }
 
-/* Returns results.nc, or results-csv for a directory. */
+/* Returns results.nc, or results-csv if the format is a directory. */
 static char *default_path(const char *directory, const char *stem, const form *to)
 {
     size_t length = strlen(directory);
@@ -76,8 +76,8 @@ static char *default_path(const char *directory, const char *stem, const form *t
                              *to->suffix ? "" : to->name);
 }
 
-/* Refuses a directory of results as the target, since its files are replaced together and would
- * be lost. */
+/* Refuses a directory of results as the target: a later run that replaces the results would delete
+ * the export. */
 static bool holds_no_run(const char *path, ff_report *report)
 {
     const char *const names[] = {"result.json", study_description};
@@ -89,7 +89,7 @@ static bool holds_no_run(const char *path, ff_report *report)
     }
     return free_of_them ||
            ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, "name another directory with -o",
-                    "\"%s\" holds the results of a run or a study", path);
+                    "\"%s\" contains the results of a run or a study", path);
 }
 
 static bool write_to(const form *to, const results_view *view, const cli_options *options,
@@ -146,8 +146,8 @@ static int write_with(const cli_options *options, const char *to, const char *st
     return answer_target(options, &target, good);
 }
 
-/* Whether the operand describes figures, which give a page of figures alone: `report
- * map.figure.json`. */
+/* Whether the operand is a description of figures, from which a page with nothing else is made:
+ * `report map.figure.json`. */
 static bool names_figures(const char *operand)
 {
     size_t length = strlen(operand);
@@ -161,7 +161,7 @@ static bool write_figures(const char *from, const cli_options *options, results_
     json_t *figures = study_read_json(AT_FDCWD, from, &error);
     bool good = json_is_array(figures) || ff_error(target->report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
                                                    "\"%s\" does not describe figures: %s", from,
-                                                   figures ? "it is no list" : error.text);
+                                                   figures ? "it is not a list" : error.text);
     good = good && with && results_target_open(target, false);
     if (good) {
         char *text = json_dumps(figures, JSON_COMPACT);

@@ -14,8 +14,7 @@ static bool work(fit *f, ff_engine *engine, const cli_options *options)
 {
     if (strcmp(options->operand, "viscosity") != 0)
         return ff_error(f->report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
-                        "fit finds the parameters of viscosity laws, not of \"%s\"",
-                        options->operand);
+                        "fit finds parameters of viscosity laws, not of \"%s\"", options->operand);
     const cli_words laws = cli_option_words(options, "law"), ats = cli_option_words(options, "at");
     bool good = fit_read(f, options->second);
     good = fit_add_laws(f, engine, laws.words, laws.count) && good;
@@ -71,7 +70,8 @@ static bool write_files(const fit *f, const char *directory)
     return good;
 }
 
-/* Returns results/<name of the data without its ending>; NULL: nothing is written. */
+/* Returns the directory to write to, results/<name of the data without its ending>; NULL if nothing
+ * is written. */
 static char *directory_of(const cli_options *options)
 {
     const char *slash = strrchr(options->second, '/');

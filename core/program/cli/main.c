@@ -20,68 +20,67 @@
 
 static const cli_command commands[] = {
     {"run", "FILE", "run the pipeline or the study of a YAML file and write its results",
-     "Runs the stages that the requested outputs need, prints these outputs in the file's order "
-     "and\n"
-     "writes the results: result.json and a .npy for each array. Results of the same file are "
-     "replaced,\n"
-     "and what was made of them goes; a directory that holds anything but results of flankfilm is\n"
-     "refused, as are results of another file. With --json nothing is written unless -o is given.\n"
-     "A file with \"study\" makes many cases. What they give is kept as soon as it is there: the\n"
-     "same command goes on after an interruption. table.csv has a row for each case.\n",
+     "Runs the stages that the requested outputs need, prints these outputs in the order of the\n"
+     "file, and writes result.json and a .npy file for each array. Earlier results of the same\n"
+     "file are replaced, and files derived from them, such as the page, are removed. Results of\n"
+     "another file are kept unless --replace is given; a directory with anything else in it is\n"
+     "refused. With --json, results are written only if -o is given. A file with \"study\" has "
+     "many cases. Each case is\n"
+     "saved when it ends; after an interruption the same command continues. table.csv has a row\n"
+     "for each case.\n",
      cli_run},
-    {"plan", "FILE", "say what a run of a study would do",
+    {"plan", "FILE", "show what running a study would do",
      "Shows what is varied, how many cases are done, and how long the others will take.\n",
      cli_plan_study},
-    {"check", "FILE", "say all that is wrong with a YAML file, and run nothing",
+    {"check", "FILE", "report all errors in a YAML file without running it",
      "Reads the file and loads every model that it names, also those that no output needs.\n",
      cli_check},
-    {"explain", "FILE", "say which stages would run and why, with every parameter's origin",
+    {"explain", "FILE", "show which stages would run and why, and where each value comes from",
      "Shows the stages in the order in which they run, the values in use, where each was given,\n"
      "and which stage feeds which. Stages that no requested output needs are not loaded.\n"
-     "The YAML that --yaml prints runs to the same result. Presets and automatic wires are "
-     "comments\n"
-     "in it, and so is what another layer has replaced.\n",
+     "--yaml prints a file that gives the same results. In it, presets, automatic wires and\n"
+     "values that another layer has replaced are comments.\n",
      cli_explain},
     {"cite", "FILE", "print the literature of the models that run, as BibTeX",
-     "Each entry once, with the models that it belongs to.\n", cli_cite},
+     "Prints each entry once, with the models that cite it.\n", cli_cite},
     {"fit", "KIND DATA", "find the parameters of laws from measured data",
-     "Fits each law to the table, with 95 % confidence, compares them, and writes a card for\n"
-     "pipelines, a plot and a table of the residuals. KIND says what was measured: viscosity.\n"
+     "Fits each law to the table, with 95 % confidence, compares the laws, and writes a card for\n"
+     "pipelines, a plot, and a table of the residuals. KIND is what was measured: viscosity.\n"
      "The first line of DATA names the columns: pressure [GPa], viscosity [mPa s].\n",
      cli_fit_command},
     {"models", "[ID]", "list the models, or describe one",
-     "ID is kind/name, as the list has it: its parameters, inputs, outputs and literature.\n"
-     "A kind alone lists the models of that kind.\n",
+     "ID is kind/name, as in the list; prints its parameters, inputs, outputs and literature.\n"
+     "If only a kind is given, its models are listed.\n",
      cli_models},
-    {"report", "DIR", "show the results of a run or a study as one page",
-     "DIR is what run has written. The page holds its figures and needs no network; it is written\n"
-     "to DIR/report.html unless -o says otherwise.\n",
+    {"report", "DIR", "write a page that shows the results of a run or a study",
+     "DIR is a directory written by run. The page includes its figures and needs no network. It\n"
+     "is written to DIR/report.html unless -o names another file.\n",
      cli_write_report},
-    {"compare", "A B...", "show what designs give side by side, and how they differ",
-     "Each is a directory that run has written, or DIR:3, case 3 of a study. Differences are to "
-     "the\n"
-     "first, with the errors of both, and those that are smaller than what is known are said to be "
-     "so.\n"
-     "Series along the path of contact are drawn over its points SAP, LPSTC, pitch, HPSTC and "
-     "tip.\n",
+    {"compare", "A B...",
+     "show the results of several designs side by side, with their differences",
+     "Each design is a directory written by run, or DIR:3, case 3 of a study. Differences are\n"
+     "relative to the first design and are printed with the errors of both; differences smaller\n"
+     "than these errors are marked. Series along the path of contact are drawn over SAP, LPSTC,\n"
+     "pitch point, HPSTC and tip.\n",
      cli_compare},
     {"export", "DIR", "write the results of a run or a study for other programs",
-     "DIR is what run has written. NAME is csv (a directory) or netcdf (one file). Without -o the\n"
-     "files go into DIR. Nothing half-written is left behind.\n",
+     "DIR is a directory written by run. NAME is csv (a directory) or netcdf (one file). Without\n"
+     "-o the files are written to DIR. An interrupted export leaves no partial files.\n",
      cli_export},
     {"verify", "FILE.so", "test whether a plugin keeps the rules",
-     "Runs named tests, each in a process of its own, and answers in TAP. Random parameters and\n"
-     "inputs serve for a law; a stage that refuses these wants a file whose pipeline uses it.\n"
-     "FLANKFILM_VERIFY_LIMIT: seconds that a test may take (60). Exit code 3: a test failed.\n",
+     "Runs named tests, each in its own process, and prints the results in TAP. A law is tested\n"
+     "with random parameters and inputs. If a stage refuses these, name a file whose pipeline\n"
+     "uses it. FLANKFILM_VERIFY_LIMIT: seconds that a test may take (60). Exit code 3: a test\n"
+     "failed.\n",
      cli_verify_command},
     {"new", "KIND/NAME", "write a plugin of your own, ready to build",
-     "Makes the folder NAME (or DIR) with the source of a model that works, its build file, a\n"
-     "pipeline that uses it and a README with the next three commands. The template is that of "
-     "the\n"
-     "kind, <kind>.template.c in a directory of plugins; else it is a stage that stands alone.\n",
+     "Makes the folder NAME (or DIR) with the source of a working model, its build file, a\n"
+     "pipeline that uses it, and a README with the next three commands. The template is\n"
+     "<kind>.template.c in a directory of plugins; if the kind has none, that of a stage which\n"
+     "stands alone.\n",
      cli_new},
     {"schema", "[FILE]", "print the JSON Schema of all models",
-     "For editors that complete and check YAML files. Prints it, or writes it to FILE.\n",
+     "Editors use it to complete and check YAML files. It is printed, or written to FILE.\n",
      cli_schema},
 };
 enum { COMMANDS = sizeof commands / sizeof commands[0] };
@@ -93,9 +92,9 @@ static void print_overview(void)
     for (size_t i = 0; i < COMMANDS; i++)
         printf("  %s %-*s %s\n", commands[i].name, 15 - (int)strlen(commands[i].name),
                commands[i].operand, commands[i].summary);
-    printf("  %-16s %s\n", "help COMMAND", "say more about a command");
+    printf("  %-16s %s\n", "help COMMAND", "describe a command");
     printf("\n  --version, --help\n\n"
-           "exit codes: 0 all well, 1 the run failed, 2 the input is wrong, "
+           "exit codes: 0 success, 1 the run failed, 2 the input is wrong, "
            "3 a plugin is at fault,\n            4 cases of a study failed\n");
 }
 
@@ -183,8 +182,8 @@ static int dispatch(int argc, char **argv)
     return execute(&options, argc - 1, argv + 1);
 }
 
-/* Opens something in place of standard streams that are closed, since the next opened file would
- * get their number. Writing to it fails, as it should. */
+/* Opens a read-only file for each standard stream that is closed, since the next opened file would
+ * get its number. Writing to it fails, as it should. */
 static void hold_standard_streams(void)
 {
     for (int fd = 0; fd <= 2; fd++)
@@ -239,7 +238,7 @@ static bool refuse_control(int argc, char **argv)
         char shown[256];
         ff_clean_text(shown, sizeof shown, argv[i]);
         fprintf(stderr,
-                "flankfilm: a word has a control character in it, such as begins an escape "
+                "flankfilm: a word contains a control character, such as the first of an escape "
                 "sequence: \"%s\"\n",
                 shown);
         return true;

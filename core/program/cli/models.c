@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Lists all models, or those of one kind. The report, which may be NULL, gets the errors of
- * models that cannot be loaded. */
+/* Lists all models, or those of one kind. Errors of models that cannot be loaded go to the report,
+ * which may be NULL. */
 static void list(catalogue *models, ff_engine *engine, const char *kind, ff_report *report)
 {
     size_t count = 0, length = kind ? strlen(kind) : 0;
@@ -41,7 +41,7 @@ int cli_models(const cli_options *options)
     if (!id && models.count == 0 && !options->json)
         puts("no models found; name their directory with --plugin-path");
     else if (page && !loaded)
-        code = cli_refuse(report, options, "flankfilm models lists what there is");
+        code = cli_refuse(report, options, "flankfilm models lists them");
     else if (options->json)
         catalogue_print_json(&models, page, CLI_VERSION);
     else if (cli_option(options, "markdown"))

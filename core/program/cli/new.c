@@ -65,7 +65,7 @@ static bool write_file(const char *folder, const char *name, const char *templat
 }
 
 /* Finds the template of the kind, "<kind>.template.c", or the general one, "template.c", in the
- * directories of plugins. *own tells whether it is that of the kind. NULL after an error. */
+ * directories of plugins. Sets *own if the kind has its own template. NULL after an error. */
 static char *find_template(const ff_engine *engine, const char *kind, const char *ending, bool *own,
                            ff_report *report)
 {
@@ -77,7 +77,7 @@ static char *find_template(const ff_engine *engine, const char *kind, const char
     if (!path)
         ff_error(report, FF_FAULT_INPUT, FF_NOWHERE,
                  "--plugin-path and FLANKFILM_PLUGIN_PATH add directories",
-                 "no directory of plugins holds %s", general);
+                 "no directory of plugins contains %s", general);
     free(name);
     return path;
 }
@@ -117,9 +117,9 @@ static bool write_all(const cli_options *options, const char *folder, ff_report 
         ff_free(template);
     }
     if (good)
-        printf("%s is in %s; its README.md has the next three commands\n", id, folder);
+        printf("%s was written to %s; its README.md lists the next three commands\n", id, folder);
     if (good && !own[0])
-        printf("there is no template for the kind \"%s\": it is a stage without a place in a "
+        printf("the kind has no template \"%s\": it is a stage without a place in a "
                "pipeline yet\n",
                kind);
     free(c);
@@ -143,11 +143,11 @@ int cli_new(const cli_options *options)
     int code = EXIT_SUCCESS;
     if (!slash || !is_word(id, (size_t)(slash - id)) || !is_word(slash + 1, strlen(slash + 1)) ||
         !strcmp(slash + 1, "auto")) {
-        ff_error(
-            report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
-            "\"%.100s\" is not a name for a model: write kind/name, in lower-case letters, digits "
-            "and hyphens; \"auto\" leaves the choice to the program",
-            id);
+        ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
+                 "\"%.100s\" is not a valid name of a model: write kind/name, with lower-case "
+                 "letters, digits "
+                 "and hyphens; \"auto\" leaves the choice to the program",
+                 id);
     } else {
         const char *folder = options->directory ? options->directory : slash + 1;
         if (mkdir(folder, 0777) != 0)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Finds what a run would refuse about an oil, for `check`: a temperature that is given in two
- * places, and laws that contradict the oil. Evaluates only the stages of the oil and those that
- * feed them. */
+/* For `check`: finds errors of an oil that a run would report, namely a temperature that is given
+ * in two places, and laws that contradict the oil. Evaluates only the stages of the oil and those
+ * that feed them. */
 #include "oil.h"
 
 #include "../accuracy/models.h"
@@ -69,7 +69,7 @@ static ff_instance *make_law(ff_engine *engine, const ff_stage *stage)
 typedef struct question {
     int what;
     double T;
-    const void *table; /* of the law */
+    const void *table; /* the table of functions of the law */
     double answer;
 } question;
 
@@ -85,7 +85,7 @@ static ff_status ask(void *ctx)
     return density->eval(density->self, 1, &p, &q->T, &q->answer, NULL, NULL);
 }
 
-/* Returns eta0 or rho0 of the law at T; NaN: the law does not tell. */
+/* Returns eta0 or rho0 of the law at T; NaN if the law cannot tell it. */
 static double ask_law(ff_instance *law, int what, double T)
 {
     question q = {.what = what, .T = T, .answer = NAN};
@@ -143,8 +143,8 @@ static const ff_stage *stage_on(const ff_pipeline *pipeline, const ff_stage *sta
     return NULL;
 }
 
-/* Compares the laws of a stage with the oil that it uses. A law that takes the oil by wire
- * cannot contradict it. */
+/* Compares the laws of a stage with the oil that it uses. A law that is wired to the oil cannot
+ * contradict it. */
 static void hold_laws(cli_session *session, ff_run *oils, const ff_stage *user)
 {
     static const char *const wires[] = {NULL, "viscosity", "density"};
@@ -180,7 +180,7 @@ void cli_check_temperatures(cli_session *session)
             continue;
         ff_bound_origin(there, place, sizeof place);
         ff_error(session->report, FF_FAULT_INPUT, own->place, "leave this one out",
-                 "%s.temperature: the temperature of the oil stands in two places: here %g degC, "
+                 "%s.temperature: the temperature of the oil is given in two places: here %g degC, "
                  "and as %s.oil_temperature %g degC (%s)",
                  oil->name, own->value.real - 273.15, duty->name, there->value.real - 273.15,
                  place);

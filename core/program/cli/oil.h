@@ -9,7 +9,7 @@
 void cli_check_temperatures(cli_session *session);
 
 /* Reports errors of the oils that a run of the pipeline would find. `oils` is a second run of the
- * file, of its oil stages alone; the errors are the messages of this run. */
+ * file that has only its oil stages; its messages are these errors. */
 void cli_check_oil(cli_session *session, ff_run *oils);
 
 #endif

@@ -19,7 +19,7 @@ typedef struct option_row {
     char letter;          /* short form; 0: none */
     const char *argument; /* name of its argument in usage; NULL: it takes none */
     const char *commands; /* commands that accept it; NULL: all */
-    const char *text;     /* its line of help */
+    const char *text;     /* description printed by help */
     occurrence occurrence;
     bool (*set)(cli_options *,
                 const char *argument); /* sets a member; NULL: only cli_option finds the option */
@@ -32,62 +32,66 @@ static bool set_rerun(cli_options *options, const char *argument);
 
 static const option_row rows[] = {
     {"law", 0, "NAME", "fit", "fit this law, such as roelands; repeatable", REPEATABLE, NULL},
-    {"at", 0, "QUANTITY", "fit", "the data at \"80 degC\"; what the laws say at \"0.6 GPa\"",
+    {"at", 0, "QUANTITY", "fit", "data at \"80 degC\" alone; values of the laws at \"0.6 GPa\"",
      REPEATABLE, NULL},
     {"pipeline", 0, "FILE", "verify",
-     "parameters and inputs: those of the stage of that file that uses it", OPTIONAL, NULL},
-    {"only", 0, "TEST,...", "verify", "run these tests alone", OPTIONAL, NULL},
-    {"list", 0, NULL, "verify", "name the tests that the model is given, and run none", OPTIONAL,
+     "take parameters and inputs from the stage of that file that uses the model", OPTIONAL, NULL},
+    {"only", 0, "TEST,...", "verify", "run only these tests", OPTIONAL, NULL},
+    {"list", 0, NULL, "verify", "list the tests for this model without running them", OPTIONAL,
      NULL},
     {"set", 0, "NAME=VALUE", "fit",
-     "hold this parameter; NAME=free finds one that has a preset; repeatable", REPEATABLE, NULL},
+     "keep this parameter fixed; NAME=free fits one that has a preset; repeatable", REPEATABLE,
+     NULL},
     {"set", 0, "PATH=VALUE", "run plan check explain cite verify",
      "use VALUE instead of what the file says; repeatable", REPEATABLE, NULL},
     {"to", 0, "NAME", "export", "csv or netcdf", REQUIRED, NULL},
     {"executor", 0, "NAME", "run",
-     "spread a study over the processes that this model joins, such as mpi", OPTIONAL, NULL},
+     "distribute a study over the processes that this model connects, such as mpi", OPTIONAL, NULL},
     {"with", 0, "NAME=VALUE", "run", "a parameter of that model; repeatable", REPEATABLE, NULL},
     {"output", 'o', "DIR", "run plan fit",
-     "write the results there (default: results/<name of the file>)", OPTIONAL, set_directory},
-    {"output", 'o', "FILE", "report", "write the page there (default: DIR/report.html)", OPTIONAL,
+     "write the results to DIR (default: results/<name of the file>)", OPTIONAL, set_directory},
+    {"output", 'o', "FILE", "report", "write the page to FILE (default: DIR/report.html)", OPTIONAL,
      set_directory},
     {"output", 'o', "NAME", "compare", "write a page NAME.html and a table NAME.csv", OPTIONAL,
      set_directory},
-    {"output", 'o', "PATH", "export", "write there (default: a file or a directory in DIR)",
+    {"output", 'o', "PATH", "export", "write to PATH (default: a file or a directory in DIR)",
      OPTIONAL, set_directory},
     {"template", 0, "FOLDER", "report compare",
-     "make the page of the files of share/flankfilm/template that this folder has of its own",
+     "use the files in this folder instead of those of the same name in share/flankfilm/template",
      OPTIONAL, NULL},
     {"best", 0, "OUTPUT=WORD", "report",
-     "of a sweep of several axes, name where this output is least or largest; repeatable",
+     "for a sweep over several axes: report where this output is least or largest; repeatable",
      REPEATABLE, NULL},
-    {"output", 'o', "DIR", "new", "make this folder (default: NAME)", OPTIONAL, set_directory},
+    {"output", 'o', "DIR", "new", "write to this folder (default: NAME)", OPTIONAL, set_directory},
     {"jobs", 'j', "N", "run plan", "worker processes of a study (default: all cores)", OPTIONAL,
      set_jobs},
     {"shard", 0, "I/N", "run plan",
-     "of a study, run case I and every N-th after it (default: Slurm's)", OPTIONAL, set_shard},
-    {"rerun", 0, "failed|all", "run plan", "of a study, also run cases again that failed, or all",
+     "for a study: run case I and every N-th after it (default: set by Slurm)", OPTIONAL,
+     set_shard},
+    {"rerun", 0, "failed|all", "run plan", "for a study: run failed cases again, or all cases",
      OPTIONAL, set_rerun},
-    {"fail-fast", 0, NULL, "run", "end a study at the first case that fails", OPTIONAL, NULL},
+    {"fail-fast", 0, NULL, "run", "stop a study when a case fails", OPTIONAL, NULL},
     {"strict", 0, NULL, "run check",
-     "count a doubtful answer, a limit not surely met or a warning as a failure: code 1, 4 for a "
-     "study, 2 for check",
+     "treat as failures: doubtful answers, limits that are not surely met, and warnings; the exit "
+     "code is 1, for a study 4, for check 2",
      OPTIONAL, NULL},
     {"all", 0, NULL, "run",
-     "of a single case, print all that was computed, not only what it asks for", OPTIONAL, NULL},
+     "for a single case: print everything that was computed, not only the requested outputs",
+     OPTIONAL, NULL},
     {"replace", 0, NULL, "run", "replace results of another file in the directory", OPTIONAL, NULL},
     {"json", 0, NULL, "run plan check explain fit models report compare export verify",
      "print one JSON object, all values in SI, and nothing else", OPTIONAL, NULL},
     {"arrays", 0, NULL, "run",
-     "with --json, of a single case: also print arrays of more than 10000 numbers", OPTIONAL, NULL},
-    {"yaml", 0, NULL, "explain",
-     "print the file with its includes and --set worked in, each value with its origin", OPTIONAL,
+     "with --json, for a single case: also print arrays of more than 10000 numbers", OPTIONAL,
      NULL},
+    {"yaml", 0, NULL, "explain",
+     "print one file that includes all included files and --set, with the origin of each value",
+     OPTIONAL, NULL},
     {"drawing", 0, NULL, "explain",
      "print the table of a drawing of the gears: diameters, spans, pins, backlash", OPTIONAL, NULL},
-    {"markdown", 0, NULL, "models", "print it as a page in Markdown", OPTIONAL, NULL},
+    {"markdown", 0, NULL, "models", "print it as Markdown", OPTIONAL, NULL},
     {"plugin-path", 0, "DIR", "run plan check explain cite fit models report export new schema",
-     "look for models there first; repeatable", REPEATABLE, NULL},
+     "search this directory for models first; repeatable", REPEATABLE, NULL},
     {"help", 'h', NULL, NULL, "print this", OPTIONAL, NULL},
 };
 enum {
@@ -196,14 +200,14 @@ static bool set_jobs(cli_options *options, const char *argument)
     char why[160];
     bool good = ff_integer_parse(argument, &jobs, why, sizeof why) && jobs >= 1 && jobs <= MOST;
     options->jobs = good ? (size_t)jobs : 0;
-    return good || cli_wrong_usage(options, "-j wants a whole number from 1 to %d, not \"%s\"",
+    return good || cli_wrong_usage(options, "-j needs a whole number from 1 to %d, not \"%s\"",
                                    MOST, argument);
 }
 
 static bool set_directory(cli_options *options, const char *argument)
 {
     options->directory = argument;
-    return *argument || cli_wrong_usage(options, "-o wants the name of a file or directory");
+    return *argument || cli_wrong_usage(options, "-o needs the name of a file or directory");
 }
 
 /* Reads the part of a study: "2/8" is the second of eight. */
@@ -213,7 +217,7 @@ static bool set_shard(cli_options *options, const char *argument)
     return (strspn(argument, "0123456789/") == strlen(argument) &&
             sscanf(argument, "%6zu/%6zu%c", &options->shard, &options->shards, &rest) == 2 &&
             options->shard >= 1 && options->shard <= options->shards) ||
-           cli_wrong_usage(options, "--shard wants I/N with I from 1 to N, not \"%s\"", argument);
+           cli_wrong_usage(options, "--shard needs I/N with I from 1 to N, not \"%s\"", argument);
 }
 
 static bool set_rerun(cli_options *options, const char *argument)
@@ -221,7 +225,7 @@ static bool set_rerun(cli_options *options, const char *argument)
     options->rerun_failed = !strcmp(argument, "failed");
     options->rerun_all = !strcmp(argument, "all");
     return options->rerun_failed || options->rerun_all ||
-           cli_wrong_usage(options, "--rerun wants failed or all, not \"%s\"", argument);
+           cli_wrong_usage(options, "--rerun needs failed or all, not \"%s\"", argument);
 }
 
 static bool take_operand(cli_options *options, const char *text)
@@ -250,7 +254,7 @@ static bool take_option(cli_options *options, size_t index, const char *argument
     while (row < rows + ROWS && (strcmp(row->name, name) != 0 || !accepts(options->command, row)))
         row++;
     if (row == rows + ROWS)
-        return cli_wrong_usage(options, "%s takes no option --%s", options->command->name, name);
+        return cli_wrong_usage(options, "%s has no option --%s", options->command->name, name);
     given->words = memory_resize(given->words, (given->count + 1) * sizeof *given->words);
     given->words[given->count++] = argument ? argument : "";
     return !row->set || row->set(options, argument);
@@ -281,11 +285,11 @@ static bool check_missing(const cli_options *options)
     const cli_command *command = options->command;
     bool two = strchr(command->operand, ' ') != NULL;
     if ((!options->operand || (two && !options->second)) && command->operand[0] != '[')
-        return cli_wrong_usage(options, "%s wants %s%s", command->name,
+        return cli_wrong_usage(options, "%s needs %s%s", command->name,
                                strstr(command->operand, "...") ? "" : "a ", command->operand);
     for (const option_row *row = rows; row < rows + ROWS; row++)
         if (row->occurrence == REQUIRED && accepts(command, row) && !cli_option(options, row->name))
-            return cli_wrong_usage(options, "%s wants --%s %s", command->name, row->name,
+            return cli_wrong_usage(options, "%s needs --%s %s", command->name, row->name,
                                    row->argument);
     return true;
 }
@@ -295,7 +299,7 @@ static bool check_plugin_paths(const cli_options *options)
     struct stat status;
     for (size_t i = 0; i < options->plugin_path_count; i++)
         if (stat(options->plugin_paths[i], &status) != 0 || !S_ISDIR(status.st_mode))
-            return cli_wrong_usage(options, "--plugin-path: there is no directory %s",
+            return cli_wrong_usage(options, "--plugin-path: no directory %s",
                                    options->plugin_paths[i]);
     return true;
 }
@@ -324,7 +328,7 @@ bool cli_options_parse(cli_options *options, int argc, char **argv)
         else if (code == '?')
             good = refuse_unknown(options, argv[optind - 1], optopt);
         else if (code == ':')
-            good = cli_wrong_usage(options, "the option %s wants a value", argv[optind - 1]);
+            good = cli_wrong_usage(options, "the option %s needs a value", argv[optind - 1]);
         else
             good = take_option(options, (size_t)(code - FIRST_CODE), optarg);
     }

@@ -17,7 +17,7 @@ typedef struct cli_words {
 /* An option that is absent is NULL, 0 or false. cli_option finds options that have no member
  * here. */
 typedef struct cli_options {
-    const cli_command *command; /* NULL: no command was understood */
+    const cli_command *command; /* NULL: the command is not known */
     const char *operand;        /* FILE or ID */
     const char *second;         /* the second operand */
     cli_words further;          /* operands after the second one, if the command takes more */

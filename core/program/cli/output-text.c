@@ -9,19 +9,20 @@
 #include <math.h>
 #include <string.h>
 
-static const double noise = 1e-9; /* relative; at most 5 digits are printed */
+static const double noise = 1e-9; /* noise, relative to the greatest number; at most 5 digits are
+                                   * printed */
 
 static study_readable unit_of(const ff_port *row, double most)
 {
     return study_readable_output(row->name, row->unit, most);
 }
 
-/* Numbers of one quantity; what is noise beside the greatest of them is 0. */
+/* Numbers of one quantity. Those that are only noise relative to the greatest are set to 0. */
 static void print_range(const ff_result *result, double a, double b, char *out, size_t size)
 {
     const double most = fmax(fabs(a), fabs(b)), least = fmin(fabs(a), fabs(b));
     const study_readable unit = unit_of(result->row, most);
-    /* a number that is small beside the other reads well in a unit of its own */
+    /* a number much smaller than the other is easier to read in its own unit */
     const study_readable first =
         least >= noise * most && least < 1e-3 * most ? unit_of(result->row, fabs(a)) : unit;
     const char *between = strcmp(first.unit, unit.unit) ? " " : "";
@@ -36,8 +37,8 @@ static void print_range(const ff_result *result, double a, double b, char *out, 
              *unit.unit ? " " : "", unit.unit);
 }
 
-/* Prints where the extremes of a series lie; if `briefly`, "at 22.3 and 16.6 deg". "" if no
- * series tells. */
+/* Prints where the extremes of a series lie; if `briefly`, "at 22.3 and 16.6 deg". "" if no series
+ * gives the place. */
 static void print_where(const ff_pipeline *pipeline, const ff_stage *stage, size_t output,
                         size_t least, size_t greatest, bool briefly, char *out, size_t size)
 {
@@ -70,7 +71,7 @@ static void print_shape(const ff_stage *stage, size_t output, char *out, size_t 
                                result->dims[i]);
 }
 
-/* Prints the values of both gears, "[0.35, -0.1]", which are no series. */
+/* Prints the values of both gears, "[0.35, -0.1]". They are not a series. */
 static bool print_pair(const ff_result *result, char *out, size_t size)
 {
     if (result->rank != 1 || result->count != 2)
@@ -98,7 +99,7 @@ static void print_error(const accuracy_record *errors, const ff_result *result, 
         snprintf(out + length, size - length, " +- ?");
 }
 
-/* Whether the error of an output is known, or is given by another output. */
+/* Whether the error of an output was measured, or is itself an output. */
 static bool known_error(const ff_stage *stage, const ff_result *result)
 {
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {

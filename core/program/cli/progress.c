@@ -8,14 +8,14 @@
 #include <stdio.h>
 #include <unistd.h>
 
-static const double first_after = 0.5; /* s of work before the line appears */
+static const double first_after = 0.5; /* the line appears after this time, s */
 static const double redraw_after = 0.1;
 
 static volatile sig_atomic_t interrupts;
 
 static void on_interrupt(int signal_number, siginfo_t *info, void *context)
 {
-    static const char text[] = "\nstopping; once more to end at once\n";
+    static const char text[] = "\nstopping; press again to end at once\n";
     (void)context;
     if (crash_is_echo(info))
         return;
@@ -75,7 +75,7 @@ void cli_progress_end(cli_progress *progress)
 {
     if (progress->drawn > 0)
         fputs("\r\033[K", stderr);
-    if (!interrupts) /* the terminal may still echo the interrupt */
+    if (!interrupts) /* in case the terminal echoed "^C" on the line */
         signal(SIGINT, SIG_DFL);
 }
 

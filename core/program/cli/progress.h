@@ -12,10 +12,10 @@ typedef struct cli_progress {
     ff_report *report;
     json_t *log; /* [{stage, level, text}]; the caller frees it */
     bool terminal;
-    char now[ACCURACY_NOW]; /* what is being run, if a run makes several; "" */
+    char now[ACCURACY_NOW]; /* what is being run, if there are several runs; otherwise "" */
     const ff_stage
-        *stage; /* has been running since `started`; its line was drawn last at `drawn` */
-    double started, drawn; /* s; 0: no line is on the terminal */
+        *stage; /* the stage that is running: since `started`; its line was last drawn at `drawn` */
+    double started, drawn; /* s; 0: no line is shown */
 } cli_progress;
 
 /* Handles SIGINT: the first one asks the stages to stop, the second ends the program. */

@@ -30,7 +30,7 @@ static void print_line(int indent, bool comment, const char *key, const char *va
     free(name);
 }
 
-/* Prints the name of a file that a study uses, with its absolute path. */
+/* Prints the absolute path of a file that a study uses. */
 static void print_file(const ff_node *item, FILE *out)
 {
     const char *beside = item->place.source ? item->place.source->directory : ".";
@@ -55,7 +55,7 @@ static bool is_table_of_cases(const ff_node *node, const char *path)
     return !strcmp(path, "study.cases") && node->kind == FF_SCALAR && strcmp(node->text, "-") != 0;
 }
 
-/* Returns the parameter, if the stage runs and has it; NULL otherwise. */
+/* Returns the parameter. NULL if the stage does not run or does not have it. */
 static const ff_bound *find_bound(const ff_stage *stage, const char *path)
 {
     int index = stage && stage->params ? ff_model_find_param(stage->loaded->model, path) : -1;
@@ -106,7 +106,7 @@ static void print_leaf(const ff_stage *stage, const ff_node *node, const char *k
     ff_bound_origin(&(ff_bound){.place = node->place}, origin, sizeof origin);
     char *note = memory_print_text("%s%s", origin,
                                    away       ? ", taken away"
-                                   : replaced ? ", replaced by a later one"
+                                   : replaced ? ", replaced by a later value"
                                               : "");
     print_line(indent, replaced, key, text, note);
     free(note);
@@ -119,7 +119,7 @@ static void print_entry(const ff_stage *stage, const char *key, const ff_node *i
                         const char *prefix, int indent)
 {
     char *path = memory_print_text("%s%s%s", prefix, *prefix ? "." : "", key);
-    /* the key is the id of the model that the set is for */
+    /* the key is the id of the model to which the set belongs */
     bool set = stage && !strcmp(prefix, "with");
     bool other = set && strcmp(key, stage->use) != 0;
     if (item->kind != FF_MAP || item->count == 0) {
@@ -180,8 +180,7 @@ static void print_run(const ff_run *run, const char *file)
     char name[400];
     ff_clean_text(name, sizeof name, file);
     printf("# %s as flankfilm " CLI_VERSION
-           " reads it: each value with its origin, and in comments "
-           "what is not written\n",
+           " reads it: each value with its origin; comments are not in the file\n",
            name);
     for (size_t i = 0; i < root->count; i++)
         if (!strcmp(root->keys[i], "pipeline"))
@@ -190,8 +189,7 @@ static void print_run(const ff_run *run, const char *file)
             print_entry(NULL, root->keys[i], root->items[i], "", 0);
 }
 
-/* Reads the file again, because the run of a session already contains the first case of its
- * study. */
+/* Reads the file again, since the session's run already has the assignments of the first case. */
 void cli_print_resolved(const cli_session *session, const cli_options *options)
 {
     if (!session->study) {
@@ -202,7 +200,8 @@ void cli_print_resolved(const cli_session *session, const cli_options *options)
     run_set_all(run, options->sets, options->set_count);
     if (session->study->request)
         run_put(run, "outputs", session->study->request);
-    accuracy_build(run, session->engine, false); /* stages may lack what the cases give */
+    accuracy_build(run, session->engine, false); /* values that only the cases give may be missing
+                                                  */
     if (ff_run_root(run))                        /* the file could be read */
         print_run(run, options->operand);
     ff_run_close(run);

@@ -30,7 +30,7 @@ static void set_status(results_outcome *outcome)
                                                            : "failed";
 }
 
-/* The directory of the results, and what was found in it. */
+/* The directory of the results, and what it contained before. */
 typedef struct place {
     char *directory;        /* NULL: nothing is written */
     results_folder *folder; /* NULL if nothing is written */
@@ -42,14 +42,14 @@ typedef struct place {
 static void print_place(const place *to)
 {
     if (to->written && to->replaced && *to->replaced)
-        printf("earlier results of this directory are replaced (%s)\n", to->replaced);
+        printf("earlier results in this directory are replaced (%s)\n", to->replaced);
     if (to->removed && *to->removed)
-        printf("removed there, since it showed those: %s\n", to->removed);
+        printf("removed there, since it was made from them: %s\n", to->removed);
     if (to->written)
         printf("results in %s\nas a page with figures: flankfilm report %s\n", to->directory,
                to->directory);
     else if (to->replaced)
-        printf("the earlier results in %s stay\n", to->directory);
+        printf("the earlier results in %s are kept\n", to->directory);
 }
 
 /* Adds as warnings to the answer what print_place prints for people. */
@@ -59,8 +59,9 @@ static void warn_of_replaced(const place *to, ff_report *report)
         ff_warn(report, FF_NOWHERE, "earlier results of \"%s\" are replaced (%s)", to->directory,
                 to->replaced);
     if (to->removed && *to->removed)
-        ff_warn(report, FF_NOWHERE, "removed from \"%s\", since it showed earlier results: %s",
-                to->directory, to->removed);
+        ff_warn(report, FF_NOWHERE,
+                "removed from \"%s\", since it was made from earlier results: %s", to->directory,
+                to->removed);
 }
 
 /* Whether --strict makes the outcome a failure. */
@@ -111,7 +112,8 @@ static int run_session(cli_session *session, const cli_options *options, const r
     if (!good && ff_report_errors(session->report) == 0)
         ff_error(session->report, FF_FAULT_RUN, FF_NOWHERE, NULL, "the run was stopped");
     cli_progress_end(&progress);
-    ff_engine_warn_displaced(session->engine, session->report); /* of models that were tried */
+    ff_engine_warn_displaced(session->engine, session->report); /* messages of models that were
+                                                                 * tried */
 
     limits_verdict limits = limits_judge(session->run, errors.answer, &errors);
     accept_check_pipeline(errors.answer, session->report);
@@ -123,11 +125,11 @@ static int run_session(cli_session *session, const cli_options *options, const r
                                .log = progress.log};
     set_status(&outcome);
     count_doubts(&outcome, options);
-    /* the earlier results are worth more than an interrupted run */
+    /* an interrupted run does not replace complete results */
     bool kept = to->replaced && cli_interrupted();
     to->written =
         to->folder && !kept && results_write_run(&outcome, to->directory, to->folder, &to->removed);
-    set_status(&outcome); /* writing may have failed */
+    set_status(&outcome); /* writing the results may have failed */
     count_doubts(&outcome, options);
     if (options->json) {
         warn_of_replaced(to, session->report);
@@ -163,8 +165,8 @@ int cli_run(const cli_options *options)
     bool good = cli_session_open(&session, options, false);
     if (good && session.study && cli_option(options, "all"))
         good = ff_error(session.report, FF_FAULT_INPUT, FF_NOWHERE,
-                        "table.csv has all that its cases gave; the page shows it",
-                        "%s has a study: --all is of a single case", options->operand);
+                        "table.csv has all outputs of its cases, and the page shows them",
+                        "%s has a study; --all is for single cases", options->operand);
     if (session.study) {
         code = good ? cli_run_study(&session, options)
                     : cli_refuse(session.report, options, "nothing was run");
@@ -173,7 +175,7 @@ int cli_run(const cli_options *options)
     }
     if (good && cli_option(options, "executor"))
         good = ff_error(session.report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
-                        "%s has no study: there is nothing to spread", options->operand);
+                        "%s has no study: there are no cases to distribute", options->operand);
     if (options->directory || !options->json)
         to.directory = cli_run_directory(options);
     input.pipeline = session.pipeline;

@@ -19,9 +19,9 @@
 
 enum { MOST_ERRORS = 20 };
 
-/* Returns the case by which a command shows a study: the first that can be built. Idle rows of a
- * spectrum may come first, and a study may look for cases that cannot be. `count` if there is
- * none. */
+/* Returns the case that a command shows as an example of a study: the first that can be built.
+ * Cases before it may be idle rows of a spectrum, or impossible values in a study that searches for
+ * the limits of the possible. `count` if there is none. */
 static size_t first_case(const cli_session *session, const cli_options *options)
 {
     const study_definition *study = session->study;
@@ -37,8 +37,8 @@ static size_t first_case(const cli_session *session, const cli_options *options)
     return study->driver ? study->count : 0;
 }
 
-/* Applies to the file the case by which the study is shown. If no case can be built, the file
- * stays as it is. */
+/* Applies the example case of the study to the file. If no case can be built, the file stays as it
+ * is. */
 static void lay_case(const cli_session *session, const cli_options *options, ff_run *run)
 {
     if (session->first < session->study->count)
@@ -73,7 +73,7 @@ static void copy_messages(cli_session *session, ff_run *run, ff_severity severit
         const ff_message *m = ff_report_at(said, i);
         ff_source source = m->place.source ? *m->place.source : (ff_source){0};
         ff_place place = m->place;
-        source.temporary = true; /* it is freed with the run */
+        source.temporary = true; /* the text is freed with the run */
         if (place.source && run != session->run)
             place.source = &source;
         if (m->severity != severity)
@@ -91,8 +91,8 @@ static int32_t leave(void *ctx, const ff_stage *stage, double fraction)
     return 2;
 }
 
-/* Finds what is wrong with the inputs of the stages: runs quick stages, which report no
- * progress, to their end, and others up to their first report of progress. */
+/* Finds errors in the inputs of the stages. Stages that report no progress are quick and run to
+ * their end; the others are stopped at their first report of progress. */
 static void run_quick(ff_run *run)
 {
     const ff_observer watch = {.size = sizeof watch, .progress = leave};
@@ -116,12 +116,12 @@ static void try_case(cli_session *session, const cli_options *options, size_t in
     ff_run *run = cli_session_try(session, options, index, severity == FF_ERROR);
     if (!study_case_is_refused(
             session->study,
-            ff_run_report(run))) /* otherwise the sums tell how much time is affected */
+            ff_run_report(run))) /* otherwise the answer says how much time is affected */
         copy_messages(session, run, severity);
     ff_run_close(run);
 }
 
-/* For each model that the study swaps in, reports what of the file it cannot take. */
+/* For each model that the study swaps in, reports the settings of the file that it cannot take. */
 static void try_swaps(cli_session *session, const cli_options *options)
 {
     const study_definition *study = session->study;
@@ -137,8 +137,8 @@ static void try_swaps(cli_session *session, const cli_options *options)
     }
 }
 
-/* If there are too many cases to look at all: tries each value of each axis, or the ends of a
- * range, once, with the other axes at their first value. */
+/* Used if there are too many cases to check all: tries each value of each axis (the ends of a
+ * range) once, with the other axes at their first value. */
 static void try_values(cli_session *session, const cli_options *options)
 {
     const study_definition *study = session->study;
@@ -147,7 +147,7 @@ static void try_values(cli_session *session, const cli_options *options)
         size_t last = study->points[varied->axis] - 1;
         size_t stride = study_stride(study, varied->axis);
         bool listed = varied->values || varied->names;
-        bool whole = !varied->places || k == 0; /* a row is tried once as a whole */
+        bool whole = !varied->places || k == 0; /* the values of a row belong together */
         for (size_t i = listed || varied->places ? 1 : last; whole && i > 0 && i <= last; i++) {
             if (varied->places && i == CLI_MOST_ROWS)
                 i = last;
@@ -157,8 +157,8 @@ static void try_values(cli_session *session, const cli_options *options)
     }
 }
 
-/* Tries cases of a study that makes its cases itself. Some of these may be impossible, so a
- * warning counts them. */
+/* Tries cases of a study that chooses its cases itself. Some of these may be impossible; a warning
+ * says how many. */
 static void try_spread(cli_session *session, const cli_options *options)
 {
     const study_definition *study = session->study;
@@ -176,7 +176,7 @@ static void try_spread(cli_session *session, const cli_options *options)
     }
     if (bad)
         ff_warn(session->report, FF_NOWHERE,
-                "study: %zu of %zu %s that were looked at cannot run, the first of them number "
+                "study: %zu of %zu %s that were checked cannot run, the first of them number "
                 "%zu: %s",
                 bad, session->tried, study_cases(study), first + 1, why);
     free(why);
@@ -226,7 +226,7 @@ static void warn_of_follow(const cli_session *session)
                   accuracy_open_use(&pipeline->stages[i]); /* the model is not known yet */
     if (!carried)
         ff_warn(session->report, FF_NOWHERE,
-                "study: no stage that runs hands a state to the next case, so that \"follow\" "
+                "study: none of the stages that run passes a state to the next case, so \"follow\" "
                 "changes nothing");
 }
 
@@ -235,7 +235,7 @@ static void warn_of_displaced(cli_session *session)
 {
     study_use at = {0};
     const char *id;
-    ff_report *captured = ff_report_new(); /* a case that names no model fails by itself */
+    ff_report *captured = ff_report_new(); /* a case that names no model gives its own error */
     while (session->study && (id = study_next_use(session->study, &at)))
         ff_engine_model(session->engine, id, FF_NOWHERE, captured);
     ff_report_free(captured);
@@ -365,7 +365,7 @@ bool cli_is_strict_about(const cli_options *options, bool doubtful, bool unsure,
     if (tell)
         fprintf(stderr, "--strict: %s%s%s%s%s counts as a failure\n",
                 doubtful ? "a doubtful answer" : "", doubtful && (unsure || warned) ? ", " : "",
-                unsure ? "a limit not surely met" : "", unsure && warned ? ", " : "",
+                unsure ? "a limit that is not surely met" : "", unsure && warned ? ", " : "",
                 warned ? "a warning" : "");
     return true;
 }

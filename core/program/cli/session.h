@@ -8,19 +8,20 @@
 
 /* A check tries the first rows of a table of cases, at most this many, and the last one. */
 enum { CLI_MOST_ROWS = 1000 };
-/* A check looks at each case of a study with at most CLI_MOST_CASES cases; of a study that makes
- * its cases itself it looks at CLI_MOST_SPREAD cases from the first to the last. */
+/* A check looks at each case of a study with at most CLI_MOST_CASES cases; of a study that chooses
+ * its cases itself, only at CLI_MOST_SPREAD cases, spread from the first to the last. */
 enum { CLI_MOST_CASES = 256, CLI_MOST_SPREAD = 32 };
 
 typedef struct cli_session {
     ff_report *report;
     ff_engine *engine;
     ff_run *run;
-    ff_pipeline *pipeline; /* of the run; may be NULL after errors; for a study, of a case that can
-                              be built */
+    ff_pipeline *pipeline; /* the pipeline of the run, for a study that of its example case; may be
+                            * NULL after errors */
     study_definition *study; /* NULL: a single case */
-    size_t first;            /* the number of that case */
-    size_t tried; /* cases that a check has tried as a whole; 0: only single values were tried */
+    size_t first;            /* the number of the example case */
+    size_t tried; /* number of complete cases that a check has tried; 0: only single values were
+                   * tried */
 } cli_session;
 
 /* Returns an engine that searches the directories given as options. */
@@ -35,14 +36,14 @@ ff_run *cli_session_try(const cli_session *session, const cli_options *options, 
                         bool runs);
 
 /* Returns the directory for the results of a run: -o, or results/<name of the file without its
- * ending>, extended by what --set says, so that variants do not replace each other. Freed by the
- * caller. */
+ * ending>, extended by the assignments of --set, so that variants do not replace each other. Freed
+ * by the caller. */
 char *cli_run_directory(const cli_options *options);
 /* Returns the directory for a study, which keeps the cases of all variants. Freed by the caller. */
 char *cli_study_directory(const cli_options *options);
 
-/* Whether --strict is given and fails the result: numbers are in doubt, a limit is not surely
- * met, or there is a warning that is not about the range of a model. `tell` prints which. */
+/* Whether --strict is given and fails the result: numbers are in doubt, a limit is not surely met,
+ * or there is a warning that is not about the range of a model. `tell` prints the reason. */
 bool cli_is_strict_about(const cli_options *options, bool doubtful, bool unsure,
                          const ff_report *report, bool tell);
 

@@ -23,7 +23,7 @@ bool cli_shard_find(study_run *run, bool array_only, ff_report *report)
     } else if (step < 1 || last - first != (arrays - 1) * step || array < 0 || array % step != 0 ||
                array / step >= arrays) {
         return ff_error(
-            report, FF_FAULT_INPUT, FF_NOWHERE, "say which part it is: --shard I/N",
+            report, FF_FAULT_INPUT, FF_NOWHERE, "give the part: --shard I/N",
             "the numbers of Slurm's array are not a range: %ld of %ld tasks from %ld to "
             "%ld",
             array + first, arrays, first, last);

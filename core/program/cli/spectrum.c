@@ -128,7 +128,7 @@ static void say_below(study_answer *answer, const json_t *sums)
     }
 }
 
-/* Says which stages were evaluated once for several rows. */
+/* Prints which stages were evaluated once for several rows. */
 static void say_stages(study_answer *answer, const json_t *sums)
 {
     const char *name;
@@ -138,13 +138,13 @@ static void say_stages(study_answer *answer, const json_t *sums)
         const long long computed = integer_of(of, "computed"), reused = integer_of(of, "reused");
         if (reused > 0)
             study_answer_say(answer, STUDY_ON_TERMINAL, 4,
-                             "  %s: %lld of %lld rows computed it, %lld took it over from a row "
+                             "  %s: computed in %lld of %lld rows; %lld reused the result of a row "
                              "with the same inputs",
                              name, computed, computed + reused, reused);
     }
 }
 
-/* Says for how much of the time there are no numbers, and why. */
+/* Prints for how much of the time there are no results, and why. */
 static void say_left_out(study_answer *answer, const json_t *sums)
 {
     const json_t *refused = json_object_get(sums, "refused");
@@ -153,24 +153,25 @@ static void say_left_out(study_answer *answer, const json_t *sums)
     const long long empty = integer_of(sums, "empty"), rows = integer_of(sums, "rows");
     if (fabs(stated - 1) > 1e-9)
         study_answer_say(answer, BOTH, 4,
-                         "  the shares of the time sum to %.6g %%: each is taken as its part of "
+                         "  the shares of the time sum to %.6g %%: each is taken relative to "
                          "that sum",
                          100 * stated);
     if (empty > 0)
         study_answer_say(answer, BOTH, 4,
-                         "  %lld of %lld classes take no time: they are left out, and no row "
+                         "  %lld of %lld classes take no time and are left out, and no row "
                          "counts them",
                          empty, empty + rows);
     if (share > 0)
         study_answer_say(answer, BOTH, 4,
                          "  for %.3g %% of the time, in %lld of %lld rows, nothing can be "
-                         "computed, and the sums do not count it; row %lld: %s",
+                         "computed; the sums leave this time out; row %lld: %s",
                          100 * share, integer_of(refused, "rows"), rows, integer_of(refused, "row"),
                          study_text_of(refused, "reason"));
     if (failed > 1e-12)
-        study_answer_say(answer, BOTH, 4,
-                         "  rows of %.3g %% of the time gave no numbers: nothing above counts them",
-                         100 * failed);
+        study_answer_say(
+            answer, BOTH, 4,
+            "  rows with %.3g %% of the time gave no results and are not counted above",
+            100 * failed);
 }
 
 /* Draws for each output how long it is below a value; returns the first drawing, or NULL. */
@@ -189,9 +190,9 @@ static json_t *draw(study_answer *answer, const study_run *run, const json_t *su
             continue;
         json_t *made = study_answer_draw(
             answer, json_pack("{s:s, s:s+, s:s, s:s, s:f, s:f, s:O, s:O}", "sort", "durations",
-                              "title", name, ": for how long it is below", "name", last_word(name),
-                              "unit", unit.unit, "factor", unit.factor, "offset", unit.offset,
-                              "values", values, "times", times));
+                              "title", name, ": share of the time below a value", "name",
+                              last_word(name), "unit", unit.unit, "factor", unit.factor, "offset",
+                              unit.offset, "values", values, "times", times));
         first = first ? first : made;
     }
     json_decref(times);

@@ -5,8 +5,8 @@
 
 #include "../study/run/context.h"
 
-/* Sums over the rows, and puts into the context what is said, the files and the facts. False after
- * an error in its report. */
+/* Sums over the rows, and stores sentences, files and facts in the context. False after an error in
+ * its report. */
 bool cli_spectrum_sum(const study_run *run, study_context *context);
 
 #endif

@@ -32,13 +32,14 @@ typedef struct teller {
     const cli_options *options;
     results_input input;
     const char *directory;
-    bool driven; /* the study's driver, if it has one, has run */
+    bool driven; /* the study's driver has run */
     bool entered;
     char *replaced;     /* how the inputs of earlier results differ, or NULL */
     char *removed;      /* files derived from earlier results that are gone, or NULL */
-    study_context sums; /* over the rows of a spectrum; without files before they are there */
+    study_context sums; /* the sums over the rows of a spectrum; no files until they have been
+                         * written */
     bool terminal;
-    double told; /* s after the start, of the last progress line */
+    double told; /* time of the last progress line, s after the start */
 } teller;
 
 static void tell_progress(void *ctx, const study_counters *counters)
@@ -81,8 +82,8 @@ static bool enter(void *ctx, ff_report *report)
     return true;
 }
 
-/* Answers a row at once, since whoever feeds rows may wait for the answer before sending the
- * next. If nobody is left to read it, the run ends, as any program in a pipe does. */
+/* Answers a row at once, since the program that sends rows may wait for the answer before it sends
+ * the next. If that program has ended, the run ends, as any program in a pipe does. */
 static void answer_row(void *ctx, size_t index, const json_t *record, bool known)
 {
     const teller *t = ctx;
@@ -100,7 +101,7 @@ static bool begin_rows(study_run *run, const cli_options *options, ff_report *re
         return true;
     if (options->shards || run->executor)
         return ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, "write the rows to a file",
-                        "study: cases: rows of standard input cannot be spread");
+                        "study: cases: rows from standard input cannot be distributed");
     if (!options->json)
         terminal_answer_begin();
     run->answer = answer_row;
@@ -160,7 +161,7 @@ void cli_print_savings(const study_reuse_counts *savings)
         return;
     printf("stages: %zu computed in %.3g s", savings->computed, savings->spent);
     if (savings->reused)
-        printf(", %zu taken over from other cases, which saved %.3g s", savings->reused,
+        printf(", %zu reused from other cases, which saved %.3g s", savings->reused,
                savings->saved);
     putchar('\n');
 }
@@ -175,12 +176,11 @@ json_t *cli_json_savings(const study_reuse_counts *savings)
 /* Prints the known cases of a study whose driver has not run. */
 static void tell_rest(const study_definition *study)
 {
-    printf("these are %s; the rest is done by a run in one process, which takes them over\n",
+    printf("these are %s; a run in one process does the rest and reuses them\n",
            study_cases(study));
 }
 
-/* Prints the last line. The number of cases is left out if the driver of the study leaves it
- * open. */
+/* Prints the last line. The number of cases is left out if the driver has not fixed it. */
 static void tell_verdicts(const study_definition *study, const study_counters *counters)
 {
     char *verdicts = study_tally_text(&counters->tally);
@@ -189,11 +189,11 @@ static void tell_verdicts(const study_definition *study, const study_counters *c
         printf("of %zu ", counters->total);
     fputs("cases done", stdout);
     if (counters->before)
-        printf(", %zu of them before", counters->before);
+        printf(", %zu of them earlier", counters->before);
     if (*verdicts)
         printf(": %s", verdicts);
     if (counters->failed + counters->tally.counts[STUDY_CASE_REFUSED])
-        fputs("; \"reason\" in the table says why", stdout);
+        fputs("; the column \"reason\" of the table says why", stdout);
     putchar('\n');
     free(verdicts);
 }
@@ -226,7 +226,7 @@ static void print_removed(char *removed, const char *files)
         free(listed);
     }
     if (*gone)
-        printf("removed, since it showed earlier results: %s\n", gone);
+        printf("removed, since it was made from earlier results: %s\n", gone);
     free(gone);
 }
 
@@ -269,18 +269,18 @@ static void answer_end(const teller *t, const study_counters *counters, int code
     results_json_print(answer);
 }
 
-/* Decides whether the driver runs the study. Its first cases can be run elsewhere, unless costs
- * count. False after an error. */
+/* Decides whether the driver runs the study. Its first cases can be distributed, unless their costs
+ * are measured. False after an error. */
 static bool settle_driver(const study_run *run, bool *driven, ff_report *report)
 {
     bool spread = run->executor || run->shards > 1;
     *driven = run->study->driver && !spread;
     return !spread || !run->study->measure ||
            ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, "run it in one process on an idle machine",
-                    "costs are measured, one case at a time: it cannot be spread");
+                    "this study measures costs, one case at a time, and cannot be distributed");
 }
 
-/* Notes these files, which are removed if the cases change, as files derived from results are. */
+/* Records these files as derived from the results, so that they are removed if the cases change. */
 static void note_files(const study_context *of, const char *directory)
 {
     for (size_t i = 0; i < of->file_count; i++) {
@@ -290,7 +290,7 @@ static void note_files(const study_context *of, const char *directory)
     }
 }
 
-/* Opens what the run needs beside the file; false after an error. */
+/* Opens what the run needs in addition to the file; false after an error. */
 static bool begin_run(study_run *run, cli_session *session, const cli_options *options, teller *t)
 {
     run->progress = options->json ? NULL : tell_progress;
@@ -368,7 +368,7 @@ int cli_run_study(cli_session *session, const cli_options *options)
                           .sets = options->sets,
                           .set_count = options->set_count,
                           .pipeline = session->pipeline,
-                          .accuracy = "", /* the keys of the cases contain it */
+                          .accuracy = "", /* the inputs are part of the keys of the cases */
                           .key = results_input_key(session->pipeline, ""),
                           .replace = cli_option(options, "replace") != NULL},
                 .directory = directory,
@@ -409,7 +409,7 @@ void cli_print_cases(const study_definition *study)
 {
     const char *kind = study_kind_name(study), *further = study_further(study);
     if (study->streams) {
-        puts("cases as rows of standard input list them");
+        puts("one case for each row of standard input");
         return;
     }
     printf("%s%s%zu %s%s%s\n", kind, *kind ? ": " : "", study->count, study_cases(study),
@@ -423,13 +423,13 @@ static void print_plan(const study_run *run, const study_plan *plan)
     if (run->study->streams)
         return;
     if (run->shards > 1)
-        printf("of shard %zu/%zu: ", run->shard, run->shards);
+        printf("shard %zu/%zu: ", run->shard, run->shards);
     printf("%zu done, %zu failed, %zu to run", plan->done, plan->failed, plan->left);
     if (plan->left && plan->seconds >= 0)
         printf(", about %.3g s with %zu workers", plan->seconds, run->jobs);
     putchar('\n');
     if (plan->again)
-        printf("%zu of these an earlier run has done otherwise; the first of them with\n",
+        printf("an earlier run did %zu of these with other inputs; the first of them:\n",
                plan->again);
     for (const char *line = plan->changed; *line; line += strcspn(line, "\n") + 1)
         printf("  %.*s\n", (int)strcspn(line, "\n"), line);
@@ -456,7 +456,7 @@ int cli_plan_study(const cli_options *options)
     int code = EXIT_SUCCESS;
     if (good && !session.study)
         good = ff_error(session.report, FF_FAULT_INPUT, FF_NOWHERE,
-                        "explain says what a single case would run", "%s has no study",
+                        "flankfilm explain shows what a single case would run", "%s has no study",
                         options->operand);
     study_run run = good ? run_of(&session, options, directory) : (study_run){0};
     good = good && ff_report_errors(session.report) == 0 &&

@@ -24,7 +24,7 @@ typedef struct print_widths {
 typedef struct paper {
     const accuracy_record *errors;
     bool colour;
-    const char *heading; /* printed only once a line follows it */
+    const char *heading; /* the heading, printed when the first line below it is */
 } paper;
 
 /* Prints text in a colour or bold, if the terminal has colours. */
@@ -73,7 +73,7 @@ static void print_stage(paper *page, const ff_stage *stage)
     int column = printf("  %-16s  ", stage->name);
     if (stage->seconds > 0)
         column += printf("%-32s  %6.3g %s", stage->use, stage->seconds * time.factor, time.unit);
-    else /* a law alone takes no time */
+    else /* a law by itself takes no time */
         column += printf("%s", stage->use);
     if (*word) {
         printf("%*s", VERDICT - column, "");
@@ -178,7 +178,7 @@ static void print_answer(paper *page, const ff_pipeline *pipeline)
             print_asked(page, pipeline, &list[i], widths);
     }
     if (*arrays)
-        terminal_print_cut(arrays, printf("  in the results: "));
+        terminal_print_cut(arrays, printf("  only in the results: "));
     free(arrays);
     free(axes);
     results_free_asked(list, count);
@@ -201,7 +201,7 @@ static void print_limits(const paper *page, const limits_verdict *limits)
             continue;
         printf("  %s: ", row->name);
         paint_verdict(page, colours[row->standing], limits_word(row->standing));
-        printf(", %s is asked and it is ", row->asked);
+        printf(", required is %s, the answer is ", row->asked);
         if (isnan(row->value)) {
             puts("not known");
             continue;
@@ -217,7 +217,7 @@ static void print_limits(const paper *page, const limits_verdict *limits)
     free(sentence);
 }
 
-/* Which lines of quality stand below a heading. */
+/* Selects the lines of quality below a heading. */
 typedef enum { ACCEPTED, OF_NUMBERS, OF_RANGE } lines;
 
 static bool is_among(const ff_quality *line, lines which)
@@ -238,7 +238,7 @@ static void print_quality(paper *page, const ff_stage *stage, lines which)
         char value[STUDY_NUMBER_SIZE];
         study_number_short(line->value, value);
         int column =
-            printf("  %s.%s = %s, held to %.3g: ", stage->name, line->name, value, line->limit);
+            printf("  %s.%s = %s, limit %.3g: ", stage->name, line->name, value, line->limit);
         if (which == OF_NUMBERS) {
             column += (int)strlen(verdict);
             paint_verdict(page, line->verdict, verdict);
@@ -302,11 +302,12 @@ static void print_error_row(const paper *page, const accuracy_error *e, int widt
 static void print_search(const accuracy_record *errors, size_t missed)
 {
     if (missed > 0 && *errors->given)
-        terminal_print_wrapped(errors->given, printf("  the file's own settings stay: "), 4);
+        terminal_print_wrapped(errors->given, printf("  settings fixed by the file: "), 4);
     else if (missed > 0 && errors->attempts > 1)
-        puts("  the repeat, with what its order promised to suffice, did not reach the rest");
+        puts("  the repeat, with the settings predicted from the observed order, missed the "
+             "others");
     else if (missed > 0)
-        puts("  no finer settings that may be tried promise what is not reached");
+        puts("  no finer settings that may be tried are expected to reach the others");
     char *text = memory_print_text(
         "%s", errors->chosen_count ? "" : "nothing: the file leaves no setting open");
     for (size_t i = 0; i < errors->chosen_count; i++)
@@ -339,8 +340,8 @@ static void print_errors(paper *page, const results_outcome *outcome)
     const int width = survey_errors(errors, &goals, &missed);
     char heading[120] = "Errors, measured by twins";
     if (asked)
-        snprintf(heading, sizeof heading,
-                 "Accuracy, measured by twins: %zu of %zu outputs as asked", goals - missed, goals);
+        snprintf(heading, sizeof heading, "Accuracy, measured by twins: %zu of %zu goals reached",
+                 goals - missed, goals);
     page->heading = heading;
     if (errors->count > 0) {
         start_line(page);
@@ -348,10 +349,11 @@ static void print_errors(paper *page, const results_outcome *outcome)
                asked ? "asked" : "");
     } else if (asked) {
         start_line(page);
-        puts("  no error is told: no output is a scalar or a series of finite numbers");
+        puts("  no error is measured: no requested output is a scalar or a series of finite "
+             "numbers");
     }
     for (size_t i = 0; i < errors->count; i++)
-        if (errors->errors[i].relative != 0) /* no setting changes the others */
+        if (errors->errors[i].relative != 0) /* errors of the others do not depend on settings */
             print_error_row(page, &errors->errors[i], width);
     if (errors->failure)
         terminal_print_wrapped(errors->failure, printf("  a twin failed: "), 4);
@@ -361,7 +363,7 @@ static void print_errors(paper *page, const results_outcome *outcome)
         const size_t twins = accuracy_twin_count(errors);
         printf("  %zu %s", twins, twins == 1 ? "twin" : "twins");
         if (asked)
-            printf(" and %zu %s before", errors->attempts - 1,
+            printf(" and %zu earlier %s", errors->attempts - 1,
                    errors->attempts == 2 ? "attempt" : "attempts");
         printf(": %.3g s of CPU time\n", accuracy_seconds(errors));
     }
@@ -406,7 +408,8 @@ static void print_tally(const ff_pipeline *pipeline)
         }
     }
     if (ran > 0)
-        printf("\n%zu %s in %.3g s, %zu of %zu checks good; --all prints all that was computed\n",
+        printf("\n%zu %s in %.3g s, %zu of %zu checks good; --all prints everything that was "
+               "computed\n",
                ran, ran == 1 ? "stage" : "stages", seconds, good, checks);
 }
 
@@ -430,7 +433,7 @@ void cli_print_summary(const results_outcome *outcome, bool all)
     static const char *const headings[] = {
         [ACCEPTED] = "Doubts that the file accepts",
         [OF_NUMBERS] = "Numbers in doubt (the page and the guide say what each means)",
-        [OF_RANGE] = "Models outside of their range"};
+        [OF_RANGE] = "Models outside their range"};
     for (int which = ACCEPTED; which <= OF_RANGE; which++) {
         page.heading = headings[which];
         for (size_t i = 0; i < pipeline->count; i++)

@@ -36,12 +36,12 @@ static void add_taken(sentence *s, const ff_stage *stage)
         if (*last && strcmp(last, origin) != 0)
             memory_add_text(&s->text, " (%s)", last);
         snprintf(last, sizeof last, "%s", origin);
-        add_to_list(s, "; of the file it takes ", bound->row->name);
+        add_to_list(s, "; it takes from the file ", bound->row->name);
     }
     if (s->count)
         memory_add_text(&s->text, " (%s)", last);
     else
-        memory_add_text(&s->text, "; it takes no parameter of the file");
+        memory_add_text(&s->text, "; it takes no parameter from the file");
 }
 
 static void add_wires(sentence *s, const ff_pipeline *pipeline, const ff_stage *stage)

@@ -22,8 +22,8 @@ void crash_stack_read(crash_stack *stack);
    NULL if there is none. */
 const ff_guard_mark *crash_stack_blame(const crash_stack *stack, const ff_guard_mark *running);
 
-/* Does the same for a call from a library into this program: only the code that called the library
-   counts. */
+/* Like crash_stack_find, for a call from a library into this program: only the code that called the
+ * library counts. */
 const ff_guard_mark *crash_stack_blame_caller(const crash_stack *stack,
                                               const ff_guard_mark *running);
 

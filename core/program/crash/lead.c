@@ -101,7 +101,8 @@ bool crash_describe(const ff_guard_mirror *mark, int status, char *text, size_t 
     else if (number)
         snprintf(text, size, "%s ended the program during %s: signal %d (%s)%s", who, action,
                  number, strsignal(number),
-                 number == SIGKILL ? ", its own or of a system that is short of memory" : "");
+                 number == SIGKILL ? ", sent by its own code or by a system that is short of memory"
+                                   : "");
     else
         snprintf(text, size, "%s ended the program during %s: exit code %d", who, action,
                  WEXITSTATUS(status));

@@ -58,5 +58,5 @@ void crash_add_suspect(char *sentence, size_t size)
                  found);
     else
         snprintf(sentence + length, size - length,
-                 "; flankfilm verify tells of each whether it writes where it must not");
+                 "; flankfilm verify shows for each whether it writes outside its arrays");
 }

@@ -36,10 +36,10 @@ static void print_head(FILE *out, const fit *f, const fit_law *best)
                     f->laws[i].criterion - best->criterion);
     fprintf(
         out,
-        "#\n# The data end at %.4g GPa. From there on, pressure_cap, ln(eta) goes on as a\n"
-        "# straight line, and a run that gets there warns that it left the range of the law.\n"
-        "# Intervals are of 95 %% confidence. eta0 stands in the laws: for a pipeline without a\n"
-        "# stage of an oil.\n",
+        "#\n# The data end at %.4g GPa. Beyond this pressure_cap, ln(eta) continues as a straight\n"
+        "# line, and a run that reaches it warns that it leaves the range of the law.\n"
+        "# Intervals have 95 %% confidence. The laws contain eta0, for a pipeline without an oil\n"
+        "# stage.\n",
         1e-9 * f->data.highest);
 }
 
@@ -71,7 +71,7 @@ static void print_law(FILE *out, const fit_law *law)
             fputs(" to ", out);
             print_quantity(out, param, param->high);
         } else if (param->found == FIT_AT_LIMIT) {
-            fputs("   # its limit: the data want it beyond", out);
+            fputs("   # its limit: the data fit better beyond it", out);
         } else {
             fputs("   # held", out);
         }

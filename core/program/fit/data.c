@@ -145,20 +145,21 @@ static bool check_rows(const fit *f, const fit_data *d)
         if (duplicate < i)
             return ff_error(f->report, FF_FAULT_INPUT, place_of(f, d->row[i], SIZE_MAX), NULL,
                             "this row repeats row %zu of the table to the last digit: a point that "
-                            "counts twice would feign confidence",
+                            "counts twice would make the fit seem more certain",
                             d->row[duplicate] + 1);
     }
     if (same_p)
         return ff_error(f->report, FF_FAULT_INPUT, place_of(f, SIZE_MAX, FIT_PRESSURE), NULL,
-                        "all rows have the pressure %.4g GPa: a law of pressure needs several",
+                        "all rows have the pressure %.4g GPa: a pressure law needs several",
                         1e-9 * d->p[0]);
     if (same_eta)
         return ff_error(f->report, FF_FAULT_INPUT, place_of(f, SIZE_MAX, FIT_VISCOSITY), NULL,
                         "the viscosity is the same in all rows: there is no rise to fit");
     if (d->isothermal && covariance(d) < 0)
-        return ff_error(f->report, FF_FAULT_INPUT, place_of(f, SIZE_MAX, FIT_VISCOSITY), NULL,
-                        "the viscosity falls with pressure, which no oil's does: are the columns "
-                        "what they say?");
+        return ff_error(
+            f->report, FF_FAULT_INPUT, place_of(f, SIZE_MAX, FIT_VISCOSITY), NULL,
+            "the viscosity falls with pressure, unlike that of any oil: are the columns "
+            "what they say?");
     return true;
 }
 

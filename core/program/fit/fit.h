@@ -36,7 +36,7 @@ typedef struct fit_law {
     char *id;                /* "viscosity/roelands" */
     fit_param *params;
     size_t param_count;
-    char *refusal; /* why the law last refused its parameters; NULL: it never did */
+    char *refusal; /* why the law last refused its parameters; NULL if it never did */
 
     /* "" if it was fitted, else one sentence with the reason, and the other results are not set */
     char why[400];       /* "" if it was fitted, else one sentence with the reason, and the other

@@ -112,7 +112,7 @@ static bool set_param(fit *f, const char *name, const ff_node *node, const fit_l
     }
     return used ? good
                 : ff_error(f->report, FF_FAULT_INPUT, node->place, NULL,
-                           "no law that is fitted has a parameter \"%s\"", name);
+                           "none of the fitted laws has a parameter \"%s\"", name);
 }
 
 static const fit_law *find_law(const fit *f, const char *id)

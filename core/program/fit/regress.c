@@ -151,12 +151,12 @@ static bool has_enough_points(const fit_search *s)
     return (s->data->n >= s->count + 3 && points >= s->count + 1) ||
            fail(s->law,
                 "%zu parameters need %zu rows at %zu different pressures at least, but there "
-                "are %zu at %zu; hold some with --set",
+                "are %zu at %zu; fix some with --set",
                 s->count, s->count + 3, s->count + 1, s->data->n, points);
 }
 
-/* Returns whether the law depends on temperature: without it the viscosity is the same at both
-   ends. */
+/* Returns whether the law depends on temperature, that is, gives different viscosities at the
+ * lowest and the highest one. */
 static bool depends_on_temperature(fit_search *s, const double *x)
 {
     const fit_data *d = s->data;
@@ -192,10 +192,10 @@ static bool hold_limit(fit_search *s, const double *x)
             continue;
         const fit_param *param = param_of(s, axis->param);
         double value = x[j] > axis->low + near ? fit_axis_value(axis, axis->high) : axis->least;
-        add_note(
-            s->law,
-            "%s is at its limit, %s: the data want it beyond. The intervals hold for that value.",
-            param->row->name, print_value(param, value, text));
+        add_note(s->law,
+                 "%s is at its limit, %s: the data fit better beyond it. The intervals hold for "
+                 "that value.",
+                 param->row->name, print_value(param, value, text));
         hold(s, j, value, FIT_AT_LIMIT);
         return true;
     }
@@ -262,11 +262,13 @@ static bool hold_undetermined(fit_search *s, const decomposition *d)
     double value = fit_axis_value(axis, (axis->from + axis->to) / 2);
     print_value(param, value, text);
     if (strchr(names, ','))
-        add_note(s->law,
-                 "%s is held at %s: such data cannot tell %s apart. Hold what you know with --set.",
-                 param->row->name, text, names);
+        add_note(
+            s->law,
+            "%s is fixed at %s: these data cannot distinguish %s. Fix what you know with --set.",
+            param->row->name, text, names);
     else
-        add_note(s->law, "%s is held at %s: the data say nothing of it.", param->row->name, text);
+        add_note(s->law, "%s is fixed at %s: the data do not determine it.", param->row->name,
+                 text);
     hold(s, narrowest, value, FIT_HELD);
     return true;
 }
@@ -337,7 +339,7 @@ static void note_range(const fit_search *s)
         double number = ff_unit_from_si(param->unit, param->value);
         const ff_param *row = param->row;
         if (row->low < row->high && (number < row->low || number > row->high))
-            add_note(s->law, "%s is outside of its calibrated range, %g to %g%s%s.", row->name,
+            add_note(s->law, "%s is outside its calibrated range, %g to %g%s%s.", row->name,
                      row->low, row->high, strcmp(row->unit, "1") ? " " : "",
                      strcmp(row->unit, "1") ? row->unit : "");
     }
@@ -418,7 +420,7 @@ static bool take_result(fit_search *s, const double *x, const decomposition *d)
     double p = s->fit->at[FIT_PRESSURE], T = s->data->temperature;
     if (!isnan(p) && !s->data->isothermal)
         add_note(law,
-                 "Its viscosity at that pressure needs a temperature beside it, another --at.");
+                 "Its viscosity at that pressure also depends on temperature: add another --at.");
     if (!isnan(p) && s->data->isothermal &&
         fit_law_eval(s->fit, law, s->values, 1, &p, isnan(T) ? NULL : &T, &law->asked))
         law->asked = exp(law->asked);
@@ -432,11 +434,11 @@ static bool search(fit_search *s)
     double x[FIT_MOST_FREE];
     while (s->count > 0) {
         if (!fit_search_run(s, x))
-            return fail(law, "no least squares were reached%s%s", law->refusal ? ": " : "",
-                        law->refusal ? law->refusal : "");
+            return fail(law, "the search for the least squares did not converge%s%s",
+                        law->refusal ? ": " : "", law->refusal ? law->refusal : "");
         if (!s->data->isothermal && !depends_on_temperature(s, x))
             return fail(law,
-                        "it knows no temperature, and the data have several; choose one, "
+                        "it does not depend on temperature, but the data have several; choose one, "
                         "such as --at \"%g degC\"",
                         s->data->T[0] - 273.15);
         if (hold_limit(s, x))

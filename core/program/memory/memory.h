@@ -14,7 +14,7 @@ char *memory_print_text(const char *format, ...) __attribute__((format(printf, 1
 /* Appends printed text to a text allocated by these functions. The text may move. */
 void memory_add_text(char **text, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Sorts items of that size by the double at their start. */
+/* Sorts items of this size by the double at their start. */
 void memory_sort(void *items, size_t count, size_t size);
 
 /* Memory of one owner that is freed all at once. Starts zeroed. */
@@ -27,7 +27,7 @@ void *memory_arena_alloc(memory_arena *arena, size_t size);
 /* Makes room for one more item after `count` items. Returns the array, which may have moved. */
 void *memory_arena_grow(memory_arena *arena, void *items, size_t count, size_t size);
 char *memory_arena_text(memory_arena *arena, const char *text, size_t length);
-/* Moves a text that was allocated by itself. */
+/* Copies the text into the arena and frees it. */
 char *memory_arena_take(memory_arena *arena, char *text);
 void memory_arena_free(memory_arena *arena);
 

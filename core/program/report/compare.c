@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The table of what several designs gave, and their series. */
+/* Makes the table of the results of several designs, and draws their series. */
 #include "compare.h"
 #include "page.h"
 
@@ -10,18 +10,19 @@
 #include <string.h>
 
 enum { ROOM = 3 * STUDY_NUMBER_SIZE };
-static const double noise = 1e-12; /* relative, of sums in another order */
+static const double noise = 1e-12; /* relative round-off of sums in another order */
 
 /* A number of a design. */
 typedef struct number {
-    double value, bar; /* SI; NaN: there is none; an infinite bar: it is not known */
+    double value, bar; /* SI; value NaN: there is none; bar infinite: the error is not known */
 } number;
 
-/* Which number of an output a row has. */
+/* Selects the number of an output for a row. */
 typedef enum { WHOLE, FIRST, SECOND, LEAST, LARGEST } part;
 
-/* Whether a line "h_min_space_error" of quality says the error of an output. It is that of the
-   output with the longest name that it begins with, and of those derived of it: h_min_lowest. */
+/* Whether a quality line such as "h_min_space_error" states the error of an output: that of the
+ * output with the longest name with which the line begins, and those of outputs derived from it,
+ * such as h_min_lowest. */
 static bool is_error_of(const results_view *view, const results_view_quality *line,
                         const results_view_variable *of)
 {
@@ -42,8 +43,8 @@ static bool is_error_of(const results_view *view, const results_view_quality *li
            (!of->output[own] || of->output[own] == '_') && !strcmp(of->unit, stem->unit);
 }
 
-/* The error of number k of a variable: measured, or the largest share that a line of its stage
-   says. A line without a number says that it is not known. */
+/* Returns the error of number k of a variable: as measured, or the largest relative error stated by
+ * a line of its stage. A line without a number means that the error is not known. */
 static double bar_of(report_page *page, size_t variable, size_t index, size_t k, double value)
 {
     const results_view *view = page->view;
@@ -60,7 +61,7 @@ static double bar_of(report_page *page, size_t variable, size_t index, size_t k,
     return bar;
 }
 
-/* Finds a variable by its name; -1. */
+/* Finds a variable by its name; -1 if there is none. */
 static int find(const results_view *view, const char *name)
 {
     for (size_t v = 0; v < view->variable_count; v++)
@@ -77,7 +78,7 @@ static size_t rank_of(const results_view_variable *of, const ff_array *array, pa
     return *of->whole ? of->extremes[what == LARGEST] : what == LEAST ? at.least : at.greatest;
 }
 
-/* Reads a number of a design. False after an error. */
+/* Reads a number of a design. Returns false after an error. */
 static bool read_number(const report_design *design, const char *name, part what, number *out)
 {
     report_page page = {.view = design->view};
@@ -103,8 +104,8 @@ static void print_number(number n, const study_readable *unit, bool signs, char 
              n.bar > 0 ? " +- " : "", n.bar > 0 ? bar : "");
 }
 
-/* What the difference of a design to the first one is: the bars of both add up, since errors of
-   one kind have one sign as often as not. */
+/* Prints the difference of a design from the first one. Its bar is the sum of both bars, since
+ * errors of the same kind need not cancel. */
 static void print_difference(number first, number other, const study_readable *unit,
                              char out[2 * ROOM])
 {
@@ -121,7 +122,7 @@ static void print_difference(number first, number other, const study_readable *u
     if (fabs(d.value) <= noise * fabs(first.value))
         snprintf(out, 2 * ROOM, "the same");
     else if (fabs(d.value) <= d.bar)
-        snprintf(out, 2 * ROOM, "%s: smaller than what is known", text);
+        snprintf(out, 2 * ROOM, "%s: less than the errors", text);
     else if (plain)
         snprintf(out, 2 * ROOM, "%s (%s%s %%)", text, share > 0 ? "+" : "", percent);
     else
@@ -136,7 +137,7 @@ static void set(json_t *row, const char *name, size_t rank, json_t *value)
     json_object_set_new(row, key, value);
 }
 
-/* Adds the row of one number of an output. False after an error. */
+/* Adds the row for one number of an output. Returns false after an error. */
 static bool add_row(json_t *rows, const results_view_variable *of, part what,
                     const report_design *designs, size_t count)
 {
@@ -165,7 +166,7 @@ static bool add_row(json_t *rows, const results_view_variable *of, part what,
     return good;
 }
 
-/* Whether an earlier design has the output, too. */
+/* Whether an earlier design also has the output. */
 static bool is_known(const report_design *designs, size_t before, const char *name)
 {
     for (size_t i = 0; i < before; i++) {
@@ -176,8 +177,8 @@ static bool is_known(const report_design *designs, size_t before, const char *na
     return false;
 }
 
-/* Adds the rows of an output: one of a scalar, two of a series or of a pair of gears; none of a
-   field, and of a series that only says where others stand. */
+/* Adds the rows for an output: one for a scalar, two for a series or for the values of two gears,
+ * none for a field or for a series that is only the axis of others. */
 static bool add_output(json_t *rows, size_t v, size_t owner, const report_design *designs,
                        size_t count)
 {
@@ -195,7 +196,7 @@ static bool add_output(json_t *rows, size_t v, size_t owner, const report_design
            add_row(rows, of, pair ? SECOND : LARGEST, designs, count);
 }
 
-/* How each design stands to the limits of its file, and what is in doubt of it. */
+/* Prints for each design whether it meets the limits of its file, and what is doubtful. */
 static void say_verdicts(study_answer *answer, const report_design *designs, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
@@ -205,11 +206,11 @@ static void say_verdicts(study_answer *answer, const report_design *designs, siz
                          *c->reasons ? ", " : "", c->reasons,
                          *c->range ? "; outside the range of a model: " : "", c->range,
                          *c->limits_text ? "; limits " : "", c->limits_text,
-                         i == 0 ? "; the others are held against it" : "");
+                         i == 0 ? "; the others are compared with it" : "");
     }
 }
 
-/* Draws a series that every design has along its path of contact. False after an error. */
+/* Draws a series that every design has along its path of contact. Returns false after an error. */
 static bool draw(study_answer *answer, const results_view_variable *of,
                  const report_design *designs, size_t count)
 {

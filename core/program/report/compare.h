@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Two or more designs side by side: what each gave, how it differs from the first, and whether the
- * difference is larger than what the numbers are known to.
- */
+/* Compares two or more designs: their results, the differences from the first, and whether these
+ * are larger than the errors. */
 #ifndef REPORT_COMPARE_H
 #define REPORT_COMPARE_H
 
@@ -16,9 +14,9 @@ typedef struct report_design {
     const char *name; /* "results/a", "results/study:3" */
 } report_design;
 
-/* Adds the table of the outputs that the designs' files ask for, of the scalars and the extremes
-   of series, and the drawings of the series that all of them have along the path of contact. False
-   after an error, which the view has reported. */
+/* Adds the table of the requested outputs (scalars and extremes of series), and figures of the
+ * series that all designs have along the path of contact. Returns false after an error, which the
+ * view has reported. */
 bool report_compare(study_answer *answer, const report_design *designs, size_t count);
 
 #endif

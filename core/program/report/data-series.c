@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Numbers that the template draws, packed: those of a series, the words and the units of outputs.
+/* Packs the numbers of series for the template's figures, with the names and units of the outputs.
  */
 #include "page.h"
 
@@ -12,8 +12,8 @@
 #include <string.h>
 
 enum {
-    MOST_POINTS = 2800, /* of a series; four in each column of a drawing */
-    MOST_WHOLE = 50000  /* of one that is not thinned */
+    MOST_POINTS = 2800, /* points of a series; four for each column of pixels */
+    MOST_WHOLE = 50000  /* points of a series that is kept whole */
 };
 
 static void put_base64(const unsigned char *bytes, size_t size, char *out)
@@ -77,8 +77,8 @@ json_t *report_describe(report_data *d, size_t variable, double magnitude)
     return said;
 }
 
-/* Keeps the first, lowest, highest and last of some points and the begin of each gap, in their
-   order. */
+/* Keeps the first, lowest, highest and last of a group of points and the start of each gap, in
+ * their order. */
 static size_t keep_extremes(const double *y, size_t from, size_t to, size_t *kept)
 {
     size_t low = from, high = from, count = 0;
@@ -92,9 +92,9 @@ static size_t keep_extremes(const double *y, size_t from, size_t to, size_t *kep
     return count;
 }
 
-/* Fills in the ranks of the points that are kept: of a long curve, the extremes of each run of
-   points. Series that run along no rising axis, such as those of an atlas, belong together point by
-   point: they are kept whole as far as there is room. */
+/* Writes the indices of the points that are kept. A long curve keeps the extremes of each group of
+ * points. Series without a rising axis, such as those of an atlas, must keep the same points, so
+ * they are kept whole as far as there is room. */
 static size_t choose_points(const double *x, const double *y, size_t count, size_t *kept)
 {
     size_t run = count / (MOST_POINTS / 4) + 1, used = 0;
@@ -114,7 +114,7 @@ double report_magnitude(const ff_array *array)
     return fmax(0, fmax(fabs(found.low), fabs(found.high))); /* 0: nothing is known */
 }
 
-/* Adds the ends of a share, such as a friction coefficient, where there is load. */
+/* For a share such as a friction coefficient, adds its extremes among the points with load. */
 static void add_ends(json_t *series, const results_view_variable *of, const ff_array *y)
 {
     const size_t count = report_array_size(y);

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * The numbers that the template draws, as one JSON object in the page: scalars over the cases, the
- * series of a few cases, fields at some instants. They are in SI, as little-endian 32-bit floats in
- * base64; each output has its words and the unit in which people read it. What is drawn, and how,
- * is decided by the template.
- */
+/* Writes the numbers for the template's figures into the page as one JSON object: scalars over the
+ * cases, the series of a few cases, and fields at some instants. Numbers are in SI, as
+ * little-endian 32-bit floats in base64. Each output has its name in words and a readable unit. The
+ * template decides what to draw and how. */
 #include "page.h"
 
 #include "../memory/memory.h"
@@ -17,16 +15,16 @@
 #include <string.h>
 
 enum {
-    MOST_SCALARS = 300000, /* numbers of all scalars and axes of a study */
-    MOST_NAMED = 200,      /* points of an axis that have names */
-    MOST_SERIES = 4,       /* cases of a study whose series are in the page */
-    FRAMES = 121,          /* of a field */
+    MOST_SCALARS = 300000, /* in all scalars and axes of a study */
+    MOST_NAMED = 200,      /* points of an axis with names */
+    MOST_SERIES = 4,       /* cases whose series are in the page */
+    FRAMES = 121,          /* numbers of a field */
     CELLS = 513,
     MOST_FIELDS = 12
 };
 
-/* Describes an axis of a study by the points that are kept: their numbers, NaN for words, and what
-   they are called where they are few. */
+/* Describes the kept points of a study's axis: their numbers (NaN for words) and, if they are few,
+ * their names. */
 static json_t *describe_axis(const results_view *view, const results_view_axis *axis, size_t step)
 {
     const size_t count = (view->lengths[axis->dimension] + step - 1) / step;
@@ -55,7 +53,7 @@ static json_t *describe_axis(const results_view *view, const results_view_axis *
     return said;
 }
 
-/* Thins the points of the longest dimensions until no more than so many cases are left. */
+/* Drops points of the longest dimensions until at most that many cases are left. */
 static size_t choose_steps(const results_view *view, size_t most, size_t *steps)
 {
     for (size_t d = 0; d < view->dimension_count; d++)
@@ -74,7 +72,7 @@ static size_t choose_steps(const results_view *view, size_t most, size_t *steps)
     }
 }
 
-/* Lists the cases that are kept; to be freed. */
+/* Returns the list of the kept cases, to be freed. */
 static size_t *list_cases(const results_view *view, const size_t *steps, size_t count)
 {
     size_t *cases = memory_alloc((count + 1) * sizeof *cases);
@@ -109,7 +107,7 @@ static void add_scalar(report_data *d, json_t *scalars, size_t variable, const s
     free(f.values);
 }
 
-/* Adds the scalars: of a run one number each, of a study one for each case that is kept. */
+/* Adds the scalars: one number each for a run, one for each kept case for a study. */
 static void add_scalars(report_data *d, json_t *all)
 {
     const results_view *view = d->page->view;
@@ -150,7 +148,7 @@ static void add_scalars(report_data *d, json_t *all)
     free(steps);
 }
 
-/* Says whether a case has kept a series; a repeat in a trade-off has none. */
+/* Returns whether a case has kept a series; a repeat in a trade-off has none. */
 static bool has_series(const results_view *view, size_t index)
 {
     size_t shape[4];
@@ -160,8 +158,8 @@ static bool has_series(const results_view *view, size_t index)
     return false;
 }
 
-/* Says whether a case went well, has series, and differs from the first one along the longest
-   dimension alone, or along any when `all`. */
+/* Returns whether a case succeeded, has series, and differs from the first one only along the
+ * longest dimension (with `all`: along any). */
 static bool is_choice(const results_view *view, size_t index, bool all)
 {
     size_t longest = 0;
@@ -175,8 +173,8 @@ static bool is_choice(const results_view *view, size_t index, bool all)
     return true;
 }
 
-/* Chooses the case of a run; of a study, a few that are spread over those that went well, one chain
-   of it if that has enough. `good` is how many there are to choose from. */
+/* Chooses the case of a run. For a study, chooses a few cases, spread evenly over the successful
+ * ones, all from one chain if it has enough. `good` is the number of candidates. */
 static size_t choose_cases(const results_view *view, size_t chosen[MOST_SERIES], size_t *good)
 {
     size_t seen = 0, line = 0, count = 0;
@@ -194,12 +192,12 @@ static size_t choose_cases(const results_view *view, size_t chosen[MOST_SERIES],
             chosen[count++] = c;
         seen++;
     }
-    if (!view->study && count == 0) /* a run that failed has kept what it has */
+    if (!view->study && count == 0) /* a failed run may have kept some series */
         chosen[count++] = 0;
     return count;
 }
 
-/* Adds the series of some cases, and of each the points of its path of contact. */
+/* Adds the series of the chosen cases, and the points of their paths of contact. */
 static void add_all_series(report_data *d, json_t *all)
 {
     const results_view *view = d->page->view;
@@ -219,19 +217,19 @@ static void add_all_series(report_data *d, json_t *all)
     json_object_set_new(all, "series", series);
 }
 
-/* The fields of one stage, which have one shape. */
+/* The fields of one stage, which all have the same shape. */
 typedef struct fields {
     size_t variables[MOST_FIELDS], count, frames, cells;
     size_t extremes[2 * MOST_FIELDS]; /* the instants of their extremes */
 } fields;
 
-/* Returns the index of point k of `kept` points that are spread over `count`. */
+/* Returns the index of point k when `kept` points are spread evenly over `count`. */
 static size_t sample_index(size_t k, size_t kept, size_t count)
 {
     return kept > 1 ? k * (count - 1) / (kept - 1) : 0;
 }
 
-/* Lists the instants that are kept: some that are spread evenly, and those of the extremes. */
+/* Lists the kept instants: some evenly spread, and those of the extremes. */
 static size_t choose_frames(const fields *m, size_t *chosen)
 {
     bool *kept = memory_alloc(m->frames * sizeof *kept);
@@ -248,7 +246,7 @@ static size_t choose_frames(const fields *m, size_t *chosen)
     return count;
 }
 
-/* Takes a field; one of another shape than the first is left out. */
+/* Adds a field; leaves it out if its shape differs from that of the first. */
 static void take_field(report_data *d, fields *m, size_t variable)
 {
     ff_array array = report_load(d->page, (int)variable, 0);
@@ -257,7 +255,7 @@ static void take_field(report_data *d, fields *m, size_t variable)
         (m->count == 0 || (array.shape[0] == m->frames && array.shape[1] == m->cells));
     if (good) {
         const report_extremes found = report_find_extremes(&array);
-        double size = 0; /* of the middle of the contact: away from it the gap is open */
+        double size = 0; /* from the middle of the contact: the gap is wide outside */
         m->frames = array.shape[0];
         m->cells = array.shape[1];
         for (size_t k = 0; k < m->frames; k++) {
@@ -272,7 +270,8 @@ static void take_field(report_data *d, fields *m, size_t variable)
     report_release(d->page, &array);
 }
 
-/* Packs a series that stands along the fields, or its ranks, and says of which output it is. */
+/* Packs a series along an axis of the fields, or its indices if there is none, with the name of its
+ * output. */
 static json_t *pack_along(report_data *d, json_t *made, const char *name, uint32_t dim,
                           const fields *m, const size_t *chosen, size_t count)
 {
@@ -288,7 +287,7 @@ static json_t *pack_along(report_data *d, json_t *made, const char *name, uint32
     return packed;
 }
 
-/* Describes the fields of a stage at the instants, and in the cells, that are kept. */
+/* Describes the fields of a stage at the kept instants and cells. */
 static json_t *describe_fields(report_data *d, size_t stage, const fields *m)
 {
     const results_view *view = d->page->view;

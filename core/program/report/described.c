@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Writes HTML from a description in JSON of a study or a comparison: its drawings, sentences and
- * tables. Only the drawings need scripts. */
+/* Writes HTML from the JSON description of a study or a comparison: its figures, sentences and
+ * tables. Only figures need scripts. */
 #include "page.h"
 
 #include "../study/kinds/answer/text.h"

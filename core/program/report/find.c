@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Finds what a figure needs among the results. */
+/* Finds the variables for a figure among the results. */
 #include "page.h"
 
 #include "../memory/memory.h"
@@ -41,7 +41,7 @@ bool report_is_axis(const results_view *view, size_t series)
     return false;
 }
 
-/* Says whether a variable is a series of `count` points. */
+/* Returns whether a variable is a series of `count` points. */
 static bool is_series_of(const results_view *view, size_t series, size_t index, size_t count)
 {
     size_t shape[4];
@@ -130,7 +130,7 @@ static double find_scalar(report_page *page, const char *output, size_t index)
 
 const char *const report_mark_names[REPORT_MARKS] = {"SAP", "LPSTC", "pitch", "HPSTC", "tip"};
 
-/* The stations of a gear pair name LPSTC and HPSTC twice each, and nothing else. */
+/* In the stations of a gear pair, only LPSTC and HPSTC occur twice. */
 static void find_jumps(report_page *page, size_t index, report_marks *marks)
 {
     double found[2] = {NAN, NAN};
@@ -181,7 +181,7 @@ report_scalar report_load_scalar(report_page *page, size_t variable)
         ff_array array = report_load(page, (int)variable, c);
         s.values[c] = array.data ? array.data[0] : (double)NAN;
         report_release(page, &array);
-        s.low = fmin(s.low, s.values[c]); /* which drop NaN */
+        s.low = fmin(s.low, s.values[c]); /* fmin and fmax drop NaN */
         s.high = fmax(s.high, s.values[c]);
     }
     s.unit =

@@ -10,8 +10,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* What a page is put together from: files of the source that are installed as
-   share/flankfilm/template, or those of a lab's own folder that have their names. */
+/* The files from which a page is made: those installed in share/flankfilm/template, or files of the
+ * same names in the user's own folder. */
 static const char *const layout[] = {
 #include "layout.html.inc"
     NULL};
@@ -33,7 +33,7 @@ static const char *const choice_script[] = {
 static const char *const page_script[] = {
 #include "script.js.inc"
     NULL};
-/* the plotting library; 0 alone when the build had none */
+/* the plotting library; only a 0 if the build had none */
 static const unsigned char library[] = {
 #include "library.js.inc"
     0};
@@ -63,7 +63,7 @@ typedef struct text {
 
 struct report_template {
     text parts[PARTS];
-    text style, script; /* what stands in the page's elements */
+    text style, script; /* contents of the page's elements */
 };
 
 static const char names_of_parts[] = "layout.html, figure.css, page.css, figure.js, "
@@ -79,7 +79,7 @@ static text join(const char *const *lines)
     return joined;
 }
 
-/* Reads a file of the folder; its text stays NULL where there is none. */
+/* Reads a file of the folder; if it does not exist, its text stays NULL. */
 static text read_part(const char *folder, const char *name)
 {
     text read = {NULL, 0};
@@ -97,7 +97,7 @@ static text read_part(const char *folder, const char *name)
     return read;
 }
 
-/* Finds the next "{{name}}" of a layout, and what stands behind it; NULL: there is none. */
+/* Finds the next "{{name}}" of a layout, and the text after it; NULL if there is none. */
 static const char *find_hole(const char *from, char name[16], const char **behind)
 {
     const char *hole = strstr(from, "{{"), *end = hole ? strstr(hole, "}}") : NULL;
@@ -116,7 +116,8 @@ static bool check_layout(const char *of, const char *folder, ff_report *report)
     char name[16];
     const char *at = of;
     if (strncmp(of, REPORT_BEGINS, strlen(REPORT_BEGINS)) != 0 || !strstr(of, "flankfilm"))
-        return ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, "begin with the installed one",
+        return ff_error(report, FF_FAULT_INPUT, FF_NOWHERE,
+                        "start from a copy of the installed layout",
                         "%s/layout.html does not begin with \"%s\", or does not name flankfilm",
                         folder, REPORT_BEGINS);
     while (find_hole(at, name, &at)) {
@@ -126,16 +127,16 @@ static bool check_layout(const char *of, const char *folder, ff_report *report)
         const char *near = i < HOLES ? NULL : ff_nearest(name, holes, HOLES);
         if (i == HOLES)
             return ff_error(report, FF_FAULT_INPUT, FF_NOWHERE,
-                            "policy, title, style, page and script are put in",
-                            "%s/layout.html: nothing is called {{%s}}%s%s%s", folder, name,
+                            "the names are policy, title, style, page and script",
+                            "%s/layout.html: unknown name {{%s}}%s%s%s", folder, name,
                             near ? "; did you mean {{" : "", near ? near : "", near ? "}}?" : "");
         pages = pages || !strcmp(name, "page");
     }
     return pages || ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
-                             "%s/layout.html has no place {{page}} for the page", folder);
+                             "%s/layout.html has no {{page}}, where the page would go", folder);
 }
 
-/* Puts the elements of the page together. */
+/* Assembles the elements of the page. */
 static void assemble(report_template *made)
 {
     FILE *out = memory_require(open_memstream(&made->style.text, &made->style.length));
@@ -163,8 +164,8 @@ report_template *report_template_open(const char *folder, ff_report *report)
     if (!folder || (own > 0 && check_layout(made->parts[LAYOUT].text, folder, report)))
         return made;
     if (own == 0)
-        ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, "copy some of share/flankfilm/template",
-                 "--template %s: there is none of %s", folder, names_of_parts);
+        ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, "copy files from share/flankfilm/template",
+                 "--template %s: the folder has none of %s", folder, names_of_parts);
     report_template_close(made);
     return NULL;
 }
@@ -180,8 +181,8 @@ void report_template_close(report_template *of)
     free(of);
 }
 
-/* Nothing but what the page itself brings is run or applied, whatever its texts hold. The plotting
-   library sets the attribute `style` of what it draws. */
+/* A content security policy: the browser runs only the page's own scripts and styles, whatever its
+ * texts contain. The plotting library sets the attribute `style` of its elements. */
 static void put_policy(const report_template *with, FILE *out)
 {
     char style[SHA256_BASE64], script[SHA256_BASE64];
@@ -193,7 +194,7 @@ static void put_policy(const report_template *with, FILE *out)
             style, script);
 }
 
-/* Writes the layout with what belongs into its places. */
+/* Writes the layout with the elements in their places. */
 static void write_layout(const report_template *with, FILE *out, const char *title,
                          const text *page)
 {
@@ -242,8 +243,8 @@ static void write_sections(report_page *page)
     for (size_t i = 0; i < sizeof sections / sizeof *sections && !page->failed; i++)
         sections[i](page);
     if (page->thinned)
-        fputs("<p class=\"note\">Long curves show the first, lowest, highest and last of each run "
-              "of points; large maps and fields show fewer points than the results have. "
+        fputs("<p class=\"note\">Long curves show the first, lowest, highest and last of each "
+              "group of points; large maps and fields show fewer points than the results have. "
               "<code>flankfilm export</code> writes all numbers.</p>\n",
               page->out);
 }

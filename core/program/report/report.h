@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The report is one page that holds all it needs and uses no network. */
+/* Writes the report, a single page that needs no other files and no network. */
 #ifndef REPORT_REPORT_H
 #define REPORT_REPORT_H
 
@@ -13,20 +13,19 @@
 /* Files from which pages are made: layout, styles and scripts. */
 typedef struct report_template report_template;
 
-/* Opens the program's files. If `folder` is not NULL, those files named layout.html, figure.css,
- * page.css, figure.js, answers.js, choose.js and script.js that it has are taken instead. NULL
- * after an error.
+/* Opens the program's files. If `folder` is not NULL, its files named layout.html, figure.css,
+ * page.css, figure.js, answers.js, choose.js and script.js are used instead. NULL after an error.
  */
 report_template *report_template_open(const char *folder, ff_report *report);
 void report_template_close(report_template *of); /* NULL is allowed */
 
-/* Writes the page to a file. `best` are texts "OUTPUT=least" or "OUTPUT=largest": outputs of a
- * sweep of which the page names the best. False after an error, which is in `report`; the view must
- * have the same report. */
+/* Writes the page to a file. `best` has texts such as "OUTPUT=least" or "OUTPUT=largest": outputs
+ * of a sweep whose best values the page names. Returns false after an error, which is in `report`;
+ * the view must have the same report. */
 bool report_write(const results_view *view, const report_template *with, const char *const *best,
                   size_t best_count, const char *path, ff_report *report);
 
-/* Writes a page that has figures only; `json` is a list of their descriptions. */
+/* Writes a page with figures only; `json` is a list of their descriptions. */
 void report_write_figures(FILE *out, const report_template *with, const char *title,
                           const char *json);
 

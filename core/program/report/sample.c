@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Samples of inputs: points that stand in no order, and how values are distributed over them. */
+/* Recognises samples of inputs, and computes the distribution of values over a sample. */
 #include "page.h"
 
 #include "../memory/memory.h"
@@ -17,7 +17,7 @@ static bool is_numeric(const results_view *view, const results_view_axis *axis)
     return true;
 }
 
-/* Rows of a load spectrum count by their times. */
+/* Rows of a load spectrum are weighted by their times, so they are not a sample. */
 static bool is_spectrum(const results_view *view)
 {
     for (size_t i = 0; i < view->figures_count; i++)
@@ -26,7 +26,7 @@ static bool is_spectrum(const results_view *view)
     return false;
 }
 
-/* Says whether the points stand in no order along any input, and each counts as much. */
+/* Returns whether the cases are a sample: not ordered along any input, and of equal weight. */
 bool report_is_sample(const results_view *view)
 {
     size_t inputs = 0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The best of a sweep of several axes: for each condition, such as a torque, a table names the
-   values of what is chosen, such as a relief, that are best. */
+/* Writes the best cases of a sweep over several axes: for each condition, such as a torque, the
+ * table has the best choice, such as a relief. */
 #include <flankfilm/engine.h>
 
 #include "page.h"
@@ -123,7 +123,7 @@ static json_t *best_cell(const report_scalar *f, const report_sides *s, size_t f
                      results_json_text(f->page->view->variables[f->variable]->name));
 }
 
-/* Lists the outputs that the table has: those of the reader's choice, or all that vary. */
+/* Lists the outputs of the table: those named by --best, or all that vary. */
 static size_t list_outputs(report_page *page, report_scalar list[MOST_OUTPUTS])
 {
     const results_view *view = page->view;
@@ -143,7 +143,7 @@ static size_t list_outputs(report_page *page, report_scalar list[MOST_OUTPUTS])
     return count;
 }
 
-/* A head of two lines, the second of which is small. */
+/* Returns a head of two lines, with the second in small type. */
 static json_t *two_lines(const char *above, char *below)
 {
     json_t *head = json_pack("[o, {s:s, s:o}]", results_json_text(above), "as", "div", "of",
@@ -152,7 +152,7 @@ static json_t *two_lines(const char *above, char *below)
     return head;
 }
 
-/* Says of which paths the values are that stand behind "at", in their order. */
+/* Names the paths whose values follow "at", in their order. */
 static json_t *chosen_head(const results_view *view, const report_sides *s)
 {
     char *list = NULL;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Small tables of a scalar over all cases of a sweep, for what no figure can hold. */
+/* Writes a scalar over all cases of a sweep as small tables, if there are too many values for a
+ * figure. */
 #include "page.h"
 
 #include "../memory/memory.h"
@@ -10,7 +11,7 @@
 
 enum { MOST_COLUMNS = 16, MOST_ROWS = 40, MOST_PANELS = 60 };
 
-/* The longest dimension of those that are left; -1: none is. */
+/* Returns the longest of the remaining dimensions; -1 if none is left. */
 static int take_longest(const results_view *view, bool *left)
 {
     int best = -1;
@@ -22,7 +23,7 @@ static int take_longest(const results_view *view, bool *left)
     return best;
 }
 
-/* What a small table shows. */
+/* The contents of a small table. */
 typedef struct panel {
     const report_scalar *scalar;
     size_t first;
@@ -125,7 +126,8 @@ bool report_write_grids(const report_scalar *scalar)
     report_sides s = report_sides_of(view);
     panel p = {.scalar = scalar, .across = take_longest(view, s.chosen)};
     p.down = take_longest(view, s.chosen);
-    for (size_t d = 0; d < view->dimension_count; d++) /* what is left has a table for each point */
+    for (size_t d = 0; d < view->dimension_count; d++) /* each point of the remaining dimensions has
+                                                        * a table */
         s.met[d] = s.met[d] || s.chosen[d];
     if (p.down < 0)
         p.down = take_longest(view, s.met);
@@ -139,12 +141,13 @@ bool report_write_grids(const report_scalar *scalar)
         shown[p.across] = true;
         if (p.down >= 0)
             shown[p.down] = true;
-        report_print(
-            page->out,
-            "<div class=\"broad\"><h3>%s: %s</h3>\n<p class=\"note\">across: %s%s%s; shading runs "
-            "from the least to the largest value of each table</p>\n<div class=\"grids\">\n",
-            view->variables[scalar->variable]->name, scalar->label, path_of(view, p.across),
-            p.down < 0 ? "" : "; down: ", p.down < 0 ? "" : path_of(view, p.down));
+        report_print(page->out,
+                     "<div class=\"broad\"><h3>%s: %s</h3>\n<p class=\"note\">columns: %s%s%s; in "
+                     "each table, shading increases from the least to the largest value</p>\n<div "
+                     "class=\"grids\">\n",
+                     view->variables[scalar->variable]->name, scalar->label,
+                     path_of(view, p.across),
+                     p.down < 0 ? "" : "; down: ", p.down < 0 ? "" : path_of(view, p.down));
     }
     for (size_t k = 0; good && k < panels && k < MOST_PANELS; k++) {
         char name[REPORT_TEXT_SIZE];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How the answers stand to the limits of the file. */
+/* Writes whether the answers meet the limits of the file. */
 #include <flankfilm/engine.h>
 
 #include "page.h"
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The limit of an output in a case; NULL: there is none. */
+/* Returns the limit of an output in a case; NULL if there is none. */
 static const results_view_limit *limit_of(const results_view *view, size_t variable, size_t index)
 {
     const results_view_case *c = view->cases[index];
@@ -20,7 +20,7 @@ static const results_view_limit *limit_of(const results_view *view, size_t varia
     return NULL;
 }
 
-/* The first limit of an output that any case has. */
+/* Returns the first limit of an output that any case has. */
 static const results_view_limit *any_limit(const results_view *view, size_t variable)
 {
     const results_view_limit *limit = NULL;

@@ -8,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A page is sent to others, whom the folders of its author do not concern. */
+/* Removes the folder from a path: a page is sent to others, who have no use for the author's
+ * folders. */
 static const char *without_folder(const char *text)
 {
     return *text == '/' ? strrchr(text, '/') + 1 : text;

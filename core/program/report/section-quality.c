@@ -10,14 +10,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The guide's table of what a doubt means; names that begin with "_" are endings. */
+/* The guide's table of the meaning of doubts; names that begin with "_" are endings of line names.
+ */
 static const struct {
     const char *name, *text;
 } doubts[] = {
 #include "doubts.inc"
     {NULL, NULL}};
 
-/* The sentences on a line of quality; NULL: the guide has none. */
+/* Returns the guide's sentences on a quality line; NULL if it has none. */
 static const char *meaning_of(const char *name)
 {
     const size_t length = strlen(name);
@@ -40,7 +41,7 @@ json_t *report_line_name(const results_view_quality *line)
     return name;
 }
 
-/* Names the lines that a text is of, each once. */
+/* Writes the names of the lines to which a text belongs, each once. */
 static void put_names(FILE *out, const report_check *checks, size_t count, const char *text)
 {
     for (size_t k = 0; k < count; k++) {
@@ -54,7 +55,7 @@ static void put_names(FILE *out, const report_check *checks, size_t count, const
     }
 }
 
-/* Writes what lines that are not good mean, each sentence once. */
+/* Writes the meanings of the lines that are not good, each sentence once. */
 static void write_meanings(report_page *page, const report_check *checks, size_t count)
 {
     const char **told = memory_alloc((count + 1) * sizeof *told);
@@ -125,7 +126,7 @@ report_check *report_find_checks(const results_view *view, size_t *count)
     return checks;
 }
 
-/* A number in a cell; a limit need not be there. */
+/* Returns a cell with a number; empty if a line has no limit. */
 static json_t *number(double value)
 {
     char text[REPORT_TEXT_SIZE];

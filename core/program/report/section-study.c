@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The sections of a study: each scalar over what is varied, the cases, and those that failed. */
+/* Writes the sections of a study: each scalar over the varied values, the cases, and the failed
+ * ones. */
 #include "page.h"
 
 #include "../memory/memory.h"
@@ -11,8 +12,8 @@
 
 enum { MOST_ROWS = 400, MOST_FAILED = 100 };
 
-/* Writes each scalar as small tables, if the cases are a sweep that has room in them: the template
-   draws what a figure can hold. */
+/* Writes each scalar as small tables, if the cases are a sweep that fits. The template draws the
+ * figures. */
 static void write_grids(report_page *page)
 {
     const results_view *view = page->view;
@@ -28,7 +29,7 @@ static void write_grids(report_page *page)
         if (view->variables[v]->rank != 0)
             continue;
         report_scalar f = report_load_scalar(page, v);
-        if (f.high > f.low) /* the table of verdicts has the constants */
+        if (f.high > f.low) /* constant scalars are in the table of verdicts */
             report_write_grids(&f);
         free(f.values);
     }
@@ -36,7 +37,7 @@ static void write_grids(report_page *page)
     page->out = whole;
     if (length > 0) {
         report_print(page->out,
-                     "<section><details%s><summary>In numbers, over what is varied"
+                     "<section><details%s><summary>Numbers over the varied values"
                      "</summary>\n",
                      varied > 2 ? " open" : "");
         fwrite(text, 1, length, page->out);
@@ -45,7 +46,7 @@ static void write_grids(report_page *page)
     free(text);
 }
 
-/* Says that a table has the first rows alone. */
+/* Notes that a table has only the first rows. */
 static void note_rest(report_page *page, size_t shown, size_t all)
 {
     if (all > shown)
@@ -77,7 +78,7 @@ static void write_failed(report_page *page)
     fputs(failed > 0 ? "</section>\n" : "", page->out);
 }
 
-/* Columns of the table of cases that some case needs. */
+/* Finds the columns of the table of cases that at least one case needs. */
 typedef struct columns {
     bool limits, range;
 } columns;
@@ -141,7 +142,7 @@ static void write_table(report_page *page)
     fputs("</details></section>\n", page->out);
 }
 
-/* Writes what a trade-off or a map of stability has described. */
+/* Writes the figures and tables that a trade-off or a stability map has described. */
 static void write_figures(report_page *page)
 {
     const results_view *view = page->view;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The table that answers what an engineer asks first. */
+/* Writes the answers and verdicts at the top of the page. */
 #include <flankfilm/engine.h>
 
 #include "page.h"
@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LABEL = 60 }; /* bytes that an output is called by, if it has more than one clause */
+enum { LABEL = 60 }; /* length of an output's description in bytes, if it has several clauses */
 
 /* Prints "roll angle 22.3 deg, single contact". */
 static void print_place(report_page *page, FILE *out, int axis, double at)
@@ -33,7 +33,7 @@ static void print_place(report_page *page, FILE *out, int axis, double at)
         fputs(", double contact, recess", out);
 }
 
-/* Prints a number, and " +- 0.4 nm" where its error was measured. */
+/* Prints a number, with " +- 0.4 nm" if its error was measured. */
 static void print_number(report_page *page, FILE *out, size_t variable, double value, size_t at)
 {
     const results_view_variable *of = page->view->variables[variable];
@@ -48,7 +48,8 @@ static void print_number(report_page *page, FILE *out, size_t variable, double v
     report_release(page, &bar);
 }
 
-/* Prints a value, the values of both gears, or what a series goes from and to; then where. */
+/* Prints a value, the values of both gears, or the range of a series, and then where its extremes
+ * are. */
 static void print_values(report_page *page, size_t variable, const ff_array *y, FILE *out,
                          FILE *where)
 {
@@ -85,7 +86,7 @@ static void print_values(report_page *page, size_t variable, const ff_array *y, 
     report_release(page, &x);
 }
 
-/* What an output is called, its name, its values, and where; NULL when it has none. */
+/* Returns the row of an output: description, name, values, and places; NULL if it has no values. */
 static json_t *output_row(report_page *page, size_t variable)
 {
     const results_view_variable *of = page->view->variables[variable];
@@ -109,8 +110,8 @@ static json_t *output_row(report_page *page, size_t variable)
     return row;
 }
 
-/* Counts good lines, lines of numbers in doubt and of bad ones, and, under FF_RANGE, those that say
-   that a model is outside of its range. */
+/* Counts the good, doubtful and bad lines and, under FF_RANGE, those about models outside their
+ * range. */
 static void count_verdicts(const results_view *view, size_t counts[FF_RANGE + 1])
 {
     for (size_t c = 0; c < view->case_count; c++)
@@ -134,9 +135,9 @@ static void write_checks(report_page *page)
         counts[FF_GOOD], counts[FF_DOUBTFUL], counts[FF_BAD], counts[FF_RANGE]);
 }
 
-enum { SHOWN = 6 }; /* of the reasons; the others are folded */
+enum { SHOWN = 6 }; /* reasons shown; the others are folded */
 
-/* Begins an item of the list of so many reasons. */
+/* Begins item i of a list of `count` reasons. */
 static void begin_reason(report_page *page, size_t item, size_t count)
 {
     if (item == 0)
@@ -153,7 +154,7 @@ static void end_reasons(report_page *page, size_t count)
     fputs(count > SHOWN ? "</details>\n" : "", page->out);
 }
 
-/* Writes "film: the domain ends ... (starvation 0.0124, held to 0.01)". */
+/* Writes "film: the domain ends ... (starvation 0.0124, limit 0.01)". */
 static void write_reason(report_page *page, const results_view_quality *line)
 {
     char value[REPORT_TEXT_SIZE], limit[REPORT_TEXT_SIZE];
@@ -172,10 +173,10 @@ static void write_reason(report_page *page, const results_view_quality *line)
     report_number_text(line->limit, limit);
     fputs(" <small>(", page->out);
     report_put_part(page->out, report_line_name(line));
-    report_print(page->out, " = %s, held to %s)</small>", value, limit);
+    report_print(page->out, " = %s, limit %s)</small>", value, limit);
 }
 
-/* Names the doubts of a run that the file accepts, and why. */
+/* Writes the doubts of a run that the file accepts, and why. */
 static void write_accepted(report_page *page)
 {
     const results_view_case *c = page->view->cases[0];
@@ -191,7 +192,8 @@ static void write_accepted(report_page *page)
     fputs(listed ? "</p>\n" : "", page->out);
 }
 
-/* Writes what so many lines say that are not good, of the numbers or of the range of the models. */
+/* Writes the texts of the lines that are not good: those about the numbers, or those about the
+ * ranges of models. */
 static void write_doubts(report_page *page, size_t count, bool range)
 {
     const results_view_case *c = page->view->cases[0];
@@ -206,7 +208,7 @@ static void write_doubts(report_page *page, size_t count, bool range)
     end_reasons(page, listed);
 }
 
-/* The two verdicts of a run, of the numbers and of the range of the models. */
+/* Writes the two verdicts of a run: on the numbers, and on the ranges of the models. */
 static void write_judgement(report_page *page)
 {
     size_t counts[FF_RANGE + 1] = {0};
@@ -227,18 +229,17 @@ static void write_judgement(report_page *page)
                 counts[FF_GOOD], counts[FF_DOUBTFUL], counts[FF_BAD]);
     write_doubts(page, counts[FF_DOUBTFUL] + counts[FF_BAD], false);
     if (counts[FF_RANGE] > 0)
-        fprintf(
-            page->out,
-            "<p class=\"judgement\"><span class=\"badge range\">range</span> %s outside %s range; "
-            "the numbers are not corrected for it:</p>\n",
-            counts[FF_RANGE] == 1 ? "A model is used" : "Models are used",
-            counts[FF_RANGE] == 1 ? "its" : "their");
+        fprintf(page->out,
+                "<p class=\"judgement\"><span class=\"badge range\">range</span> %s outside %s "
+                "range; the numbers are not corrected for this:</p>\n",
+                counts[FF_RANGE] == 1 ? "A model is used" : "Models are used",
+                counts[FF_RANGE] == 1 ? "its" : "their");
     write_doubts(page, counts[FF_RANGE], true);
     write_accepted(page);
 }
 
-/* Whether the table has a row of an output: one that is asked for, or a scalar that was computed
-   besides. Fields and axes are in the figures. */
+/* Whether the table has a row for an output: it was requested, or is another computed scalar.
+ * Fields and axes are in the figures. */
 static bool has_row(const results_view *view, size_t v, bool asked)
 {
     const results_view_variable *of = view->variables[v];
@@ -275,7 +276,8 @@ static void write_table(report_page *page, bool asked, size_t count)
     free(more);
 }
 
-/* Writes what the file asks for, in its order; folded, the scalars that were computed besides. */
+/* Writes the requested outputs, in the order of the file, and other computed scalars in a folded
+ * table. */
 static void write_run(report_page *page)
 {
     write_judgement(page);
@@ -289,7 +291,8 @@ static json_t *value_cell(const report_scalar *f, double value)
     return report_value(of->output, of->unit, value);
 }
 
-/* Adds the least and the largest value of a scalar over the cases, and where they are first. */
+/* Adds the least and the largest value of a scalar over the cases, and the first cases with them.
+ */
 static void add_span(const report_scalar *f, json_t *row)
 {
     const double ends[] = {f->low, f->high};
@@ -342,7 +345,7 @@ static void write_spans(report_page *page)
                                           sample ? " sample" : "", "head", head, "rows", rows));
 }
 
-/* The worst first, and among those the most frequent. */
+/* Sorts the worst lines first, and equally bad ones by frequency. */
 static int compare_checks(const void *a, const void *b)
 {
     const report_check *x = a, *y = b;
@@ -351,7 +354,7 @@ static int compare_checks(const void *a, const void *b)
     return (x->count < y->count) - (x->count > y->count);
 }
 
-/* What the checks say that are not good in some case, in sentences. */
+/* Writes sentences on the checks that are not good in some case. */
 static void write_reasons(report_page *page)
 {
     size_t count, doubts = 0;
@@ -371,8 +374,8 @@ static void write_reasons(report_page *page)
     free(checks);
 }
 
-/* Says how many cases can be trusted, before the reasons. Refused rows of a spectrum have not run.
- */
+/* Writes how many cases can be trusted, and then the reasons. Refused rows of a spectrum have not
+ * run. */
 static void write_counts(report_page *page)
 {
     const results_view *view = page->view;
@@ -407,7 +410,7 @@ static void write_study(report_page *page)
         scalars = scalars || page->view->variables[v]->rank == 0;
     write_counts(page);
     const bool best = report_write_best(page);
-    /* it also counts warnings, which are no checks */
+    /* it also counts warnings, which are not checks */
     report_print(page->out, "<p class=\"note\">%s</p>\n", page->view->summary);
     write_reasons(page);
     fputs(best ? "<details><summary>Least and largest of all cases</summary>\n" : "", page->out);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The SHA-256 of a text, by which a page names the scripts that it may run. */
+/* Computes the SHA-256 of a text. A page's policy identifies its scripts by it. */
 #ifndef REPORT_SHA256_H
 #define REPORT_SHA256_H
 

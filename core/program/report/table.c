@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The printer of tables: HTML from a description in JSON, as page.h says it. */
+/* Prints tables: HTML from the JSON description explained in page.h. */
 #include "page.h"
 
 #include "../results/json.h"
@@ -41,7 +41,7 @@ json_t *report_value(const char *name, const char *si_unit, double si)
     return cell;
 }
 
-/* Writes what stands in a cell: a text, a number, a list of these, or one {"as", "of"}. */
+/* Writes the content of a cell: a text, a number, {"as", "of"}, or a list of these. */
 static void put_part(FILE *out, const json_t *part)
 {
     char text[REPORT_TEXT_SIZE];
@@ -77,7 +77,7 @@ void report_put_part(FILE *out, json_t *part)
     json_decref(part);
 }
 
-/* Writes a cell: a part, or one with attributes around it. */
+/* Writes a cell: its content, or an object with content and attributes. */
 static void put_cell(FILE *out, const json_t *cell, bool above)
 {
     const json_t *inside = json_object_get(cell, "cell"), *si = json_object_get(cell, "si"),

@@ -24,7 +24,8 @@ uint64_t results_input_key(const ff_pipeline *pipeline, const char *accuracy)
     return *accuracy ? study_hash_text(key, accuracy) : key;
 }
 
-/* A file that was moved or renamed is not there any more, and counts as the same. */
+/* Whether both texts name the same file. A file that was moved or renamed cannot be found, and
+ * counts as the same. */
 static bool is_other_file(const char *recorded, const char *file)
 {
     struct stat then, now;
@@ -32,7 +33,7 @@ static bool is_other_file(const char *recorded, const char *file)
            (then.st_dev != now.st_dev || then.st_ino != now.st_ino);
 }
 
-/* Differences, of which the first are told. */
+/* Differences; only the first ones are printed. */
 typedef struct differences {
     char *text;
     size_t count;
@@ -54,7 +55,8 @@ static const char *text_of(const json_t *object, const char *key, const char *ot
     return text ? text : otherwise;
 }
 
-/* Whether the program chose the parameter for the accuracy: the file did not say it. */
+/* Whether the program chose the parameter to reach the accuracy, because the file does not give it.
+ */
 static bool was_chosen(const json_t *chosen, const char *stage, const char *param)
 {
     char *path = memory_print_text("%s.%s", stage, param);
@@ -104,7 +106,7 @@ static void compare_stage(differences *all, const ff_pipeline *pipeline, const f
     json_decref(origin);
 }
 
-/* Returns how the inputs of the stages differ from what an earlier run described, to be freed. */
+/* Returns how the inputs of the stages differ from those of the earlier run, to be freed. */
 static char *compare(const json_t *root, const results_input *input)
 {
     differences all = {.text = memory_print_text("%s", "")};
@@ -155,7 +157,7 @@ static bool check(const char *directory, const char *name, const results_input *
     else
         *replaced = *same ? memory_print_text("%s", "") : compare(root, input);
     if (other && input->replace) {
-        char *text = memory_print_text("they were of %s", recorded);
+        char *text = memory_print_text("the results are of %s", recorded);
         free(*replaced);
         *replaced = text;
     }
@@ -163,7 +165,7 @@ static bool check(const char *directory, const char *name, const results_input *
     return !other || input->replace;
 }
 
-/* Whether result.json is of the same inputs, which its first words tell. */
+/* Whether result.json has the same inputs. Its first members contain their hash. */
 static bool begins_alike(const char *directory, const results_input *input)
 {
     char words[64], found[64] = "", *path = memory_print_text("%s/result.json", directory);

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * What a result directory holds of an earlier run, before another one replaces it: results of the
- * same file may be replaced, and the run says what it replaced; those of another file stay unless
- * the user wants them replaced.
- */
+/* Checks the earlier results in a directory before a run replaces them. Results of the same file
+ * may be replaced, and the run prints how their inputs differ. Results of another file are kept
+ * unless the user allows to replace them. */
 #ifndef RESULTS_EARLIER_H
 #define RESULTS_EARLIER_H
 
@@ -11,24 +9,25 @@
 
 /* The inputs of a run or a study. */
 typedef struct results_input {
-    const char *file; /* as the user named it */
+    const char *file; /* path as the user gave it */
     const char *const *sets;
     size_t set_count;
-    const ff_pipeline *pipeline; /* of a study: of its file, or of its first case */
-    uint64_t key;                /* of what the results depend on */
-    const char *accuracy;        /* that is asked for: "2 %"; "": none */
+    const ff_pipeline *pipeline; /* the pipeline; for a study, that of its file or of its first case
+                                  */
+    uint64_t key;                /* hash of everything on which the results depend */
+    const char *accuracy;        /* the requested accuracy, "2 %"; "" if there is none */
     bool replace;                /* whether results of another file may be replaced */
 } results_input;
 
-/* The key of a pipeline that has been built and has not run, and of the accuracy. */
+/* Returns the hash of a built pipeline, before it runs, and of the requested accuracy. */
 uint64_t results_input_key(const ff_pipeline *pipeline, const char *accuracy);
 
-/* False, with an error, when the directory holds results of another file. `replaced` becomes what
-   the run will replace: NULL when there is nothing, "" for results of the same inputs, else how
-   these differ; to be freed. */
+/* Returns false, with an error, if the directory contains results of another file. Sets `replaced`
+ * to NULL if there is nothing to replace, to "" if the earlier results have the same inputs, and
+ * else to a description of how the inputs differ; to be freed. */
 bool results_earlier_check(const char *directory, const results_input *input, char **replaced,
                            ff_report *report);
-/* The same of a study, in which `replaced` is NULL where its stages have not changed. */
+/* The same for a study. `replaced` is also NULL if its stages have not changed. */
 bool results_earlier_check_study(const char *directory, const results_input *input, char **replaced,
                                  ff_report *report);
 

@@ -29,7 +29,7 @@ static void put_number(FILE *out, double value)
     fputs(text, out);
 }
 
-/* Put one more field of a row. */
+/* These write the next field of a row. */
 static void put_field(FILE *out, const char *text)
 {
     fputc(',', out);
@@ -49,7 +49,7 @@ static void put_head(FILE *out, const char *name, const char *unit)
         fprintf(out, " [%s]", unit);
 }
 
-/* Begins the next file; the folder closes the one before. */
+/* Begins the next file; the folder closes the previous one. */
 static bool begin_table(table *t, const char *stem)
 {
     t->out = results_folder_begin(t->folder, stem, ".csv");
@@ -138,8 +138,8 @@ static bool same_dims(const results_view_variable *a, const results_view_variabl
     return same;
 }
 
-/* The columns of a table: variables along the same dimensions, and the series that these are
-   plotted against. */
+/* The columns of a table: variables with the same dimensions, and the series against which they are
+ * plotted. */
 typedef struct columns {
     size_t lead; /* the first variable */
     size_t count;
@@ -199,7 +199,7 @@ static void put_points(const table *t, const columns *c, size_t index, const siz
     }
 }
 
-/* An array whose lengths differ from those of the table is left out. */
+/* Leaves out arrays whose lengths differ from those of the table. */
 static bool load_column(const table *t, columns *c, size_t k, size_t index, const size_t shape[4])
 {
     const results_view *view = t->view;
@@ -311,7 +311,7 @@ static bool write_origin(table *t)
     return true;
 }
 
-/* Copies the table that stands beside the figures of a study, if there is one. */
+/* Copies the table that a study wrote in addition to its figures, if there is one. */
 static bool copy_table(table *t, const char *directory, const char *figures)
 {
     char *stem = memory_print_text("%.*s", (int)strcspn(figures, "."), figures), block[4096];

@@ -19,7 +19,7 @@ const ff_stage *results_stage_of(const ff_pipeline *pipeline, const ff_result *r
     return NULL;
 }
 
-/* The series that a result is a share of, such as the load of a friction coefficient. */
+/* Returns the series of which a result is a share: for a friction coefficient, the load. */
 static const ff_result *whole_of(const ff_pipeline *pipeline, const ff_stage *stage,
                                  const ff_result *result)
 {
@@ -29,8 +29,8 @@ static const ff_result *whole_of(const ff_pipeline *pipeline, const ff_stage *st
     return whole && whole->data && whole->rank == 1 && result->rank == 1 ? whole : NULL;
 }
 
-/* Keeps the least and the greatest number of a result; `whole`, if there is one, has a number for
-   each of them. */
+/* Finds the least and the greatest number of a result. `whole`, if not NULL, has the whole of each
+ * share. */
 static bool search(const ff_result *result, const accuracy_series *whole, const double *at,
                    double least_whole, results_extremes *out)
 {
@@ -54,7 +54,8 @@ static bool search(const ff_result *result, const accuracy_series *whole, const 
 bool results_find_extremes(const ff_pipeline *pipeline, const ff_stage *stage,
                            const ff_result *result, results_extremes *out)
 {
-    static const double vanishing = 0.01; /* of the largest whole; shares of less say nothing */
+    static const double vanishing = 0.01; /* shares of less than this, relative to the largest
+                                           * whole, mean nothing */
     const ff_result *whole = whole_of(pipeline, stage, result);
     const ff_stage *of = whole ? results_stage_of(pipeline, whole) : NULL;
     const ff_result *along = of ? accuracy_axis_of(pipeline, stage, result) : NULL;

@@ -1,25 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The least and the greatest number of a result, with the stage that it comes from. */
+/* Finds the least and the greatest number of a result. */
 #ifndef RESULTS_EXTREMES_H
 #define RESULTS_EXTREMES_H
 
 #include <flankfilm/engine.h>
 
-/* Ranks of the least and the greatest number of a result. */
+/* Indices of the least and the greatest number of a result. */
 typedef struct results_extremes {
     size_t least, greatest;
-    bool partial; /* numbers were left out: those of a share where its whole is next to nothing */
+    bool partial; /* true if shares were left out because their whole is almost 0 */
 } results_extremes;
 
-/*
- * Finds them among the numbers that are known; false if none is. A series that is a share of
- * another, which `origin` of its row names, counts where that is at least a hundredth of its
- * largest: friction where there is load.
- */
+/* Finds them among the known numbers; false if none is known. For a share of another series (its
+ * row's `origin` names it), only points count where the other series is at least 1 % of its largest
+ * value: a friction coefficient counts only where there is load. */
 bool results_find_extremes(const ff_pipeline *pipeline, const ff_stage *stage,
                            const ff_result *result, results_extremes *out);
 
-/* The stage that has given a result; NULL: none. */
+/* Returns the stage whose result this is; NULL if there is none. */
 const ff_stage *results_stage_of(const ff_pipeline *pipeline, const ff_result *result);
 
 #endif

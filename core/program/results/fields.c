@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lists what a file requests, and writes its arrays. */
+/* Lists the requested outputs, and writes their arrays. */
 #include "../arrays/npy.h"
 #include "write.h"
 

@@ -15,26 +15,27 @@
 enum { LONGEST_NAME = 255, LONGEST_PART = LONGEST_NAME + 20 };
 
 static const char manifest[] = ".flankfilm";
-static const char manifest_head[] = "flankfilm "; /* then what the directory holds */
+static const char manifest_head[] = "flankfilm "; /* the kind of results follows */
 static const char manifest_rest[] = " directory; its files:\n";
-static const char head[] = ".flankfilm.", part[] = ".part"; /* around a temporary name */
+static const char head[] = ".flankfilm.", part[] = ".part"; /* prefix and suffix of a temporary name
+                                                             */
 
 typedef struct entry {
     char *name;
-    bool fresh; /* written by this run */
+    bool fresh; /* true if this run wrote it */
 } entry;
 
 struct results_folder {
     char *path;
     const char *kind; /* "result" */
     int fd;
-    entry *entries; /* the result files that are in it or are being written */
+    entry *entries; /* result files that exist or are being written */
     size_t count;
-    FILE *stream;        /* of the file that is being written */
-    const char *writing; /* its name */
-    const char *last;    /* the name of the file that was begun last; NULL: there is none */
+    FILE *stream;        /* the file that is being written */
+    const char *writing; /* its final name */
+    const char *last;    /* the file that was begun last; NULL if there is none */
     ff_report *report;
-    bool failed; /* the report says why */
+    bool failed; /* an error is in the report */
     bool sync;
 };
 
@@ -65,7 +66,7 @@ static void note_failure(results_folder *folder, const char *name)
     folder->failed = true;
 }
 
-/* Opens the temporary file of `name`. */
+/* Opens the temporary file for `name`. */
 static FILE *open_part(results_folder *folder, const char *name)
 {
     char temporary[LONGEST_PART];
@@ -84,7 +85,8 @@ static void close_part(results_folder *folder)
 {
     errno = 0;
     bool lost = folder->stream && ferror(folder->stream);
-    if (lost && write(fileno(folder->stream), "\n", 1) == 1) /* else the reason is told once more */
+    if (lost && write(fileno(folder->stream), "\n", 1) == 1) /* otherwise the reason would be
+                                                              * reported twice */
         errno = 0;
     if (folder->stream && folder->sync)
         lost = fflush(folder->stream) != 0 || fsync(fileno(folder->stream)) != 0 || lost;
@@ -93,7 +95,7 @@ static void close_part(results_folder *folder)
     folder->stream = NULL;
 }
 
-/* Gives the temporary file its name, unless something failed. */
+/* Renames the temporary file to its final name, unless something failed. */
 static void rename_part(results_folder *folder, const char *name)
 {
     char temporary[LONGEST_PART];
@@ -113,7 +115,8 @@ static void write_manifest(results_folder *folder)
     rename_part(folder, manifest);
 }
 
-/* Copies what the first line says is in the directory; false when the line is not ours. */
+/* Copies the kind of results from the first line of the manifest; false if this program did not
+ * write the line. */
 static bool read_kind(const char *line, char kind[LONGEST_NAME])
 {
     size_t length = strlen(line), before = sizeof manifest_head - 1;
@@ -125,7 +128,7 @@ static bool read_kind(const char *line, char kind[LONGEST_NAME])
     return true;
 }
 
-/* Reads the names of the earlier files; false when the directory has no manifest of ours. */
+/* Reads the names of the earlier files; false if the directory has no manifest of this program. */
 static bool read_manifest(results_folder *folder, char kind[LONGEST_NAME])
 {
     FILE *stream = folder->fd < 0 ? NULL : file_stream(folder->fd, manifest);
@@ -142,7 +145,7 @@ static bool read_manifest(results_folder *folder, char kind[LONGEST_NAME])
     return ours;
 }
 
-/* Whether it is a temporary name. */
+/* Whether the name is that of a temporary file. */
 static bool is_part(const char *name)
 {
     size_t length = strlen(name), tail = sizeof part - 1;
@@ -150,7 +153,7 @@ static bool is_part(const char *name)
            strcmp(name + length - tail, part) == 0;
 }
 
-/* Counts the files in the directory, without the temporary ones when those are removed. */
+/* Counts the files in the directory; temporary files do not count if they are removed. */
 static size_t count_files(const results_folder *folder, bool remove_parts)
 {
     size_t count = 0;
@@ -161,7 +164,7 @@ static size_t count_files(const results_folder *folder, bool remove_parts)
             unlinkat(folder->fd, item->d_name, 0);
         else
             count += strcmp(item->d_name, ".") != 0 && strcmp(item->d_name, "..") != 0 &&
-                     !is_part(item->d_name); /* a run that was killed may have left it */
+                     !is_part(item->d_name); /* a killed run may have left it */
     }
     if (directory)
         closedir(directory);
@@ -185,12 +188,12 @@ static bool lock_directory(results_folder *folder)
     if (ours && strcmp(kind, folder->kind) != 0)
         return ff_error(
             report, FF_FAULT_INPUT, FF_NOWHERE, hint,
-            "\"%s\" is a %s directory of flankfilm, and a %s directory is to be written", path,
+            "\"%s\" is a %s directory of flankfilm, but a %s directory is to be written", path,
             kind, folder->kind);
     if (!ours && count_files(folder, false) > 0)
         return ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, hint,
-                        "\"%s\" holds files that are not results of flankfilm", path);
-    count_files(folder, true); /* a run that was killed left them */
+                        "\"%s\" contains files that are not results of flankfilm", path);
+    count_files(folder, true); /* left by a killed run */
     write_manifest(folder);
     return !folder->failed;
 }
@@ -249,7 +252,7 @@ FILE *results_folder_begin(results_folder *folder, const char *stem, const char 
     return open_part(folder, made->name);
 }
 
-/* Removes the earlier files that this run has not written; false when there are none. */
+/* Removes the earlier files that this run has not written; false if there are none. */
 static bool remove_stale(results_folder *folder)
 {
     size_t kept = 0, before = folder->count;
@@ -272,8 +275,8 @@ bool results_folder_end(results_folder *folder)
     return !folder->failed;
 }
 
-/* At any moment the manifest names all result files that are there, and the file that was begun
-   last is there only together with those that belong to it. */
+/* At any moment the manifest names all existing result files, and the file that was begun last
+ * exists only together with the other files of its run. */
 bool results_folder_commit(results_folder *folder)
 {
     close_part(folder);
@@ -291,7 +294,7 @@ bool results_folder_commit(results_folder *folder)
     }
     if (remove_stale(folder))
         write_manifest(folder);
-    if (!folder->failed && folder->sync && fsync(folder->fd) != 0) /* the names */
+    if (!folder->failed && folder->sync && fsync(folder->fd) != 0) /* makes the renames durable */
         note_failure(folder, folder->last ? folder->last : manifest);
     return !folder->failed;
 }

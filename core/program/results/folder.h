@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * A result directory. It is ours when it holds ".flankfilm", which lists the result files in it.
- * All files of a run are written under temporary names, ".flankfilm.<name>.part", then renamed
- * together; files of an earlier run that the new one does not write are removed. The file that was
- * begun last is removed first and gets its name last: a directory of ours without it is of a run
- * that was broken off. Anything else in it is left alone.
- */
+/* A result directory. It belongs to this program if it contains ".flankfilm", the manifest, which
+ * lists the result files. All files of a run are written under temporary names,
+ * ".flankfilm.<name>.part", and then renamed together; files of an earlier run that the new one
+ * does not write are removed. The file that was begun last is the first to be removed and the last
+ * to be renamed: if it is missing, the run was interrupted. All other files in the directory are
+ * left alone. */
 #ifndef RESULTS_FOLDER_H
 #define RESULTS_FOLDER_H
 
@@ -13,29 +12,30 @@
 
 typedef struct results_folder results_folder;
 
-/* Makes the directory when it is not there and locks it against a second run; `kind` is what it
-   holds, "result". NULL, with an error in the report, for a directory of another kind or with files
-   of somebody else, one in use or one that cannot be made. */
+/* Makes the directory if it does not exist, and locks it against other runs. `kind` is the kind of
+ * its contents, such as "result". Returns NULL with an error in the report if the directory has
+ * another kind or foreign files, is in use, or cannot be made. */
 results_folder *results_folder_open(const char *path, const char *kind, ff_report *report);
 void results_folder_free(results_folder *folder);
-/* Removes the files that were begun and not committed, then frees the folder. */
+/* Removes the files that were not committed, then frees the folder. */
 void results_folder_discard(results_folder *folder);
 
-/* Forces each file to the disk before it gets its name. */
+/* From now on, forces each file to the disk before it is renamed. */
 void results_folder_sync(results_folder *folder);
 
-/* Starts the file <stem><suffix>, both plain words, or <stem>-2<suffix> when that name is taken;
-   ends the one before. NULL, with an error in the report, when that fails. */
+/* Ends the previous file and begins <stem><suffix>, or <stem>-2<suffix> if that name is taken.
+ * Returns NULL with an error in the report if that fails. */
 FILE *results_folder_begin(results_folder *folder, const char *stem, const char *suffix);
 
-/* Ends the last file. False, with an error in the report, when one could not be written. */
+/* Ends the last file. Returns false with an error in the report if any file could not be written.
+ */
 bool results_folder_end(results_folder *folder);
-/* Removes the result files in a directory of ours, and the directory when nothing else is in it.
-   False when it is still there. */
+/* Removes the result files in a directory of this program, and the directory if it is then empty.
+ * Returns false if the directory still exists. */
 bool results_folder_remove(const char *path);
 
-/* Gives the files their names. False, with an error in the report, when one could not be written:
-   then the earlier results are still in place, unless it was a rename that failed. */
+/* Renames the files to their final names. Returns false with an error in the report if one could
+ * not be written; the earlier results are then unchanged, unless the error was in a rename. */
 bool results_folder_commit(results_folder *folder);
 
 #endif

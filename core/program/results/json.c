@@ -80,7 +80,7 @@ void results_json_add_doubts(json_t *answer, const ff_pipeline *pipeline)
                 continue;
             char value[STUDY_NUMBER_SIZE];
             study_number_short(line->value, value);
-            char *text = memory_print_text("%s: doubtful: %s is %s, held to %.3g%s%s", stage->name,
+            char *text = memory_print_text("%s: doubtful: %s is %s, limit %.3g%s%s", stage->name,
                                            line->name, value, line->limit, line->text ? ": " : "",
                                            line->text ? line->text : "");
             json_array_append_new(list, describe_message(&stage->place, text, NULL));

@@ -7,20 +7,20 @@
 
 #include <jansson.h>
 
-enum { RESULTS_FORMAT = 1 /* of result.json, which tells it */ };
+enum { RESULTS_FORMAT = 1 /* format number of result.json */ };
 
-/* The digits of every number: 17 would mostly show rounding errors. */
+/* Digits of every number; with 17, most would only show rounding errors. */
 enum { RESULTS_JSON_DIGITS = 12 };
 
 json_t *results_json_key(uint64_t key);      /* 16 hexadecimal digits */
 json_t *results_json_text(const char *text); /* null for NULL; what is not UTF-8 is replaced */
 
-/* {"flankfilm": version, "status": status, "exit": code}, the start of every answer; with the
-   "errors" and "warnings" of the report, unless that is NULL. */
+/* {"flankfilm": version, "status": status, "exit": code}, the first members of every answer, and
+ * the "errors" and "warnings" of the report, unless it is NULL. */
 json_t *results_json_answer(const char *status, int code, const ff_report *report);
 
-/* Adds the lines of a pipeline that are doubtful to the "warnings" of an answer, each at the place
-   of its stage. */
+/* Adds the doubtful quality lines of a pipeline to the "warnings" of an answer, with the places of
+ * their stages. */
 void results_json_add_doubts(json_t *answer, const ff_pipeline *pipeline);
 
 /* Prints the object as the answer and frees it. */
@@ -29,10 +29,10 @@ void results_json_print(json_t *object);
 /* These describe parts of a stage. */
 json_t *results_json_params(const ff_stage *stage); /* {name: {value, text, origin}} */
 json_t *results_json_wires(const ff_pipeline *pipeline, const ff_stage *stage);
-/* Returns {version, path, build, reference, bibtex}: the file of its plugin, and the hash of that.
- */
+/* Returns {version, path, build, reference, bibtex} of a model: path and hash of its plugin, and
+ * its literature. */
 json_t *results_json_model(const ff_loaded *loaded);
-/* Returns the same of a stage that is loaded, with {parameters, wires}. */
+/* Returns the same for a loaded stage, with {parameters, wires}. */
 json_t *results_json_origin(const ff_pipeline *pipeline, const ff_stage *stage);
 
 /* Returns {name: text} of the circumstances: version, file, date, machine. */

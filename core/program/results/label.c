@@ -11,14 +11,14 @@ const char *results_called(const ff_port *row)
     return row->label && *row->label ? row->label : row->doc;
 }
 
-/* Whether the label ends at the latest here: brackets behind an operator belong to a formula. */
+/* Whether the label must end here. Brackets behind an operator belong to a formula. */
 static bool is_end(const char *doc, size_t at)
 {
     return !doc[at] || !strncmp(doc + at, "; ", 2) ||
            (at > 0 && !strncmp(doc + at, " (", 2) && isalnum((unsigned char)doc[at - 1]));
 }
 
-/* A comma behind a digit or in brackets is one of a list of numbers. */
+/* Whether the comma is part of a list of numbers: behind a digit or in brackets. */
 static bool is_clause_end(const char *doc, size_t at)
 {
     int open = 0;

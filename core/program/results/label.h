@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What an output is called for people. */
+/* Names of outputs in words. */
 #ifndef RESULTS_LABEL_H
 #define RESULTS_LABEL_H
 
@@ -7,11 +7,11 @@
 
 enum { RESULTS_LABEL_SIZE = 256 };
 
-/* The words that a row has for its output: its label, else its doc. */
+/* Returns the label of a row, or its doc if it has none. */
 const char *results_called(const ff_port *row);
 
-/* What an output is called beside its name: as many clauses of its doc as have room in so many
-   bytes, without what stands behind "; " or in brackets; at least the first clause. */
+/* Writes the description of an output: as many clauses of its doc as fit, but at least the first
+ * one, without text in brackets or after "; ". */
 void results_label(const char *doc, size_t room, char out[RESULTS_LABEL_SIZE]);
 
 #endif

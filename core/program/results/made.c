@@ -15,7 +15,7 @@
 static const char list_name[] = ".flankfilm-made";
 enum { LONGEST_NAME = 255 };
 
-/* The name of a path that is in the directory itself; NULL for another. */
+/* Returns the file name of a path in this directory; NULL for any other path. */
 static const char *name_within(const char *directory, const char *path)
 {
     const char *slash = strrchr(path, '/');
@@ -32,7 +32,8 @@ static const char *name_within(const char *directory, const char *path)
                : NULL;
 }
 
-/* A file is known by its length and time, a directory by its list of files. */
+/* Describes the state of a file by its length and time, that of a directory by its list of files.
+ */
 static char *print_state(const char *path)
 {
     struct stat info;
@@ -58,7 +59,8 @@ void results_made_note(const char *directory, const char *path, const char *writ
     free(state);
 }
 
-/* Removes what stands in a line of the list; the last line of a name tells its state. */
+/* Removes the file named in a line of the list. If a name has several lines, the last one has its
+ * state. */
 static bool remove_made(const char *directory, const char *state, const char *name)
 {
     char *path = memory_print_text("%s/%s", directory, name), *now = print_state(path);

@@ -1,15 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * What was made of the results in a directory, such as its page: ".flankfilm-made" lists it, so
- * that it goes when the results do. A file that was changed since is somebody's own, and stays.
+/* Files derived from the results in a directory, such as the page. ".flankfilm-made" lists them, so
+ * that they are removed together with the results. A file that the user has changed since is kept.
  */
 #ifndef RESULTS_MADE_H
 #define RESULTS_MADE_H
 
-/* Notes that `written`, which is there, is about to become `path`, when that is in the directory.
+/* Records that the existing file `written` will be renamed to `path`, if that is in the directory.
  */
 void results_made_note(const char *directory, const char *path, const char *written);
-/* Removes what is noted and returns its names, "report.html, results.nc", to be freed. */
+/* Removes the recorded files and returns their names, "report.html, results.nc", to be freed. */
 char *results_made_remove(const char *directory);
 
 #endif

@@ -67,14 +67,14 @@ static json_t *list_bars(const accuracy_error *e)
     return list;
 }
 
-/* Whether an array is not part of the object. */
+/* Whether an array is left out of the object. */
 static bool is_elsewhere(const ff_result *result, results_arrays arrays)
 {
     return arrays == RESULTS_IN_FILES ||
            (arrays != RESULTS_ALL_HERE && result->count > RESULTS_LONGEST_TEXT);
 }
 
-/* Names the file of an array; null where none is written. */
+/* Returns the name of an array's file; null if none is written. */
 static json_t *name_file(const ff_stage *stage, const ff_result *result, const char *ending,
                          results_arrays arrays)
 {
@@ -83,7 +83,7 @@ static json_t *name_file(const ff_stage *stage, const ff_result *result, const c
                : json_sprintf("%s.%s%s.npy", stage->name, result->row->name, ending);
 }
 
-/* The numerical error: its bar has the form of the output. */
+/* Returns the numerical error; its bar has the shape of the output. */
 static json_t *describe_error(const accuracy_error *e, bool checked, results_arrays arrays)
 {
     json_t *parts = json_object();
@@ -136,7 +136,7 @@ static json_t *describe_output(const results_outcome *outcome, const ff_stage *s
     return entry;
 }
 
-/* Describes what the file asks for, in its order. */
+/* Describes the requested outputs, in the order of the file. */
 static json_t *describe_asked(const results_outcome *outcome, results_arrays arrays)
 {
     size_t count;
@@ -149,8 +149,8 @@ static json_t *describe_asked(const results_outcome *outcome, results_arrays arr
     return outputs;
 }
 
-/* Describes the scalars that were computed on the way, and the series that arrays are plotted
-   against. */
+/* Describes scalars that were computed but not requested, and the series against which arrays are
+ * plotted. */
 static json_t *describe_computed(const results_outcome *outcome)
 {
     const ff_pipeline *pipeline = outcome->pipeline;
@@ -173,7 +173,7 @@ static json_t *describe_computed(const results_outcome *outcome)
     return outputs;
 }
 
-/* Writes the object on a line, and frees it. */
+/* Writes the object on one line, and frees it. */
 static void write_object(json_t *object, FILE *stream)
 {
     json_dumpf(object, stream, JSON_COMPACT | JSON_REAL_PRECISION(RESULTS_JSON_DIGITS));
@@ -252,7 +252,7 @@ static void add_input(json_t *head, const results_input *input)
     json_object_set_new(head, "sets", sets);
 }
 
-/* Returns {stage, model, taken, reason} of each model that was tried. */
+/* Returns {stage, model, taken, reason} for each model that was tried. */
 static json_t *describe_tried(const results_outcome *outcome)
 {
     const accuracy_choice *choice = outcome->errors->choice;
@@ -267,7 +267,7 @@ static json_t *describe_tried(const results_outcome *outcome)
     return list;
 }
 
-/* Returns {settings, seconds} of each run that was made for the answer. */
+/* Returns {settings, seconds} for each run that was made for the answer. */
 static json_t *describe_spent(const accuracy_record *errors)
 {
     json_t *list = json_array();
@@ -285,7 +285,7 @@ static json_t *describe_spent(const accuracy_record *errors)
     return list;
 }
 
-/* What measuring the errors took; null where the file does not ask for them. */
+/* Returns the cost of measuring the errors; null if the file does not ask for it. */
 static json_t *describe_accuracy(const results_outcome *outcome)
 {
     const accuracy_record *errors = outcome->errors;
@@ -322,7 +322,8 @@ void results_write_run_json(const results_outcome *outcome, FILE *stream)
 {
     const ff_pipeline *pipeline = outcome->pipeline;
     json_t *all = json_pack("{s:i, s:o}", "format", RESULTS_FORMAT, "key",
-                            results_json_key(outcome->input->key)); /* earlier.c reads no more */
+                            results_json_key(outcome->input->key)); /* earlier.c reads only this
+                                                                     * part */
     json_t *head = describe_head(outcome);
     json_object_update(all, head);
     json_decref(head);

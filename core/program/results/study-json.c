@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* study.json tells what a study consists of: its axes, and the stages of its first case. */
+/* Writes study.json, which describes a study: its axes, and the stages of its first case. */
 #include "json.h"
 #include "label.h"
 #include "write.h"
@@ -7,7 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Finds the parameter that a path names in the first case; false when it names something else. */
+/* Finds the parameter that a path names in the first case; false if the path names something else.
+ */
 static bool find_param(const ff_pipeline *pipeline, const char *path, const ff_param **row,
                        const ff_unit **unit)
 {
@@ -24,7 +25,7 @@ static bool find_param(const ff_pipeline *pipeline, const char *path, const ff_p
     return (*row)->type == FF_REAL || (*row)->type == FF_INT;
 }
 
-/* Finds the coherent SI unit among the examples for the dimension; NULL when there is none. */
+/* Finds a coherent SI unit with this dimension among the example units; NULL if there is none. */
 static json_t *si_unit(const ff_unit *unit)
 {
     const char *at = ff_unit_examples(unit);
@@ -43,7 +44,7 @@ static json_t *si_unit(const ff_unit *unit)
     return NULL;
 }
 
-/* Returns the values in SI, or NULL when one of them is a word. */
+/* Returns the values in SI, or NULL if one of them is a word. */
 static json_t *numbers_in_si(const study_varied *varied, size_t points, const ff_param *row,
                              const ff_unit *unit)
 {
@@ -108,7 +109,7 @@ static json_t *describe_stages(const ff_pipeline *pipeline, json_t *docs)
     return list;
 }
 
-/* Returns the files and the literature of models that another case than the first may use. */
+/* Returns the plugin files and the literature of models that only later cases use. */
 static json_t *list_other_models(const results_study *of, const study_definition *study)
 {
     json_t *models = json_object();

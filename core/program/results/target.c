@@ -26,7 +26,7 @@ static bool has_text(FILE *stream, const char *text)
     return false;
 }
 
-/* Whether the program itself writes such files, or there is none. */
+/* Whether the file does not exist or was written by this program. */
 static bool may_replace(const results_target *target)
 {
     char start[32] = "";
@@ -40,11 +40,12 @@ static bool may_replace(const results_target *target)
                                                   has_text(stream, "flankfilm")));
     if (stream)
         fclose(stream);
-    return ours || ff_error(target->report, FF_FAULT_INPUT, FF_NOWHERE, "name another file",
-                            S_ISREG(about.st_mode)
-                                ? "\"%s\" holds something else than what would be written there"
-                                : "\"%s\" is not a regular file",
-                            target->path);
+    return ours ||
+           ff_error(target->report, FF_FAULT_INPUT, FF_NOWHERE, "name another file",
+                    S_ISREG(about.st_mode)
+                        ? "\"%s\" contains something else than the file that would be written"
+                        : "\"%s\" is not a regular file",
+                    target->path);
 }
 
 static bool open_file(results_target *target)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reads the directory of a single run, where result.json holds everything. */
+/* Reads the directory of a single run from its result.json. */
 #include "json.h"
 #include "view-tables.h"
 
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Adds the error bar of an output as an output beside it. */
+/* Adds the error bar of an output as another output. */
 static void add_bar(results_reader *reader, const char *name, const results_entry *of,
                     json_t *error)
 {
@@ -23,7 +23,7 @@ static void add_bar(results_reader *reader, const char *name, const results_entr
     free(bar);
 }
 
-/* Returns the names of those that are known from below alone. */
+/* Returns the names of the outputs of which only a lower bound is known. */
 static json_t *add_outputs(results_reader *reader, json_t *outputs, uint32_t flags)
 {
     json_t *names = json_array();
@@ -67,8 +67,8 @@ static bool is_of_range(const json_t *line)
     return of && !strcmp(of, "range");
 }
 
-/* Adds the quality and the time of the stages that ran; the lines to `judged`, too, as the record
-   of a case has them. */
+/* Adds the quality lines and the times of the stages that ran. Also adds the lines to `judged`, in
+ * the form of the record of a case. */
 static void add_stages(results_reader *reader, results_view_case *c, const json_t *stages,
                        json_t *judged)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reads the directory of a study: study.json describes it, the journals hold what its cases gave.
- */
+/* Reads the directory of a study: study.json describes it, and the journals contain the results of
+ * its cases. */
 #include "view-tables.h"
 
 #include "../memory/file.h"
@@ -14,7 +14,7 @@
 
 enum { MOST_CASES = 100000000 };
 
-/* Reads the lengths and counts the cases; false when there are none, or too many. */
+/* Reads the lengths and counts the cases; false if there are none, or too many. */
 static bool read_lengths(results_reader *reader, const json_t *lengths)
 {
     size_t count = json_array_size(lengths);
@@ -55,7 +55,7 @@ static bool add_axis(results_reader *reader, const json_t *entry)
     return true;
 }
 
-/* Returns what the study assigns in a case, in the form of its record: {path: value}. */
+/* Returns the assignments of a case in the form of its record: {path: value}. */
 static json_t *assignments_of(const results_reader *reader, size_t index)
 {
     json_t *set = json_object();
@@ -67,7 +67,7 @@ static json_t *assignments_of(const results_reader *reader, size_t index)
     return set;
 }
 
-/* table.csv knows the key of each case; there is none before the end of the first run. */
+/* Reads the key of each case from table.csv, which exists after the first run has ended. */
 static void read_keys(results_reader *reader)
 {
     FILE *stream = file_stream(reader->directory, "table.csv");
@@ -82,9 +82,9 @@ static void read_keys(results_reader *reader)
         fclose(stream);
 }
 
-/* Finds the cases of an unfinished study that the table does not have, by what their records
-   assign; a later record replaces an earlier one. Records of a file that has been changed since are
-   of other cases. */
+/* Finds cases of an unfinished study that the table does not contain, by the assignments in their
+ * records; a later record replaces an earlier one. If the file was changed since, its old records
+ * belong to other cases. */
 static void match_records(results_reader *reader, study_records *records, const json_t *input)
 {
     uint64_t *ranks = memory_alloc((reader->view.case_count + 1) * sizeof *ranks), rank;
@@ -184,7 +184,7 @@ static void add_case(results_reader *reader, size_t index, const json_t *record,
 static bool refuse(results_reader *reader, const char *what)
 {
     return ff_error(reader->report, FF_FAULT_INPUT, FF_NOWHERE,
-                    "run the study again: that takes no time where its cases are done", "%s/%s %s",
+                    "run the study again; cases that are done are not repeated", "%s/%s %s",
                     reader->path, study_description, what);
 }
 
@@ -202,7 +202,8 @@ bool results_view_read_study(results_reader *reader)
     const json_t *length = json_array_get(json_object_get(study, "lengths"), 0);
     if (json_is_integer(length) && json_integer_value(length) == 0) {
         json_decref(study);
-        return refuse(reader, "lists no case: rows of standard input stand there when they ended");
+        return refuse(reader,
+                      "lists no case; rows from standard input are listed when they have ended");
     }
     reader->view.study = true;
     results_view_add_head(reader, study);
@@ -211,7 +212,7 @@ bool results_view_read_study(results_reader *reader)
         good && add_axis(reader, entry);
     json_object_foreach(json_object_get(study, "models"), model, entry)
         results_view_add_citation(reader, model, entry);
-    json_object_del(study, "axes"); /* which name all cases, and have been copied */
+    json_object_del(study, "axes"); /* the points name all cases, and have been copied */
     if (good) {
         study_records *records = study_records_open(reader->path, false);
         reader->per_case = memory_alloc(reader->view.case_count * sizeof *reader->per_case);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Fills the tables of a view from the JSON that a run or a study left. */
+/* Fills the tables of a view from the JSON files of a run or a study. */
 #include "view-tables.h"
 
 #include <assert.h>
@@ -78,7 +78,7 @@ static void add_limits(results_reader *reader, results_view_case *c, const json_
         };
     }
     c->limits_text = "";
-    if (rows.count == 0) /* as in each of a million cases without limits */
+    if (rows.count == 0) /* a case without limits needs no memory */
         return;
     c->limit_count = rows.count;
     c->limits = results_view_take_rows(reader, &rows);
@@ -119,7 +119,7 @@ const void *results_view_take_rows(results_reader *reader, results_rows *rows)
     return kept;
 }
 
-/* Returns the index of a stage, which is added when it is new. */
+/* Returns the index of a stage; adds it if it is new. */
 static size_t find_stage(results_reader *reader, const char *name, size_t length)
 {
     for (size_t i = 0; i < reader->stages.count; i++) {
@@ -205,7 +205,7 @@ void results_view_add_head(results_reader *reader, const json_t *root)
     }
 }
 
-/* Copies `count` names, with "" for one that is missing. */
+/* Copies `count` names; a missing one becomes "". */
 static const char *const *copy_names(results_reader *reader, const json_t *names, size_t count)
 {
     const char **copy = memory_arena_alloc(&reader->arena, count * sizeof *copy);
@@ -214,7 +214,8 @@ static const char *const *copy_names(results_reader *reader, const json_t *names
     return copy;
 }
 
-/* Returns the index of the variable, which is added when it is new; -1 for what is none. */
+/* Returns the index of the variable, and adds it if it is new; -1 if the entry is not a variable.
+ */
 static json_int_t add_variable(results_reader *reader, const char *name, const results_entry *entry,
                                uint32_t flags)
 {

@@ -93,14 +93,15 @@ static size_t count_of(const results_output *output)
     return count;
 }
 
-/* Reads the file of an array, which stands beside the one that names it. */
+/* Reads the file of an array, from the directory of the file that names it. */
 static loaded *read_file(results_reader *reader, const results_output *output, const char *file)
 {
-    char why[ARRAYS_WHY] = "that is not the name of a file beside it";
+    char why[ARRAYS_WHY] = "that is not the name of a file in its directory";
     bool plain = *file && *file != '.' && !strchr(file, '/');
     int fd =
         plain ? arrays_npy_open(reader->directory, file, output->shape, output->rank, why) : -1;
-    size_t count = count_of(output); /* the file has as many numbers, so that they fit */
+    size_t count = count_of(output); /* the file has this many numbers, so the size does not
+                                      * overflow */
     loaded *made = fd >= 0 ? make_loaded(count) : NULL;
     if (made && !arrays_npy_read(fd, made->data, count)) {
         snprintf(why, sizeof why, "%s", strerror(errno));
@@ -128,7 +129,7 @@ static loaded *read_record(results_reader *reader, size_t index, const results_o
     if (good)
         return made;
     ff_error(reader->report, FF_FAULT_INPUT, FF_NOWHERE,
-             "flankfilm run with --rerun all writes it anew",
+             "\"flankfilm run --rerun all\" writes it again",
              "%s of case %zu, in %s/%s, cannot be "
              "read: %s",
              name, index + 1, reader->path, of->log, why);
@@ -195,7 +196,7 @@ static int is_figures(const struct dirent *entry)
     return length > sizeof ending && !strcmp(entry->d_name + length - (sizeof ending - 1), ending);
 }
 
-/* Leaves out what cannot be read, is not text or is too long. */
+/* Leaves out figures that cannot be read, are not text or are too long. */
 static void read_figure(results_reader *reader, const char *name)
 {
     enum { MOST = 1 << 23 };
@@ -254,8 +255,8 @@ static bool read_directory(results_reader *reader)
     reader->directory = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (reader->directory < 0)
         return ff_error(reader->report, FF_FAULT_INPUT, FF_NOWHERE,
-                        "name the directory that a run has written", "\"%s\" cannot be opened: %s",
-                        path, strerror(errno));
+                        "name a directory written by run", "\"%s\" cannot be opened: %s", path,
+                        strerror(errno));
     arrays_reader_open(&reader->logs, reader->directory);
     if (faccessat(reader->directory, study_marker, F_OK, 0) == 0) {
         read_figures(reader);
@@ -265,9 +266,9 @@ static bool read_directory(results_reader *reader)
         return results_view_read_run(reader);
     bool begun = faccessat(reader->directory, ".flankfilm", F_OK, 0) == 0;
     return ff_error(reader->report, FF_FAULT_INPUT, FF_NOWHERE,
-                    begun ? "run it again" : "name the directory that a run has written",
-                    begun ? "the run that writes \"%s\" has not ended, or was broken off"
-                          : "\"%s\" holds no results of flankfilm",
+                    begun ? "run it again" : "name a directory written by run",
+                    begun ? "the run that writes \"%s\" has not ended, or was interrupted"
+                          : "\"%s\" contains no results of flankfilm",
                     path);
 }
 

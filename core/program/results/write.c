@@ -10,7 +10,7 @@ bool results_write_run(const results_outcome *outcome, const char *directory,
     if (stream)
         results_write_run_json(outcome, stream);
     if (!results_folder_end(folder))
-        return results_folder_commit(folder); /* which clears up */
+        return results_folder_commit(folder); /* removes the temporary files */
     *removed = results_made_remove(directory);
     return results_folder_commit(folder);
 }

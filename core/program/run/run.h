@@ -14,7 +14,8 @@ void run_set(ff_run *run, const char *assignment, const ff_place *path, const ff
 void run_set_all(ff_run *run, const char *const *assignments, size_t count);
 void run_put(ff_run *run, const char *key, const ff_node *node);
 
-/* NULL only if nothing can be shown; with errors in the report it must not be started. */
+/* Returns NULL only if no pipeline can be shown. A pipeline with errors in the report must not be
+ * started. */
 ff_pipeline *run_build(ff_run *run, bool everything);
 bool run_has_errors(ff_run *run);
 

@@ -40,7 +40,7 @@ struct dynamics_coupled_run {
     int varies; /* 1: the derivatives with respect to the start are integrated too */
     size_t count;
     dynamics_stretch *stretches;
-    double t;          /* time since the start of the stretch */
+    double t;          /* time since the start of the stretch (coupled-field.h) */
     double longest, h; /* longest step; length of the next step */
     double closed;     /* value at which a gate counts as closed */
     double parted, back;

@@ -201,7 +201,7 @@ const dynamics_piece *dynamics_excitation_piece_at(const dynamics_excitation *x,
     return dynamics_track_piece(x->flight, phase, left);
 }
 
-/* Returns the flank that touches at delta: 0 where that of another track would. */
+/* Returns the flank that touches at delta; 0 if it belongs to another track. */
 static int side_at(const dynamics_excitation *x, const dynamics_piece *piece, double delta)
 {
     int side = (delta > x->half_gap) - (delta < -x->half_gap);
@@ -215,7 +215,7 @@ double dynamics_mesh_force(const dynamics_excitation *excitation, const dynamics
 {
     double damper = 2 * excitation->zeta * rate, b = excitation->half_gap;
     if (b == 0)
-        /* no gap: the flanks never part */
+        /* no gap: the flanks never separate */
         return dynamics_spring_force(piece, since, delta) + damper;
     int side = side_at(excitation, piece, delta);
     if (side == 0)

@@ -57,12 +57,14 @@ typedef struct dynamics_track {
 } dynamics_track;
 
 typedef struct dynamics_excitation {
-    dynamics_piece *pieces; /* of the driving flanks */
+    dynamics_piece *pieces; /* pieces of the driving flanks */
     size_t count;
-    dynamics_track back, flight; /* of the back flanks, and of free flight; count 0: those above */
-    double back_room;    /* by how much e of the driving flanks exceeds that of the back flanks */
-    double flight_share; /* of the error of the back flanks in that of free flight */
-    int both_flanks;     /* whether the model follows back flanks with curves of their own */
+    dynamics_track back, flight; /* pieces of the back flanks, and of free flight; count 0: they use
+                                  * those above */
+    double back_room;    /* least amount by which e of the driving flanks exceeds that of the back
+                          * flanks */
+    double flight_share; /* share of the error of the back flanks in that of free flight */
+    int both_flanks;     /* whether the model uses separate curves for the back flanks */
     double k_max;        /* the largest k */
     double zeta, load, half_gap;
     int damping;

@@ -50,8 +50,8 @@ enum {
     DYNAMICS_COUPLED_INPUT_COUNT
 };
 
-/* Inputs behind those of all models. Models with feedback between motion and film read them, and
-   models with an oil film between separated flanks. */
+/* Inputs after those of all models. Models with feedback between motion and film read them, and
+ * models with an oil film between separated flanks. */
 enum {
     DYNAMICS_IN_RADIUS_1 = DYNAMICS_INPUT_COUNT,
     DYNAMICS_IN_RADIUS_2,
@@ -117,8 +117,10 @@ typedef struct dynamics_inputs {
     dynamics_mesh_curves curves;
     const double *loaded_error; /* m, at the phases of the curves; NULL: not known */
     dynamics_force_levels levels;
-    dynamics_force_levels back_levels; /* of the flanks that the mean load does not press */
-    double back_offset;                /* mesh cycles; NaN: their curves are not known */
+    dynamics_force_levels back_levels; /* levels of the back flanks, which the mean load does not
+                                        * press */
+    double back_offset;                /* phase shift of the back flanks, mesh cycles; NaN: their
+                                        * curves are not known */
     int constant;           /* whether neither stiffness nor error depends on the phase */
     int shared;             /* whether the motion uses the levels, and load shares depend on the
                                mesh force */

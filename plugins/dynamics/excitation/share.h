@@ -26,8 +26,8 @@ double dynamics_tooth_force(const dynamics_chosen_levels *levels, double force, 
    share at the last level. */
 double dynamics_share(const dynamics_inputs *inputs, size_t station, double force);
 
-/* The same of the flanks that the mean load does not press, which have levels. Without a shared
-   force it is the share at the force of the curves. */
+/* The same for the back flanks, which the mean load does not press; they have levels. Without a
+ * shared force it is the share at the force for which the curves were computed. */
 double dynamics_back_share(const dynamics_inputs *inputs, size_t station, double force);
 
 #endif

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Phases that differ by no more are one. */
+/* Phases that differ by at most this are equal. */
 static const double round_off = 1e-12;
 
 static double error_at(const dynamics_piece *p, double phase)
@@ -16,8 +16,9 @@ static double error_at(const dynamics_piece *p, double phase)
     return dynamics_piece_value(p->e, p->degree, phase - p->start);
 }
 
-/* Finds the least difference of the errors of driving and back flanks, on SAMPLES places of each
- * piece, less a hundredth of the range for what lies between them. */
+/* Finds the least difference of the errors of driving and back flanks at SAMPLES places in each
+ * piece. A hundredth of the range is subtracted to allow for smaller values between these places.
+ */
 static double least_room(const dynamics_excitation *x)
 {
     enum { SAMPLES = 8 };
@@ -62,7 +63,7 @@ double dynamics_back_lowest(const dynamics_excitation *x)
     return lowest;
 }
 
-/* Adds a share of the error of the flank. */
+/* Adds a share of the flank's error. */
 static void add_error(const dynamics_track *flank, double share, double phase, double length,
                       dynamics_piece *to)
 {

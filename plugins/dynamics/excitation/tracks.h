@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Which pieces of the mesh cycle a motion follows. Driving flanks touch where s - e = half_gap and
- * bend by k and e of the pieces. Back flanks touch where s - e = -half_gap with an e of their own,
- * the negative of their transmission error, and k of their own, each with its own nodes. In free
- * flight a damper that acts always follows the e of the driving flanks, or, under a force that
- * presses both flanks in turn, a mean of both, which is the middle of the gap where neither
- * prevails. So s = delta + e on every track, and s and s' are continuous where one track takes over
- * from another.
+ * A track is a set of pieces of the mesh cycle that a motion follows. Driving flanks touch at s - e
+ * = half_gap. Back flanks touch at s - e = -half_gap, with their own k, e (the negative of their
+ * transmission error) and nodes. In free flight, a damper that also acts in the gap uses the e of
+ * the driving flanks. If the force presses both flanks in turn, it uses a mean of both, which is
+ * the middle of the gap if neither flank prevails. On every track s = delta + e, and s and s' are
+ * continuous when the motion changes to another track.
  *
  * Without a track of the back flanks these mirror the driving ones in the middle of the gap.
  */
@@ -41,22 +40,22 @@ static inline dynamics_track dynamics_track_with(const dynamics_excitation *x,
                                                 : (dynamics_track){x->pieces, x->count};
 }
 
-/* Whether driving and back flanks have tracks of their own. */
+/* Whether driving and back flanks have separate tracks. */
 static inline int dynamics_tracks_differ(const dynamics_excitation *x)
 {
     return x->back.count > 0;
 }
 
-/* Adds the track of the back flanks, from curves over the phase of the driving ones and the spring
- * at their nodes (NULL: it does not bend). 0: out of memory. */
+/* Adds the track of the back flanks, from their curves over the phase of the driving flanks, and
+ * the spring at the nodes (NULL: linear). Returns 0 if out of memory. */
 int dynamics_tracks_add_back(dynamics_excitation *x, const dynamics_mesh_curves *curves,
                              const struct dynamics_spring_nodes *spring);
 
 /* The least transmission error of the back flanks, at the nodes of their track. */
 double dynamics_back_lowest(const dynamics_excitation *x);
 
-/* Adds the track of free flight, with that share of the error of the back flanks in its own; 0.5:
- * in the middle of the gap. 0: out of memory. */
+/* Adds the track of free flight. Its error contains this share of that of the back flanks; 0.5 is
+ * the middle of the gap. Returns 0 if out of memory. */
 int dynamics_tracks_add_flight(dynamics_excitation *x, double share);
 
 #endif

@@ -296,8 +296,8 @@ static int find_step(dynamics_run *r, dynamics_landing *step)
     }
 }
 
-/* Finds the first gate that closes in the step. Returns the fraction of the step at which it
-   closes, or -1 if none does. */
+/* Finds the first gate that closes within the step. Returns the fraction of the step at which it
+ * closes, or -1 if none does. */
 static double first_gate(const dynamics_run *r, const dynamics_landing *step, oil_gate *which)
 {
     double first = -1, tiny = 8 * DBL_EPSILON * (1 + r->excitation->half_gap);

@@ -107,8 +107,8 @@ static int flight_order(const dynamics_run *r, const dynamics_taylor_series *s)
                                                                                : s->order;
 }
 
-/* Moves the gate at an edge of the gap to the track of its flank. The step lies within one of the
- * pieces there. */
+/* Expresses the gate at an edge of the gap on the track of its flank. The step lies within one
+ * piece of that track. */
 static void move_edge(const dynamics_run *r, const dynamics_taylor_series *s, dynamics_gate *g)
 {
     const dynamics_track track = dynamics_track_of(r->excitation, g->side);
@@ -164,7 +164,7 @@ static int find_gates(const dynamics_run *r, const dynamics_taylor_series *s,
     return 2;
 }
 
-/* Returns a lower bound of the way from z to the edges of the gap. */
+/* Returns a lower bound on the distance from z to the edges of the gap. */
 static double room_in_flight(const dynamics_excitation *x, double z)
 {
     const double share = x->flight_share;

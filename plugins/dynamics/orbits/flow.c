@@ -94,7 +94,8 @@ static void find_band(dynamics_run *r)
     r->band = r->side ? dynamics_spring_band(r->piece, r->at - r->piece->start, bend) : 0;
 }
 
-/* What delta and its rate change by on another track (tracks.h), at a phase. */
+/* Returns the change of delta and of its rate when the motion changes to another track (tracks.h)
+ * at a phase. */
 typedef struct shift {
     const dynamics_piece *piece;
     double delta, rate;
@@ -115,7 +116,7 @@ static shift shift_to(const dynamics_run *r, int side, double phase)
                        r->T};
 }
 
-/* Goes over to the track of a side; s and s' are continuous. */
+/* Changes to the track of a side; s and s' are continuous. */
 static void take_track(dynamics_run *r, int side, double phase)
 {
     const shift x = shift_to(r, side, phase);
@@ -127,7 +128,7 @@ static void take_track(dynamics_run *r, int side, double phase)
     r->y->change[1] -= x.rate / r->T;
 }
 
-/* Selects the contact and its track, where those of the flanks differ. */
+/* Selects the contact and its track, if the flanks have different tracks. */
 static void find_contact_on_tracks(dynamics_run *r, double phase)
 {
     const shift ahead = shift_to(r, 1, phase), behind = shift_to(r, -1, phase);
@@ -203,9 +204,9 @@ static void move_state(dynamics_run *r, const dynamics_taylor_series *s, double 
     y->det *= v[DYNAMICS_PHI_1] * w[DYNAMICS_PHI_2] - v[DYNAMICS_PHI_2] * w[DYNAMICS_PHI_1];
 }
 
-/* Does what change_contact does where the tracks of the flanks differ. The damper then follows
- * another e, and its force jumps at the edge, which the flank approaches at the rate `edge`. Where
- * e jumps across the motion, that is no passage of the edge. */
+/* Like change_contact, for flanks with different tracks. The damper then uses another e, so its
+ * force jumps at the edge, which the flank approaches at the rate `edge`. If a jump of e moves the
+ * edge across the motion, the edge is not passed. */
 static void change_track(dynamics_run *r, const dynamics_gate *g)
 {
     const int flank = g->side ? g->side : r->side;

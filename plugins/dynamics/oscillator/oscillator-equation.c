@@ -50,7 +50,8 @@ void dynamics_oscillator_enter(dynamics_oscillator *o, const dynamics_piece *pie
     o->t = 0;
 }
 
-/* Returns the change to the track of a side, at the instant t of the present piece. */
+/* Returns the change of delta and of its rate for the track of a side, at time t of the current
+ * piece. */
 dynamics_oscillator_move dynamics_oscillator_shift(const dynamics_oscillator *o, double t, int side)
 {
     const dynamics_track track = dynamics_track_of(o->excitation, side);
@@ -67,7 +68,7 @@ dynamics_oscillator_move dynamics_oscillator_shift(const dynamics_oscillator *o,
     return x;
 }
 
-/* Goes over to the track of a side; s and s' are continuous. */
+/* Changes to the track of a side; s and s' are continuous. */
 void dynamics_oscillator_take_track(dynamics_oscillator *o, int side)
 {
     dynamics_oscillator_move x = dynamics_oscillator_shift(o, o->t, side);

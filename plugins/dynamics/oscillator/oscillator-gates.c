@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where flanks meet or part, and where a line of the spring takes over. */
+/* Gates: flanks meet or separate, or the spring force passes to another line. */
 #include "oscillator-state.h"
 
 #include <stdlib.h>

@@ -104,7 +104,7 @@ static inline int dynamics_oscillator_is_damped(const dynamics_oscillator *o)
            o->pressed;
 }
 
-/* What delta and its rate change by where another track takes over. */
+/* The change of delta and of its rate when the motion changes to another track. */
 typedef struct dynamics_oscillator_move {
     const dynamics_piece *piece;
     double since, delta, rate; /* since: phase from the start of the piece */
@@ -115,10 +115,10 @@ int dynamics_oscillator_derivative(double t, const double y[], double dydt[], vo
 void dynamics_oscillator_find_band(dynamics_oscillator *o);
 void dynamics_oscillator_enter(dynamics_oscillator *o, const dynamics_piece *piece, double T);
 
-/* Returns the change to the track of a side, at the instant t of the present piece. */
+/* Returns the change for the track of a side, at time t of the current piece. */
 dynamics_oscillator_move dynamics_oscillator_shift(const dynamics_oscillator *o, double t,
                                                    int side);
-/* Goes over to the track of a side; s and s' are continuous. */
+/* Changes to the track of a side; s and s' are continuous. */
 void dynamics_oscillator_take_track(dynamics_oscillator *o, int side);
 
 /* Lists the gates of the present regime. Returns their number. */

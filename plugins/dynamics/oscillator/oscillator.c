@@ -177,7 +177,7 @@ static double find_closing(dynamics_oscillator *o, int i, const dynamics_oscilla
     return value < -tiny ? find_change(o, i, 0, start, lowest, value) : -1;
 }
 
-/* Returns s'' where the tracks of the flanks differ, delta'' where they do not. */
+/* Returns s'' if the flanks have different tracks, otherwise delta''. */
 static double acceleration(dynamics_oscillator *o)
 {
     double rates[DYNAMICS_STATE_SIZE];
@@ -325,9 +325,9 @@ static void add_sample(const dynamics_oscillator *o, double phase, dynamics_reco
     };
 }
 
-/* Integrates a piece from sample to sample, or until another track takes over. The start of the
- * piece gets a sample if it is `entered` there and the excitation jumps. `next` is the number of
- * the next sample in the cycle. */
+/* Integrates a piece from sample to sample, or until the motion changes to another track. The start
+ * of the piece gets a sample if it is `entered` there and the excitation jumps. `next` is the
+ * number of the next sample in the cycle. */
 static int record_piece(dynamics_oscillator *o, const dynamics_piece *piece, int entered,
                         size_t *next, dynamics_record *record)
 {

@@ -56,7 +56,8 @@ typedef struct ehl_march {
     double moved;          /* `moved` at the current instant */
     double last_good_step; /* last step length that rough flanks allowed, s */
     int good_steps;        /* number of such steps since */
-    double exactness;      /* what the solver and the rounds of heat may leave, over the usual */
+    double exactness;      /* error allowed to the solver and the rounds of heat, relative to the
+                            * usual one */
     double steps_cut, steps_refused; /* steps_refused: repeated for their truncation error */
     double pressureless_steps;       /* steps in which the film was carried on without pressure */
     double worst_truncation, worst_truncation_at; /* largest `local`, and its time */

@@ -196,8 +196,8 @@ static ff_status solver_create(const ehl_model *m, ehl_run *r)
     return status;
 }
 
-/* Whether the errors of such films are found by their transport. A matrix that knows no temperature
-   does not tell those of a heated film (docs/theory.md, 12). */
+/* Returns whether the errors of such films are computed by error transport. Its matrix does not
+ * contain temperatures, so it is not used for heated films (docs/theory.md, section 12). */
 static int has_transport(const ehl_model *m, const ehl_run *r)
 {
     const int steady = r->history.count == 1;

@@ -24,12 +24,12 @@ static const double FIRST_STEP = 5e-4;
    needed for convergence. */
 static const double SHORT_STEP = 0.02, SHORTEST_STEP = 1e-4;
 
-/* What the solver leaves of the flow enters the truncation, which is of the differences of films:
- * in relation to what a step may have, by the more the shorter the step. A step is futile if a
- * longer one was repeated for it although its own error is not smaller in proportion, or if it is
- * the shortest and has more than it may have. After MOST_FUTILE of them, which is more than at a
- * kink, the solver is asked to leave STRICTER of it, down to STRICTEST of the usual. CALM steps in
- * a row that are not futile end a count. */
+/* The error that the solver leaves in the flow enters the truncation error, which is computed from
+ * differences of films. Its share of the allowed error grows as steps become shorter. A step is
+ * futile if it repeats a longer one without a proportionally smaller error, or if it is the
+ * shortest and exceeds the allowed error. After MOST_FUTILE of them, more than occur at a kink, the
+ * solver must reduce its error by the factor STRICTER, down to STRICTEST of the usual one. CALM
+ * steps in a row that are not futile end the count. */
 enum { MOST_FUTILE = 12, CALM = 64 };
 static const double STRICTER = 0.3, STRICTEST = 0.02;
 
@@ -208,7 +208,7 @@ static int repeat_step(ehl_step_control *p, ehl_march *m, ff_status status, doub
     return 0;
 }
 
-/* Counts futile steps, and asks the solver for less error where there are many. */
+/* Counts futile steps, and makes the solver more accurate if there are many. */
 static void make_stricter(ehl_step_control *p, ehl_march *m, int futile)
 {
     p->calm = futile ? 0 : p->calm + 1;

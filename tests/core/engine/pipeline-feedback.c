@@ -93,7 +93,7 @@ static void converging(void)
 static void not_converging(void)
 {
     attempt a = run_loop(2, "outputs: [a.*, b.*]\n");
-    check_error("a loop that diverges is bad", &a, 3, 3, "feedback_residual is 0.5, held to 1e-06");
+    check_error("a loop that diverges is bad", &a, 3, 3, "feedback_residual is 0.5, limit 1e-06");
     check_error("with its history", &a, 3, 3, "a, b: residuals 1, 0.667, 0.571, 0.533, ..., 0.5,");
     check_true("after all rounds", rounds(&a) == 30);
     check_true("its results are kept", try_scalar(&a, "a", "level") == exp2(30) - 1);

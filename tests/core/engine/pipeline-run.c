@@ -60,11 +60,11 @@ static void natural_bounds(void)
     static const struct {
         const char *params, *outputs, *said;
     } cases[] = {
-        {", share: -0.1", "b.share", "share is -0.1, held to 0: it can only be from 0 to 1"},
-        {", share: 1.5", "b.share", "share is 1.5, held to 1: it can only be from 0 to 1"},
-        {", temperature: -1 K", "b.temperature", "held to 0: it cannot be below 0"},
+        {", share: -0.1", "b.share", "share is -0.1, limit 0: it can only be from 0 to 1"},
+        {", share: 1.5", "b.share", "share is 1.5, limit 1: it can only be from 0 to 1"},
+        {", temperature: -1 K", "b.temperature", "limit 0: it cannot be below 0"},
         {", film: [1 m, 2 m, -3 m]", "b.film",
-         "film is -3, held to 0: it cannot be below 0, at index 2"},
+         "film is -3, limit 0: it cannot be below 0, at index 2"},
         {", share: 2", "b.film", "share is 2"}, /* not asked for, and shown all the same */
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -286,7 +286,7 @@ static void bad_quality(void)
     attempt a = try_run("pipeline:\n  one: {use: toy/source, level: 2 mm, answer: bad}\n"
                         "  sum: {use: toy/consumer, source: one}\n");
     check_error("a bad verdict fails the run", &a, 3, 3,
-                "balance is 0.5, held to 1e-08: nothing balances");
+                "balance is 0.5, limit 1e-08: nothing balances");
     check_true("with its exit code", ff_report_fault(a.report) == FF_FAULT_RUN);
     check_true("and its results kept", try_stage(&a, "sum")->ran);
     try_close(&a);

@@ -223,7 +223,7 @@ class Control(lab.Lab):
         self.assertEqual((answer["verdict"], answer["accuracy"]["attempts"]), ("doubtful", 1))
         self.write("held.yaml", text)
         said = self.call("run", "held.yaml", "-o", "held", *(word for one in ("last.seen=0.2", *given) for word in ("--set", one)))
-        self.assertIn("the file's own settings stay: last.cells, last.steps, last.tolerance", said)
+        self.assertIn("settings fixed by the file: last.cells, last.steps, last.tolerance", said)
         answer = self.ask("last.seen=0.2", *given[:2], text=text)  # the tolerance is open
         self.assertEqual((answer["verdict"], answer["accuracy"]["attempts"]), ("good", 2))
 
@@ -326,13 +326,13 @@ class Control(lab.Lab):
     def test_the_terminal_says_what_was_reached(self):
         self.write("block.yaml", FILE)
         said = self.call("run", "block.yaml", "-o", "block", "--set", "accuracy={last.value: 1 %}")
-        self.assertIn("1 of 1 outputs as asked", said)
+        self.assertIn("1 of 1 goals reached", said)
         self.assertRegex(said, r"\n  last.value  0\.\d+ % +1 % +order 2\n  last.wave   \S+ % {11,}order 2\n")
         self.assertNotIn("not reached", said)
         said = self.call("run", "block.yaml", "-o", "block", "--set", "first.cells=20")
-        self.assertIn("0 of 2 outputs as asked", said)
+        self.assertIn("0 of 2 goals reached", said)
         self.assertRegex(said, r"\n  last.value  \S+ % +0.1 % +not reached; order")
-        self.assertIn("the file's own settings stay: first.cells\n", said)
+        self.assertIn("settings fixed by the file: first.cells\n", said)
         said = self.call("run", "block.yaml", "-o", "block", "--set", "accuracy=1e-6 %")
         self.assertIn("no finer settings", said)
 
@@ -393,7 +393,7 @@ class Control(lab.Lab):
             self.assertLessEqual(float(row["last.value_error_bar [m]"]), 0.001 * float(row["last.value [m]"]))
         with open("study/journal.jsonl", encoding="utf-8") as file:
             self.assertIn('"settings"', file.read())
-        self.assertIn("2 of them before", self.call("run", "study.yaml", "-o", "study"))
+        self.assertIn("2 of them earlier", self.call("run", "study.yaml", "-o", "study"))
         self.assertNotIn("before", self.call("run", "study.yaml", "-o", "study", "--set", "accuracy=1 %"))
 
     def test_words_that_are_wrong(self):

@@ -160,7 +160,7 @@ class Measured(lab.Lab):
             exact = SAFETY * (error_of(64) + error_of(cells))
             self.assertAlmostEqual(float(row["last.value_error_bar [m]"]) / exact, 1, places=5)
         said = self.call("run", "study.yaml", "-o", "study")
-        self.assertIn("2 of them before", said)
+        self.assertIn("2 of them earlier", said)
         self.assertNotIn("before", self.call("run", "study.yaml", "-o", "study", "--set", "accuracy="))
 
     def test_words_that_are_wrong(self):

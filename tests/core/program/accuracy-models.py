@@ -135,7 +135,7 @@ class Models(lab.Lab):
 
     def test_explain_names_the_candidates(self):
         self.write("order.yaml", FILE)
-        self.assertIn("the reference of toy/auto; a run tries toy/brief, toy/guess in its place",
+        self.assertIn("the reference of toy/auto; a run also tries toy/brief, toy/guess",
                       " ".join(self.call("explain", "order.yaml").split()))
         told = json.loads(self.call("explain", "order.yaml", "--json"))
         first = next(s for s in told["stages"] if s["stage"] == "first")
@@ -148,7 +148,7 @@ class Models(lab.Lab):
         self.assertEqual(used, ["toy/order", "toy/guess"])
         with open("chosen/table.csv", encoding="utf-8") as file:
             self.assertEqual(len(list(csv.DictReader(file))), 2)
-        self.assertIn("2 of them before", self.call("run", "study.yaml", "-o", "chosen"))
+        self.assertIn("2 of them earlier", self.call("run", "study.yaml", "-o", "chosen"))
 
 
 lab.main()

@@ -86,7 +86,7 @@ passes("optional.yaml", GEARS + "outputs: [film.h_min]\n", "ok")
 
 # each case of a study is looked at, each case with its own values
 pairs = warm + "outputs: [gears.contact_ratio]\nstudy: {sweep: {gears.teeth: [%s], gears.module: [4 mm, 3 mm]}}\n"
-passes("pairs.yaml", pairs % "[19, 41], [20, 40]", "4 cases, each of them")
+passes("pairs.yaml", pairs % "[19, 41], [20, 40]", "all 4 cases")
 # at a centre distance of 120 mm both pairs have 4 mm; with half of it no teeth meet
 zipped = warm.replace("module: 4 mm", "module: 4 mm, centre_distance: 120 mm")
 cross = "outputs: [gears.contact_ratio]\nstudy: {sweep: {gears.teeth: [[19, 41], [20, 40]], gears.module: [4 mm, 3.99 mm]}}\n"
@@ -95,7 +95,7 @@ code, said = call("check", "cross.yaml")
 holds("a case that cannot be is found", code == 2 and "gears" in said, said)
 write("many.yaml", warm + "outputs: [duty.line_force]\nstudy: {sweep: {duty.torque: {from: 1 N m, to: 300 N m, points: 400}}}\n")
 code, said = call("check", "many.yaml")
-holds("of many cases it says what was looked at", code == 0 and "400 cases, each value once" in said, said)
+holds("of many cases it says what was looked at", code == 0 and "400 cases, of which each value was checked once" in said, said)
 drawn = """study:
   uncertainty: {outputs: [duty.line_force], samples: 40, inputs: {duty.torque: {uniform: [%s N m, 300 N m]}}}
 """

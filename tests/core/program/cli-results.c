@@ -73,10 +73,11 @@ static void test_answer(void)
     const char *sum = strstr(r.out, "  sum.sum "), *level = strstr(r.out, "  wave.level ");
     const char *total = strstr(r.out, "  wave.total ");
     cli_expect("in the file's order", &r, sum && level && total && sum < level && level < total);
-    cli_expect("a field is in the results", &r, cli_has(r.out, "in the results: wave.field\n"));
+    cli_expect("a field is in the results", &r,
+               cli_has(r.out, "only in the results: wave.field\n"));
     cli_expect("no stage, and no number besides", &r,
                !cli_has(r.out, "toy/wave") && !cli_has(r.out, "  cost ") &&
-                   cli_has(r.out, "--all prints all that was computed"));
+                   cli_has(r.out, "--all prints everything that was computed"));
     r = cli("$F run pair.yaml --json --set outputs='[sum.sum, wave.level, wave.total]'");
     cli_expect("in JSON, too", &r,
                r.json && strstr(r.out, "\"sum.sum\"") < strstr(r.out, "\"wave.level\"") &&

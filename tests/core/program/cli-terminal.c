@@ -64,7 +64,7 @@ static int on_terminal(const char *line, int interrupts)
     text[0] = '\0';
     pid_t child = start(master, line);
     for (int i = 0; i < interrupts; i++) {
-        read_until(master, i == 0 ? "%" : "once more to end");
+        read_until(master, i == 0 ? "%" : "press again to end");
         if (i > 0)
             usleep(100000); /* a burst of signals counts once */
         kill(to_group ? -child : child, SIGINT);

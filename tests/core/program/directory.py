@@ -84,7 +84,7 @@ class Directory(lab.Lab):
         self.assertIn("--replace", said)
         with open("results/pair/result.json", "rb") as file:
             self.assertEqual(file.read(), before)
-        self.assertIn("(they were of ", self.call("run", "b/pair.yaml", "--replace"))
+        self.assertIn("(the results are of ", self.call("run", "b/pair.yaml", "--replace"))
         self.assertIn("0.005", str(self.read("results/pair/result.json")["stages"]))
         shutil.move("b", "moved")  # a file that is not there any more is taken for this one
         self.write("moved/pair.yaml", PAIR)
@@ -131,7 +131,7 @@ class Directory(lab.Lab):
             with open("results/pair/result.json", "rb") as file:
                 self.assertEqual(file.read(), before)
         os.remove("results/pair/result.json")  # as between its removal and the last rename
-        self.assertIn("has not ended, or was broken off", self.call("report", "results/pair", code=2))
+        self.assertIn("has not ended, or was interrupted", self.call("report", "results/pair", code=2))
         self.write("pair.yaml", PAIR)
         self.call("run", "pair.yaml")
         self.call("report", "results/pair")
@@ -197,7 +197,7 @@ class Directory(lab.Lab):
         said = self.call("run", "sweep.yaml", "--replace")
         self.assertIn("its cases stay in the journal", said)
         shutil.copytree("a", "copy")
-        self.assertIn("3 of them before", self.call("run", "copy/sweep.yaml", "--replace"))
+        self.assertIn("3 of them earlier", self.call("run", "copy/sweep.yaml", "--replace"))
         self.call("run", "sweep.yaml", "--set", "study=", "-o", "results/sweep", code=2)
 
     def test_strict(self):
@@ -216,7 +216,7 @@ class Directory(lab.Lab):
                          [1, "ok", "doubtful", ["residual"]])
         warning = answer["warnings"][0]
         self.assertEqual([warning["file"], warning["line"], warning["column"]], ["pair.yaml", 4, 3])
-        self.assertIn("residual is 0.001, held to 1e-06: what is left over", warning["message"])
+        self.assertIn("residual is 0.001, limit 1e-06: what is left over", warning["message"])
         answer = json.loads(self.call("run", "sweep.yaml", *doubtful, "--strict", "--json", code=4))
         self.assertEqual([answer["exit"], answer["verdict"]], [4, "doubtful"])
         self.call("run", "pair.yaml", "--set", "wave.end=noisy")

@@ -134,4 +134,4 @@ with tempfile.TemporaryDirectory() as place:
     code, _, said = explain(file, "--set", "gears.thickness_allowance=[-60 um to 0 um, -60 um to 120 um]")
     assert code == 2 and "jam by" in said and "cannot be made" in said, said
     code, _, said = explain(os.path.join(source, "configs/line-contact.yaml"))
-    assert code == 2 and "no stage that runs is a pair of gears" in said, said
+    assert code == 2 and "none of the stages that run is a pair of gears" in said, said

@@ -33,13 +33,13 @@ done
 same_run configs/line-contact.yaml --set film.cells=64 --set viscosity.use=viscosity/barus \
     --set 'viscosity.alpha=12.345678901 1/GPa'
 grep -q 'alpha: 12.345678901 1/GPa  *# --set$' "$lab/shown.yaml"
-grep -q '# alpha: 11.0 1/GPa .*mil-l-23699.yaml:[0-9]*, replaced by a later one$' "$lab/shown.yaml"
+grep -q '# alpha: 11.0 1/GPa .*mil-l-23699.yaml:[0-9]*, replaced by a later value$' "$lab/shown.yaml"
 grep -q '# tolerance: .* # preset$' "$lab/shown.yaml"
 grep -q '# viscosity: viscosity  *# automatic$' "$lab/shown.yaml"
 gears='--set mesh.use=stiffness/iso-6336 --set outputs=[motion.dte_rms]'
 # shellcheck disable=SC2086
 same_run configs/li-kahraman-2011.yaml $gears --set 'duty.speed=1500 rpm'
-grep -q '# mesh_frequency: 1250 Hz .*replaced by a later one$' "$lab/shown.yaml"
+grep -q '# mesh_frequency: 1250 Hz .*replaced by a later value$' "$lab/shown.yaml"
 
 # files, names that need quotes, and a study over whole stages
 mkdir "$lab/case"

@@ -71,14 +71,14 @@ class Errors(lab.Lab):
 
     def test_no_results(self):
         os.mkdir("bare")
-        self.assertIn("holds no results", self.call("export", "bare", "--to", "csv", code=2))
+        self.assertIn("contains no results", self.call("export", "bare", "--to", "csv", code=2))
         self.assertEqual(os.listdir("bare"), [])
 
     def test_no_writer(self):
         said = self.call("export", "run", "--to", "cvs", code=2)
-        self.assertIn('--to cvs: there is no such form; did you mean "csv"?', said)
+        self.assertIn('--to cvs: unknown format; did you mean "csv"?', said)
         said = self.call("export", "run", "--to", "toy/wave", code=2)
-        self.assertIn('--to toy/wave: there is no such form', said)
+        self.assertIn('--to toy/wave: unknown format', said)
         self.assertIn('results can be written as csv or netcdf', said)
         self.assertIn("--to", self.call("export", "run", code=2))
 
@@ -93,7 +93,7 @@ class Errors(lab.Lab):
         for directory in "run", "study":
             before = sorted(os.listdir(directory))
             said = self.call("export", "run", "--to", "csv", "-o", directory, code=2)
-            self.assertIn(f'"{directory}" holds the results of a run or a study', said)
+            self.assertIn(f'"{directory}" contains the results of a run or a study', said)
             self.assertEqual(sorted(os.listdir(directory)), before)
 
     def test_directory_of_tables(self):

@@ -108,7 +108,7 @@ class Fields(lab.Lab):
             with open("bad/result.json", "w", encoding="utf-8") as file:
                 json.dump(told, file)
             said = self.call("export", "bad", "--to", "csv", code=2)
-            self.assertIn("is not the name of a file beside it", said)
+            self.assertIn("is not the name of a file in its directory", said)
 
     def test_log_cut_off(self):
         """A record that has lost its end is a sentence, and a case that runs anew."""
@@ -149,8 +149,8 @@ class Fields(lab.Lab):
     def test_formats(self):
         """Studies of an older or a newer flankfilm, and runs of a newer one, are refused."""
         self.call("run", "study.yaml", "-o", "other", "-j", "1", code=4)
-        for format, sentence in ((1, "is of an older flankfilm: its files are of format 1, not 2"),
-                                 (3, "is of a newer flankfilm: its files are of format 3, not 2")):
+        for format, sentence in ((1, "was written by an older flankfilm: its files have format 1, not 2"),
+                                 (3, "was written by a newer flankfilm: its files have format 3, not 2")):
             told = {**self.read("other/study.json"), "format": format}
             with open("other/study.json", "w", encoding="utf-8") as file:
                 json.dump(told, file)

@@ -63,7 +63,7 @@ judge "a run beyond the data is told" $?
 says 2 'lies outside the data, whose pressure goes from 0 GPa to 0.6 GPa' viscosity "$data" --at "0.7 GPa"
 says 2 'lies outside the data, whose temperature goes from 40 degC to 100 degC' viscosity "$data" --at "20 degC"
 says 2 'there are 40, 80, 100 degC' viscosity "$data" --at "60 degC"
-says 2 'knows no temperature, and the data have several' viscosity "$data" --law barus
+says 2 'does not depend on temperature, but the data have several' viscosity "$data" --law barus
 # three isotherms together, at the noise of 2 % that the data have
 says 0 "viscosity/roelands 3 2.05 %" viscosity "$data" -o out
 # A = 59.27 MPa and B = 0.0323, those of M100 at 90 degC, from six points of ln eta = ln eta0 + p/(A + B p)
@@ -76,12 +76,12 @@ run viscosity modulus.csv --law modulus -o out
 grep -q " a1  *5.927e+07 Pa" said && grep -q " b1  *0.0323 " said
 judge "A and B of the data" $?
 says 2 'is not a quantity of the data' viscosity "$data" --at "3 m"
-says 0 'p0 is outside of its calibrated range' viscosity "$data" --at "80 degC" --set z=0.5 --set p0=free -o out
+says 0 'p0 is outside its calibrated range' viscosity "$data" --at "80 degC" --set z=0.5 --set p0=free -o out
 says 2 'has a parameter "zz"' viscosity "$data" --at "80 degC" --set zz=1
 says 2 'viscosity/barus is a law: name a parameter of it' viscosity "$data" --at "80 degC" --set viscosity/barus=3
 says 2 'offers no service flankfilm.viscosity/1' viscosity "$data" --law density/tait
 says 2 'of viscosity laws, not of "viscos"' viscos "$data"
-says 2 'fit wants a KIND DATA' viscosity
+says 2 'fit needs a KIND DATA' viscosity
 says 2 'cannot be read' viscosity none.csv
 
 # files that are no data, each with the place

@@ -81,7 +81,7 @@ class Limits(lab.Lab):
         self.call("run", file, "--set", sweep, "--set", "outputs=[verge.swing, verge.known_error]", "-o", "coarse")
         with open("coarse/table.csv", encoding="utf-8") as table:
             self.assertEqual([row["verge.known_error [1]"] for row in csv.DictReader(table)], ["", "0.0001"])
-        self.assertIn("+0.9999 +- not known: smaller than what is known", self.call("compare", "coarse:2", "coarse:1"))
+        self.assertIn("+0.9999 +- not known: less than the errors", self.call("compare", "coarse:2", "coarse:1"))
 
     def test_strict(self):
         for limit, standing in STANDINGS[0], STANDINGS[1], STANDINGS[4]:
@@ -110,7 +110,7 @@ class Limits(lab.Lab):
         accepted = self.answer(file, *words, "--strict")
         line = accepted["stages"][0]["quality"]["residual"]
         self.assertEqual((accepted["verdict"], line["verdict"], line["accepted"]), ("good", "good", "seen on the rig"))
-        self.assertIn("verge.residual = 2.2, held to 2: seen on the rig", self.call("run", file, *words, "-o", "doubt"))
+        self.assertIn("verge.residual = 2.2, limit 2: seen on the rig", self.call("run", file, *words, "-o", "doubt"))
         self.call("report", "doubt")
         with open("doubt/report.html", encoding="utf-8") as page:
             self.assertIn("Doubts that the file accepts: verge.residual (seen on the rig)", page.read())
@@ -146,7 +146,7 @@ class Limits(lab.Lab):
 
     def template(self, results):
         os.mkdir("lab")
-        self.assertIn("there is none of layout.html", self.call("report", results, "--template", "lab", code=2))
+        self.assertIn("the folder has none of layout.html", self.call("report", results, "--template", "lab", code=2))
         with open("lab/page.css", "w", encoding="utf-8") as file:
             file.write("h1{color:teal}\n")
         for layout, code in (BEGINS + "{{title}}{{page}}", 0), (BEGINS + "{{titel}}{{page}}", 2), ("{{page}}", 2):
@@ -166,16 +166,16 @@ class Limits(lab.Lab):
         said = self.call("compare", "designs:3", "designs:1", "designs:2", "-o", "side")
         self.call("compare", "designs:3", "designs:1", "designs:2", "-o", "side")  # over its own files
         self.assertIn("-0.0099 +- 0.01", said)
-        self.assertIn("smaller than what is known", said)
+        self.assertIn("less than the errors", said)
         with open("side.csv", encoding="utf-8") as table:
             row = next(row for row in csv.DictReader(table) if row["output of flankfilm"] == "verge.answer")
         self.assertEqual([float(row[name]) for name in ("designs:3", "error of designs:3", "designs:1")],
                          [1.01, 0.0101, 1.0001])
         with open("side.html", encoding="utf-8") as page:
-            self.assertIn("smaller than what is known", page.read())
+            self.assertIn("less than the errors", page.read())
         self.assertIn("designs: name one of its cases, designs:1 to designs:4",
                       self.call("compare", "designs", "designs:1", code=2))
-        self.assertIn("compare wants A B...", self.call("compare", "designs:1", code=2))
+        self.assertIn("compare needs A B...", self.call("compare", "designs:1", code=2))
 
     def test_bad_is_not_accepted(self):
         file = self.write("bad", "format: 2\npipeline: {wave: {use: toy/wave, amplitude: 2 mm, end: bad}}\n"
@@ -186,7 +186,7 @@ class Limits(lab.Lab):
         file = self.write("told", RUN % 'verge.answer: "< 1 m", verge.swing: "< 1"')
         said = self.call("run", file, "-o", "told").splitlines()
         self.assertEqual(said[1:3], ["of 2 limits 1 missed, 1 met",
-                                     "  verge.answer: missed, < 1 m is asked and it is 1.01 +- 0.01 m"])
+                                     "  verge.answer: missed, required is < 1 m, the answer is 1.01 +- 0.01 m"])
         self.call("report", "told")
         with open("told/report.html", encoding="utf-8") as page:
             text = page.read()
@@ -213,9 +213,9 @@ class Limits(lab.Lab):
         self.assertIn("4 of 4 cases done: 4 good; accepted 2 (residual 2); limits: 4 met", said)
         said = self.call("run", file, "-o", "anew", "--set", 'limits={verge.answer: ">500 mm", verge.swing: "< 2.0"}',
                          "--set", "accept={verge.residual: seen}").splitlines()[-1]
-        self.assertIn("4 of 4 cases done, 4 of them before", said)  # the same limits in other words
+        self.assertIn("4 of 4 cases done, 4 of them earlier", said)  # the same limits in other words
         said = self.call("run", file, "-o", "anew", "--strict", code=4)
-        self.assertIn("4 of 4 cases done, 4 of them before: 2 good, 2 doubtful (residual 2); "
+        self.assertIn("4 of 4 cases done, 4 of them earlier: 2 good, 2 doubtful (residual 2); "
                       "limits: 1 met within its bar, 3 missed", said)
         answer = self.answer(file, "-o", "anew")
         self.assertEqual(answer["limits"], {"met": 0, "met within its bar": 1, "missed": 3})

@@ -63,9 +63,9 @@ same farm
 echo "four ranks: 24 of 48 cases ended their process, results as with -j"
 
 farm 4 study.yaml -o farm
-grep -q '^48 of 48 cases done, 48 of them before: 12 good, 36 failed' said
+grep -q '^48 of 48 cases done, 48 of them earlier: 12 good, 36 failed' said
 expect 4 "$flankfilm" run study.yaml -j 1 -o farm
-grep -q '^48 of 48 cases done, 48 of them before: 12 good, 36 failed' said
+grep -q '^48 of 48 cases done, 48 of them earlier: 12 good, 36 failed' said
 echo "one journal for both"
 
 mpirun -n 4 "$flankfilm" run study.yaml -o broken --executor mpi >/dev/null 2>&1 &

@@ -44,6 +44,6 @@ refused() { # ID WORDS
     [ "$code" -ne 0 ] && grep -qF -- "$2" said || { echo "new $1: exit code $code" && cat said && exit 1; }
 }
 refused viscosity/own-viscosity 'the folder own-viscosity cannot be made: File exists'
-refused Viscosity 'is not a name for a model'
-refused viscosity/auto 'is not a name for a model'
+refused Viscosity 'is not a valid name of a model'
+refused viscosity/auto 'is not a valid name of a model'
 [ ! -e Viscosity ]

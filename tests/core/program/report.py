@@ -241,7 +241,7 @@ class Report(lab.Lab):
         self.assertRegex(page, r'film\.p_max_highest</code></td><td class="number">≥ ')
         self.assertNotRegex(page, r'film\.h_min_lowest</code></td><td class="number">≥')
         said = self.call("run", "blow.yaml", "--set", "study={sweep: {film.steps: [20, 30]}}", "-o", "blows")
-        words = "film.p_max_highest known from below alone"
+        words = "film.p_max_highest only a lower bound"
         self.assertIn(words + " 2", said)
         self.call("export", "blows", "--to", "csv")
         for table in "blows/table.csv", "blows/results-csv/scalars.csv":
@@ -291,7 +291,7 @@ class Report(lab.Lab):
         self.assertNotIn("median", page.split("<main>")[1].split("</main>")[0])
         self.assertNotIn("Over what is varied</h2>", dom)
         self.assertEqual([f["title"] for f in self.drawn if "distribution" in f["title"]], [])
-        self.assertIn("for how long it is below", dom)
+        self.assertIn("share of the time below a value", dom)
 
     def test_share(self):
         """A friction coefficient has its extremes where there is load; without load it may be anything."""
@@ -400,7 +400,7 @@ class Report(lab.Lab):
         self.assertNotIn("error bar", page.split('class="verdict span')[1].split("</table>")[0])
         # 8 points make 3.6 amplitudes, 12 make 0.2; an amplitude is known to 5 %
         self.assertIn("the choice of the model does", page)
-        for words in ("What limits each output", "what the inputs make of it", "50 % are below", "share of the variance"):
+        for words in ("What limits each output", "spread by the inputs", "50 % are below", "share of the variance"):
             self.assertIn(words, dom)
 
     def test_tradeoff(self):
@@ -420,7 +420,7 @@ class Report(lab.Lab):
         """A map has a letter and a reason for each cell, and its boundaries."""
         page, dom, figures = self.study("stability")
         self.assertGreater(figures, 0)
-        self.assertIn("the cells that are not converged, and why", dom)
+        self.assertIn("cells that are not converged, and why", dom)
         self.assertRegex(dom, r"<b[^>]*>F</b>\d+ failed")
         self.assertIn("Black lines", dom)
 
@@ -477,8 +477,8 @@ class Report(lab.Lab):
         self.assertIn("h1{color:teal}", self.read_page("own.html"))
         _, figures = self.look("own.html")
         self.assertEqual(figures, 1)
-        self.assertEqual(self.browser.value("answers.shares({shares: {a: {first: {value: null}, total: {value: 1}, untold: '4 samples do not tell'}}}).note"),
-                         "4 samples do not tell 1 of 1 alone.")
+        self.assertEqual(self.browser.value("answers.shares({shares: {a: {first: {value: null}, total: {value: 1}, untold: 'too few samples (4)'}}}).note"),
+                         "too few samples (4) 1 of 1 alone.")
         with open("own.json", "w", encoding="utf-8") as file:
             file.write("{}")
         self.assertIn("does not describe figures", self.call("report", "own.json", code=2))

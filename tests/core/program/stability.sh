@@ -88,12 +88,12 @@ awk -F'"' '
 # Nothing is run twice, and what was lost is run again.
 expect 0 'cases done' "$flankfilm" run verges.yaml -o verges
 total=$(sed -n 's/ cases done.*//p' said)
-says "$total cases done, $total of them before"
+says "$total cases done, $total of them earlier"
 if grep removed said; then exit 1; fi # what is written again is not gone
 cp verges/map.csv before.csv
 head -n 5 verges/journal.jsonl >short
 mv short verges/journal.jsonl
-expect 0 "$total cases done, 5 of them before" "$flankfilm" run verges.yaml -o verges
+expect 0 "$total cases done, 5 of them earlier" "$flankfilm" run verges.yaml -o verges
 cmp before.csv verges/map.csv
 [ "$(grep -c . verges/table.csv)" -eq $((total + 1)) ]
 python3 -m json.tool verges/map.figure.json >/dev/null
@@ -122,7 +122,7 @@ expect 0 'p 1 physical' "$flankfilm" run motion.yaml -o motion
 verdict motion 1 2.5 physical
 
 # A line without a number says that the error is not known, and promises none.
-expect 0 '1: verge.answer_error, as not known with limit 0.1' "$flankfilm" run motion.yaml -o unknown \
+expect 0 '1: verge.answer_error, for example not known, limit 0.1' "$flankfilm" run motion.yaml -o unknown \
     --set verge.cells=1 --set 'study.stability.axes.verge.speed=[1 m/s]'
 grep -q '1 N,1 m/s,degraded,grid,verge.answer_error,,0.1,verge.answer,0.6,,' unknown/map.csv
 
@@ -148,39 +148,39 @@ grep -q '^1 N,0.4 m/s,converged.*,"1 motions swing"$' notes/map.csv
 grep -q '"note": "2.5 fast"' notes/map.json
 grep -q '"2.5 fast"' notes/map.figure.json
 expect 4 '"noted":[4,0]' "$flankfilm" run notes.yaml -o notes --json
-expect 2 'is a map from lines of quality' "$flankfilm" check notes.yaml \
+expect 2 'must be a map from quality lines' "$flankfilm" check notes.yaml \
     --set 'study.stability.notes=[verge.residual]'
 expect 2 'the pipeline has no stage "vergo"' "$flankfilm" check notes.yaml \
     --set 'study.stability.notes={vergo.law: fast}'
-expect 2 'is a list of names such as' "$flankfilm" check notes.yaml \
+expect 2 'must be a list of names such as' "$flankfilm" check notes.yaml \
     --set 'study.stability.physical={verge.law: fast}'
 
 # Programs, other ways to run it, and what is wrong with a file.
 expect 4 '"silent":[2,0]' "$flankfilm" run swing.yaml -o swing --json
 # What came of it is planned, told, and exported as the run made it.
-expect 0 'stability: 8 cells of the grid' "$flankfilm" explain verges.yaml
+expect 0 'stability: 8 grid cells' "$flankfilm" explain verges.yaml
 expect 0 ' failed, 4 to run' "$flankfilm" plan verges.yaml -o verges --set study.stability.bisect=7
-says '8 cells of the grid'
+says '8 grid cells'
 [ "$(awk '/ done, /{print $1 + $3}' said)" -eq "$total" ]
 expect 0 'verges/results-csv' "$flankfilm" export verges --to csv
 cmp verges/map.csv verges/results-csv/map.csv
-expect 0 'these are cells of the grid' "$flankfilm" run motion.yaml -o shard --shard 1/2
+expect 0 'these are grid cells' "$flankfilm" run motion.yaml -o shard --shard 1/2
 expect 2 'verge.answers is a series or a field' "$flankfilm" check verges.yaml \
     --set 'study.stability.outputs=[verge.answer, verge.answers]'
 expect 2 'the pipeline has no stage "vergo"' "$flankfilm" check verges.yaml \
     --set 'study.stability.refine=[vergo.cells]'
-expect 0 'no number is refined' "$flankfilm" check verges.yaml \
+expect 0 'no parameter is refined' "$flankfilm" check verges.yaml \
     --set 'study.stability.refine=[verge.sells]'
 expect 2 'unknown key "refines"; did you mean "refine"' "$flankfilm" check verges.yaml \
     --set 'study.stability.refines=[verge.cells]'
-expect 2 '"axes" is a map' "$flankfilm" check verges.yaml --set study.stability.axes=
-expect 2 '"bisect" names an axis that has' "$flankfilm" check verges.yaml \
+expect 2 '"axes" must be a map' "$flankfilm" check verges.yaml --set study.stability.axes=
+expect 2 '"bisect" must name an axis that has' "$flankfilm" check verges.yaml \
     --set 'study.stability.bisect={verge.load: 3}'
 expect 2 'whole numbers from 0 to 40' "$flankfilm" check verges.yaml --set study.stability.bisect=-1
 expect 2 'conditions in SI' "$flankfilm" check verges.yaml \
     --set 'study.stability.physical=["verge.swing > much"]'
 expect 2 'stability.tolerance: "x" does not begin with a decimal number' "$flankfilm" check verges.yaml --set study.stability.tolerance=x
-expect 2 'is a map from outputs of this study' "$flankfilm" check verges.yaml \
+expect 2 'must be a map from outputs of this study' "$flankfilm" check verges.yaml \
     --set 'study.stability.estimates={verge.swing: [verge.law]}'
 expect 2 'doubl' "$flankfilm" check verges.yaml --set 'study.stability.refine={verge.cells: 0}'
 expect 2 'a study either sweeps or maps' "$flankfilm" check verges.yaml \
@@ -192,7 +192,7 @@ sed '/axes:/,/speed:/d' verges.yaml >axes.yaml
 expect 2 'stability: "axes" is missing' "$flankfilm" check axes.yaml
 expect 2 '"stability" and "tradeoff" exclude each other' "$flankfilm" check verges.yaml \
     --set 'study.tradeoff={}'
-expect 0 '4 cases done, 1 of them before' "$flankfilm" run motion.yaml -o shard
+expect 0 '4 cases done, 1 of them earlier' "$flankfilm" run motion.yaml -o shard
 
 # A cell is confirmed by a coarser case alone where that is as near as the answer says; a finer one decides the rest,
 # and what cannot be coarser has the finer one at once.

@@ -29,14 +29,14 @@ static void test_ways(void)
     cli_expect("nothing is taken over", &r, cli_has(r.out, "stages: 8 computed"));
     r = cli("$F run w.yaml && $F plan w.yaml");
     cli_expect("resumes", &r,
-               cli_has(r.out, "8 of 8 cases done, 8 of them before") &&
+               cli_has(r.out, "8 of 8 cases done, 8 of them earlier") &&
                    cli_has(r.out, "1 m ... 4 m, each starts from its neighbour\n"));
     write_walk("v.yaml", "", "{sweep: {walk.step: {from: 4 m, to: 1 m, points: 4, follow: down}}}");
     r = cli("$F run v.yaml -o results/w --replace && cut -d, -f3- results/w/table.csv");
     cli_expect(
         "one way alone; the larger value is up", &r,
         cli_has(r.out, "\nok,4,4,good,,\nok,3,6,good,,\nok,2,6.5,good,,\nok,1,5.875,good,,\n") &&
-            cli_has(r.out, "4 of 4 cases done, 4 of them before"));
+            cli_has(r.out, "4 of 4 cases done, 4 of them earlier"));
 }
 
 static void test_shards(void)
@@ -61,8 +61,9 @@ static void test_crash(void)
                cli_has(r.out, "5 of 5 cases done") &&
                    cli_has(r.out, "\nok,2,2.75\ncrashed,3,\nok,4,6.0625\nok,5,9.546875\n"));
     r = cli("$F run c.yaml -j 1");
-    cli_expect("a failure stays one", &r,
-               cli_has(r.out, "5 of 5 cases done, 5 of them before: 4 good, 1 failed (crashed 1)"));
+    cli_expect(
+        "a failure stays one", &r,
+        cli_has(r.out, "5 of 5 cases done, 5 of them earlier: 4 good, 1 failed (crashed 1)"));
     r = cli("grep -c \"run 'c.yaml' --rerun failed -o 'results/c'\" results/c/journal.jsonl");
     cli_expect("the command repeats the case where it stands", &r, cli_has(r.out, "1\n"));
     r = cli("$F run c.yaml -o clean --set 'walk.trap=0 m'; head -n 2 clean/journal.jsonl >keep; "
@@ -70,7 +71,7 @@ static void test_crash(void)
             "$F run c.yaml -o torn --set 'walk.trap=0 m'; cmp clean/table.csv torn/table.csv && "
             "echo same");
     cli_expect("goes on from the journal", &r,
-               cli_has(r.out, "5 of 5 cases done, 2 of them before") && cli_has(r.out, "same\n"));
+               cli_has(r.out, "5 of 5 cases done, 2 of them earlier") && cli_has(r.out, "same\n"));
 }
 
 static void test_bad_state(void)
@@ -94,9 +95,9 @@ static void test_nothing_carried(void)
               "study: {sweep: {wave.amplitude: {from: 1 mm, to: 2 mm, points: 2, follow: up}}}\n");
     outcome r = cli("$F check n.yaml");
     cli_expect("no stage hands on a state", &r,
-               r.code == 0 && cli_has(r.err, "no stage that runs hands a state"));
+               r.code == 0 && cli_has(r.err, "none of the stages that run passes a state"));
     r = cli("$F check w.yaml");
-    cli_expect("the walk does", &r, r.code == 0 && !cli_has(r.err, "hands a state"));
+    cli_expect("the walk does", &r, r.code == 0 && !cli_has(r.err, "passes a state"));
 }
 
 static void test_files(void)
@@ -149,8 +150,8 @@ static void test_changes(void)
     outcome r = cli("$F plan g.yaml --set walk.foot=3 --set 'walk.work=1 ms'");
     cli_expect("old and new values", &r,
                cli_has(r.out, "\n0 done, 0 failed, 2 to run, about ") &&
-                   cli_has(r.out, "\n2 of these an earlier run has done otherwise; the first of "
-                                  "them with\n") &&
+                   cli_has(r.out, "\nan earlier run did 2 of these with other inputs; the first of "
+                                  "them:\n") &&
                    cli_has(r.out, "\n  walk.work: 0 s -> 0.001 s\n") &&
                    cli_has(r.out, "\n  walk.foot: not given -> 3\n"));
     write_walk("g.yaml", "", "{sweep: {walk.step: [1 m, 2 m, 3 m]}}");
@@ -167,8 +168,9 @@ static void test_changes(void)
 static void test_messages(void)
 {
     static const char *const wrong[][2] = {
-        {"{from: 1 m, to: 3 m, points: 3, follow: sideways}", "\"follow\" is up, down or both"},
-        {"{from: 1 m, to: 3 m, points: 3, follow: [up]}", "\"follow\" is up, down or both"},
+        {"{from: 1 m, to: 3 m, points: 3, follow: sideways}",
+         "\"follow\" must be up, down or both"},
+        {"{from: 1 m, to: 3 m, points: 3, follow: [up]}", "\"follow\" must be up, down or both"},
         {"{include: walk.yaml}", "expected a list of files"},
         {"{include: []}", "expected a list of files"},
         {"{include: [a.yaml], points: 3}", "expected a list of files"},

@@ -78,7 +78,7 @@ def cut_journal(run, count, cuts):
             rows += overlap(at, at + len(line), hit)
             at += len(line)
         said = run("cut")
-        done = re.search(r"cases done(?:, (\d+) of them before)?", said)
+        done = re.search(r"cases done(?:, (\d+) of them earlier)?", said)
         found.append((count - int(done[1] or 0), rows))
         with open("cut/table.csv", "rb") as file:
             assert file.read() == table, f"another table after cut {seed}: {said}"

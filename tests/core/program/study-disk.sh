@@ -56,7 +56,7 @@ before=$(wc -l <disk/full/journal.jsonl)
 [ "$before" -lt 160 ]
 expect 0 "to run" ./flankfilm plan study.yaml -o disk/full
 mount -o remount,size=64m disk
-expect 0 "160 of 160 cases done, $before of them before" \
+expect 0 "160 of 160 cases done, $before of them earlier" \
     ./flankfilm run study.yaml -j 2 -o disk/full
 cmp roomy/table.csv disk/full/table.csv
 

@@ -62,7 +62,7 @@ if is_gone "$run"; then echo 'the first signal ends it'; exit 1; fi
 kill -TERM "$run"
 ends "$run"
 ends "$child"
-grep -q 'once more to end at once' said
+grep -q 'press again to end at once' said
 code=0
 wait "$run" || code=$?
 [ "$code" -eq 143 ]

@@ -53,12 +53,12 @@ study plan again
 holds '0 done, 0 failed, 8 to run'
 holds 'oil.build of the plugin: '
 study run again
-holds 'oil: the plugin own/viscosity/my-law.so is another build than that of the results in again'
+holds 'oil: the plugin own/viscosity/my-law.so is a different build from that of the results in again'
 holds '8 of 8 cases done'
 if grep 'before' said; then exit 1; fi
 films again fresh
 study run again
-holds '8 of 8 cases done, 8 of them before'
+holds '8 of 8 cases done, 8 of them earlier'
 if grep 'another build' said; then exit 1; fi
 study run there --rerun all
 films there fresh

@@ -90,7 +90,7 @@ class Rows(lab.Lab):
         self.write("named.yaml", PIPELINE + 'study: {sweep: {\'own, "files"\': {include: [of-4.yaml, of-5.yaml]}}}\n')
         self.call("run", "named.yaml", "-o", "named")
         self.assertEqual([row['own, "files"'] for row in self.table("named")], ["of-4", "of-5"])
-        self.assertIn("--all is of a single case", self.call("run", "named.yaml", "--all", code=2))
+        self.assertIn("--all is for single cases", self.call("run", "named.yaml", "--all", code=2))
 
     def test_what_is_wrong_has_its_place(self):
         for text, place, words in (
@@ -108,12 +108,12 @@ class Rows(lab.Lab):
                 ("wave.amplitude\n\"1\" mm\n", ":2:1:", "begins with a quote, but does not end"),
                 ("wave.amplitude\n1 mn\n", ":2:1:", "mn"),
                 ("wave.count; wave.amplitude\n4; 1 mn\n", ":2:4:", "mn"),
-                ("wave.amplitude\n1 mm\0\n", "", "character 0")):
+                ("wave.amplitude\n1 mm\0\n", "", "a zero byte")):
             said = self.listed("wrong", text, code=2)
             self.assertIn(words, said)
             self.assertIn(f"wrong.csv{place}" if place else "wrong.csv", said)
         self.write("both.yaml", SWEEP + "  cases: wrong.csv\n")
-        self.assertIn("lists its cases or sweeps", self.call("check", "both.yaml", code=2))
+        self.assertIn("has either a list of cases or a sweep", self.call("check", "both.yaml", code=2))
 
     def test_check_tries_the_rows(self):
         self.write("tried.csv", "wave.amplitude\n1 mm\n2 mm\nmany\n")
@@ -160,7 +160,7 @@ class Rows(lab.Lab):
     def test_what_cannot_be(self):
         self.assertIn("ended before its first line", self.feed("none", "", code=2)[1])
         self.assertIn("longer than 1 MiB", self.feed("long", "wave.count\n" + "4" * 3000000, code=2)[1])
-        self.assertIn("cannot be spread",
+        self.assertIn("cannot be distributed",
                       self.feed("spread", TABLE, code=2, words=("--shard", "1/2"))[1])
         answers, _ = self.feed("zero", "wave.count\n4\0\n", code=4)
         self.assertEqual(answers[0]["status"], "invalid")

@@ -30,14 +30,15 @@ static void test_table(void)
                    cli_has(table, ",ok,2,2,0.000958851077208,good,,\n6,") == false &&
                    cli_has(table, ",ok,2,2,0.000958851077208,good,,\n5,"));
     r = cli("$F run s.yaml && $F plan s.yaml --json");
-    cli_expect("resumes", &r, r.code == 0 && cli_has(r.out, "6 of 6 cases done, 6 of them before"));
+    cli_expect("resumes", &r,
+               r.code == 0 && cli_has(r.out, "6 of 6 cases done, 6 of them earlier"));
     r = cli("$F plan s.yaml --json");
     cli_expect("plan", &r,
                json_integer_value(cli_at(r.json, "done")) == 6 &&
                    json_integer_value(cli_at(r.json, "left")) == 0);
     r = cli("$F plan s.yaml --set wave.shape=b");
     cli_expect("says what has changed", &r,
-               cli_has(r.out, "\n6 of these an earlier run has done otherwise") &&
+               cli_has(r.out, "\nan earlier run did 6 of these with other inputs") &&
                    cli_has(r.out, "\n  wave.shape: not given -> b\n"));
 }
 
@@ -131,10 +132,10 @@ static void test_reuse(void)
     outcome r = cli("$F run r.yaml -j 2; cut -d, -f6 results/r/table.csv | uniq -c | wc -l");
     cli_expect("two workers compute a shared stage once", &r,
                cli_has(r.out, "stages: 6 computed in ") && cli_has(r.out, "\n2\n") &&
-                   cli_has(r.out, ", 4 taken over from other cases, which saved 0."));
+                   cli_has(r.out, ", 4 reused from other cases, which saved 0."));
     r = cli("for f in results/r/stages/*; do printf x >$f; done; $F run r.yaml -j 1 --rerun all");
     cli_expect("a damaged file is computed anew", &r,
-               cli_has(r.out, "stages: 6 computed in ") && cli_has(r.out, ", 4 taken over from"));
+               cli_has(r.out, "stages: 6 computed in ") && cli_has(r.out, ", 4 reused from"));
 }
 
 static void test_time_limit(void)
@@ -167,7 +168,7 @@ static void test_shards(void)
             "SLURM_ARRAY_TASK_STEP=1 SLURM_ARRAY_TASK_COUNT=2 $F run s.yaml");
     cli_expect("an array with gaps", &r, r.code == 2 && cli_has(r.err, "--shard I/N"));
     r = cli("$F run s.yaml --shard 3/2");
-    cli_expect("a wrong shard", &r, r.code == 2 && cli_has(r.err, "--shard wants I/N"));
+    cli_expect("a wrong shard", &r, r.code == 2 && cli_has(r.err, "--shard needs I/N"));
 }
 
 /* The example for Slurm does without Slurm, too, when it is told the number of its part. */
@@ -222,7 +223,7 @@ static void test_interrupt(void)
                     "sleep 0.1; kill -TERM $first; wait $first");
     cli_expect("stops after the case at hand", &r,
                r.code == 1 && cli_has(r.err, "the study was stopped") &&
-                   cli_has(r.err, "the same command goes on") &&
+                   cli_has(r.err, "the same command continues") &&
                    cli_has(r.out, "1 of 2 cases done"));
 }
 
@@ -231,15 +232,16 @@ static void test_messages(void)
     static const char *const wrong[][2] = {
         {"{sweep: {wave.count: 3}}", "expected a list of values"},
         {"{sweep: {wave.count: []}}", "expected a list of values"},
-        {"{sweep: {wave.count: {from: 1, to: 3}}}", "a range wants \"points\""},
+        {"{sweep: {wave.count: {from: 1, to: 3}}}", "a range needs \"points\""},
         {"{sweep: {wave.count: {from: 1, to: 3, points: 1}}}", "from 2 to 1000000"},
-        {"{sweep: {wave.amplitude: {from: 1 mm, to: 3 s, points: 3}}}", "do not agree"},
+        {"{sweep: {wave.amplitude: {from: 1 mm, to: 3 s, points: 3}}}",
+         "units of different dimensions"},
         {"{sweep: {wave.amplitude: {from: 1 mm, to: 3 furlong, points: 3}}}", "furlong"},
         {"{sweep: {wave.amplitude: {from: 0 mm, to: 3 mm, points: 3, spacing: log}}}", "positive"},
         {"{sweep: {wave.amplitude: {from: 1 mm, to: 3 mm, pionts: 3}}}", "did you mean \"points\""},
         {"{zip: {wave.count: [1, 2], wave.amplitude: [1 mm]}}", "equally long"},
         {"{sweep: {wave.count: [1]}, zip: {wave.count: [2]}}", "varied twice"},
-        {"{sample: {sobol: 4}, sweep: {wave.count: [1]}}", "no range to draw from"},
+        {"{sample: {sobol: 4}, sweep: {wave.count: [1]}}", "no range to sample"},
         {"{sample: {sobol: 4}}", "there is nothing to vary"},
         {"{sweep: {wave.nonsense: [1]}}", "unknown key \"nonsense\""},
         {"{sweep: {wave.amplitude: [20 mm]}}", "wave.amplitude"},

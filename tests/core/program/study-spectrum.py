@@ -79,7 +79,7 @@ class Spectrum(lab.Lab):
         self.assertIsNone(totals[1])
         self.assertAlmostEqual(sums["outputs"]["wave.total"]["mean"], (5 * totals[0] + 14 * totals[2]) / 19)
         self.assertAlmostEqual(sums["missing"], 0.05)
-        self.assertIn("rows of 5 % of the time gave no numbers", said)
+        self.assertIn("rows with 5 % of the time gave no results", said)
 
     def test_a_class_of_no_time_is_no_row(self):
         """In a table and in a list, as a time and as a share."""
@@ -157,10 +157,10 @@ class Spectrum(lab.Lab):
         self.write("rows.csv", TABLE.replace("\n5;", "\n-5;"))
         self.refused(" rows.csv", "rows.csv:2:1: error: time: expected")
         self.write("rows.csv", "time [h]; wave.count\n0;4\n0;5\n")
-        self.refused(" rows.csv", "rows.csv lasts any time")
-        self.refused("\n    - {time: 0 h, wave.count: 4}", "no row lasts any time")
+        self.refused(" rows.csv", "rows.csv have the time 0")
+        self.refused("\n    - {time: 0 h, wave.count: 4}", "all rows have the time 0")
         self.write("rows.csv", TABLE.replace("\n1;", "\n1 %;"))
-        self.refused(" rows.csv", "rows.csv:3:1: error: time: a share stands beside times")
+        self.refused(" rows.csv", "rows.csv:3:1: error: time: shares and times are mixed")
         self.write("rows.csv", TABLE.replace("time [h]", "time [h]; time [s]").replace(";", ";1;", 0))
         self.refused(" rows.csv", "time has two columns")
         self.refused("\n    - {time: 1 h, wave.count: 4}\n    - {wave.count: 5}", "either all rows have a time or none")
@@ -173,7 +173,7 @@ class Spectrum(lab.Lab):
         self.refused("\n" + LIST, "below: wave.total", "  below: {wave.total: 1 N}")
         self.refused("\n" + LIST, "expected a map from scalars to limits", "  below: 1 mm")
         self.write("bad.yaml", PIPELINE + "study: {sweep: {wave.count: [4, 5]}, below: {wave.total: 1 mm}}\n")
-        self.assertIn('it is for cases with a column "time"', self.call("run", "bad.yaml", code=2))
+        self.assertIn('it needs cases with a column "time"', self.call("run", "bad.yaml", code=2))
         self.write("bad.yaml", PIPELINE + "study:\n  cases:\n    - {wave.count: 4}\n    - {wave.count: many}\n")
         self.assertIn("bad.yaml:9:20: error", self.call("check", "bad.yaml", code=2))
 

@@ -158,7 +158,7 @@ def test_written_over():
     if not cases // 2 + 2 <= done < cases:
         raise SystemExit(f"FAIL {done} rows beside a model that was written over")
     (own / "brief.so").write_bytes((own / "guess.so").read_bytes())
-    expect("once more", start("swap", "swap"), 0, f"{cases} of {cases} cases done, {done} of them before")
+    expect("once more", start("swap", "swap"), 0, f"{cases} of {cases} cases done, {done} of them earlier")
     environment["FLANKFILM_PLUGIN_PATH"] = before
 
 
@@ -172,7 +172,7 @@ def test_lost_start():
         out.write(bytes(len(lines[0]) - 1))
         out.seek(sum(map(len, lines[:10])) - 1)  # the end of the tenth line: the next one is behind it
         out.write(bytes(1))
-    expect("its start is lost", start("many", "many"), 0, "300 of 300 cases done, 298 of them before")
+    expect("its start is lost", start("many", "many"), 0, "300 of 300 cases done, 298 of them earlier")
     if (lab / "many" / "table.csv").read_bytes() != calm:
         raise SystemExit("FAIL another table after a lost start")
 
@@ -242,7 +242,7 @@ def test_system():
         with open(lab / name / "journal.jsonl", "ab") as out:
             out.write(b"half of a line")
         again = start("quick", name, **{name: 1})
-        expect(f"{name}, again", again, 0, f"{cases} of {cases} cases done, {cases} of them before")
+        expect(f"{name}, again", again, 0, f"{cases} of {cases} cases done, {cases} of them earlier")
     if (lab / "INTERRUPT" / "table.csv").read_bytes() != (lab / "SHORT" / "table.csv").read_bytes():
         raise SystemExit("FAIL another table")
     refused = start("quick", "sync", REFUSE_fdatasync=errno.EIO)
@@ -253,7 +253,7 @@ def test_system():
     refused = start("quick", "SHORT", REFUSE_ftruncate=errno.EIO)
     expect("a tail that stays", refused, 2, "cannot be used: Input/output error")
     again = start("quick", "SHORT", REFUSE_fcntl=errno.ENOLCK)
-    expect("without locks of fcntl", again, 0, f"{cases} of {cases} cases done, {cases} of them before")
+    expect("without locks of fcntl", again, 0, f"{cases} of {cases} cases done, {cases} of them earlier")
     for cause in (errno.ENOLCK, errno.EOPNOTSUPP):
         folder = f"lock-{cause}"
         run = start("slow", folder, REFUSE_flock=cause)

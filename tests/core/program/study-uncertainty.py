@@ -94,8 +94,8 @@ class Uncertainty(lab.Lab):
             self.study("open", f"{text}{samples}\n")
             limits, low, high, said = self.limits("open")
             self.assertEqual(low < limits["model"] < high, is_open)
-            self.assertEqual(said, "finer cells would change nothing, the " + (
-                "inputs and the choice of the model may matter alike" if is_open else "choice of the model does"))
+            self.assertEqual(said, "finer cells would change nothing" + (
+                "; the inputs and the choice of the model may matter equally" if is_open else ", the choice of the model does"))
 
     def test_cells_that_may_matter_as_much_as_the_inputs(self):
         """The cells of the stage make 0.1 m of 1.1 m, and so does the spread of its strength; of a model, too, or much less."""
@@ -110,9 +110,9 @@ study:
     samples: 20
     aim: distribution
 """
-        alike = "the inputs, cells and steps may matter alike"
+        alike = "the inputs, and cells and steps, may matter equally"
         for tolerance, sentence in (("", alike), ("1 %", alike), ("40 %", "finer cells would change nothing, the choice of the model does"),
-                                    ("10 %", "the inputs, the choice of the model, cells and steps may matter alike")):
+                                    ("10 %", "the inputs, the choice of the model, and cells and steps may matter equally")):
             with self.subTest(tolerance):
                 name = "cells" + tolerance.rstrip(" %")
                 self.write(name + ".yaml", text + (f"    models: {{loose: {{last.tolerance: {tolerance}}}}}\n" if tolerance else ""))
@@ -154,7 +154,7 @@ study:
         self.assertEqual(pairs, [(amplitude(row), amplitude(row, "other")) for row in self.rows("toleranced", "sample")])
         # the first of more samples are the same ones, which are not computed again
         said = self.call("run", "two.yaml", "-o", "two", "--set", "study.uncertainty.samples=50")
-        self.assertIn("52 cases done, 42 of them before", said)
+        self.assertIn("52 cases done, 42 of them earlier", said)
 
     def test_values_with_a_tolerance_are_the_inputs_where_none_is_named(self):
         text = PIPELINE.replace("amplitude: 2 mm}\n  other", "amplitude: 2 mm +- 0.5 mm}\n  other")
@@ -200,14 +200,14 @@ study:
         """4 rows tell no share, which is said in the print and beside the figure that is on the page; 20 that are asked for do."""
         said = self.study("few", TWO + "    samples: 4\n", words=("-j", "1"))
         share = self.read("few/uncertainty.json")["outputs"]["wave.total"]["shares"]["wave.amplitude"]
-        self.assertEqual((share["first"]["value"], share["untold"]), (None, "4 samples do not tell"))
-        self.assertIn("4 samples do not tell", said)
+        self.assertEqual((share["first"]["value"], share["untold"]), (None, "too few samples (4)"))
+        self.assertIn("too few samples (4)", said)
         self.study("more", TWO + "    samples: 4\n    sensitivity: 20\n", words=("-j", "1"))
         share = self.read("more/uncertainty.json")["outputs"]["wave.total"]["shares"]["wave.amplitude"]
         self.assertAlmostEqual(share["first"]["value"], 1)
         self.assertEqual(len(self.rows("more", "sample")), 20)
         shares = next(figure["shares"] for figure in self.read("few/uncertainty.figure.json") if figure["sort"] == "shares")
-        self.assertEqual([one["untold"] for one in shares.values()], ["4 samples do not tell"] * 2)
+        self.assertEqual([one["untold"] for one in shares.values()], ["too few samples (4)"] * 2)
 
     def test_each_word_of_an_input_has_its_own_mean(self):
         words = """    inputs: {wave.end: {samples: [good, good, doubtful]}, wave.amplitude: {normal: [2 mm, 5 %]}}
@@ -253,8 +253,8 @@ study:
                 (inputs % "{normal: [2 mm, 3 N]}", "the spread has another dimension"),
                 (inputs % "{normal: [2 mm]}", "expected two numbers"),
                 (inputs % "{normal: [20 degC, 5 %]}", "a spread of a temperature is a number of kelvin"),
-                (inputs % "{lognormal: [-2 mm, 5 %]}", "lognormal wants a positive median"),
-                (inputs % "{uniform: [3 mm, 2 mm]}", "the first end is the lower one"),
+                (inputs % "{lognormal: [-2 mm, 5 %]}", "lognormal needs a positive median"),
+                (inputs % "{uniform: [3 mm, 2 mm]}", "the first end must be the lower one"),
                 (inputs % "3 mm +- 2 N", "two units that do not agree"),
                 (inputs % "3 mm", "expected a distribution"),
                 (inputs % "{gaussian: [3 mm, 2 mm]}", 'unknown key "gaussian"'),
@@ -262,17 +262,17 @@ study:
                 (inputs % "{samples: /dev/zero}", "it is not a regular file"),
                 (TWO + "    samples: 999999\n", "more than 1000000 cases"),
                 ("    inputs: {w: {uniform: [1 mm, 2 mm], sets: [wave.amplitude, wave.amplitude]}}\n", "wave.amplitude: it is set twice"),
-                ("    inputs: {w: {uniform: [1 mm, 2 mm], sets: [sample, wave.amplitude]}}\n", "sample: it is no path of the pipeline"),
-                ("    inputs: {amplitude: {normal: [2 mm, 5 %]}}\n", "it is no path of the pipeline"),
+                ("    inputs: {w: {uniform: [1 mm, 2 mm], sets: [sample, wave.amplitude]}}\n", "sample: it is not a path of the pipeline"),
+                ("    inputs: {amplitude: {normal: [2 mm, 5 %]}}\n", "it is not a path of the pipeline"),
                 (TWO + "    correlations: [[wave.amplitude, wave.total, 0.5]]\n", 'there is no input "wave.total"'),
                 (TWO + "    correlations: [[wave.amplitude, other.amplitude, 1]]\n", "a number between -1 and 1"),
-                (TWO + "    conditions: [sum < 1 mm]\n", "a condition is about one of the outputs"),
+                (TWO + "    conditions: [sum < 1 mm]\n", "a condition must be about one of the outputs"),
                 (TWO + "    conditions: [wave.total < 1 N]\n", "wave.total < 1 N"),
-                (TWO + "    percentiles: [5]\n", "a percentile is a share"),
-                (TWO + "    percentiles: [0.5 x]\n", "a percentile is a share"),
-                (TWO + "    ladder: {short: {wave.amplitude: 1 mm}}\n", "an uncertain input sets it"),
+                (TWO + "    percentiles: [5]\n", "a percentile must be a share"),
+                (TWO + "    percentiles: [0.5 x]\n", "a percentile must be a share"),
+                (TWO + "    ladder: {short: {wave.amplitude: 1 mm}}\n", "it is set by an uncertain input"),
                 (TWO + "    ladder: {short: {cost: 1 %}}\n", "it changes nothing"),
-                (TWO + "    ladder: {short: {wave.count: 4, cost: cheap}}\n", "a cost is a share"),
+                (TWO + "    ladder: {short: {wave.count: 4, cost: cheap}}\n", "a cost must be relative"),
                 ("    inputs: {wave.amplitud: {normal: [2 mm, 5 %]}}\n", 'bad.yaml:10:13: error: uncertainty: medians: wave: unknown key "amplitud"'),
                 ("    inputs: {wave.amplitude: {normal: [2 N, 5 %]}}\n", "uncertainty: medians: wave.amplitude"),
                 (TWO + "    sample: 4\n", 'did you mean "samples"')):

@@ -76,8 +76,8 @@ class Verdicts(lab.Lab):
         for workers in "1", "3":
             said = self.run_study("told-" + workers, "-j", workers)
             self.assertEqual(said.splitlines()[-1],
-                             f"7 of 7 cases done: {WORDS}; \"reason\" in the table says why")
-        self.assertIn(f"7 of 7 cases done, 7 of them before: {WORDS}", self.run_study("told-1"))
+                             f"7 of 7 cases done: {WORDS}; the column \"reason\" of the table says why")
+        self.assertIn(f"7 of 7 cases done, 7 of them earlier: {WORDS}", self.run_study("told-1"))
 
     def test_files(self):
         self.run_study("kept", "-j", "2")
@@ -133,7 +133,7 @@ class Verdicts(lab.Lab):
                 del line["sum"]
                 body = json.dumps(line, separators=(",", ":"))[:-1]
                 file.write(f'{body},"sum":"{checksum(body.encode())}"}}\n')
-        self.assertIn(f"7 of 7 cases done, 7 of them before: {WORDS}", self.run_study("old"))
+        self.assertIn(f"7 of 7 cases done, 7 of them earlier: {WORDS}", self.run_study("old"))
         self.check_json(self.read("old/study.json"))
 
     def test_refused(self):
@@ -145,7 +145,7 @@ class Verdicts(lab.Lab):
         self.call("run", "refused.yaml", "-o", "refused", "-j", "1", code=4)
         self.assertIn("2 done, 2 failed, 0 to run", self.call("plan", "refused.yaml", "-o", "refused"))
         said = self.call("run", "refused.yaml", "-o", "refused", code=4)
-        self.assertIn("4 of 4 cases done, 4 of them before: 2 good, 2 failed", said)
+        self.assertIn("4 of 4 cases done, 4 of them earlier: 2 good, 2 failed", said)
 
     def test_other_studies(self):
         studies = {

@@ -95,7 +95,7 @@ errors out >out.errors
 errors killed >killed.errors
 [ -s out.errors ] || fail "no errors in tradeoff.json"
 cmp out.errors killed.errors
-"$flankfilm" run study.yaml -o killed | grep -q '^23 of 23 cases done, 23 of them before' ||
+"$flankfilm" run study.yaml -o killed | grep -q '^23 of 23 cases done, 23 of them earlier' ||
     fail "done twice"
 
 # One that is told to end does so, and what it did is kept; each case takes 0.2 s.
@@ -133,14 +133,14 @@ sed 's/root.blind: \[/root.blend: [/' study.yaml >blend.yaml
 file=blend.yaml
 refused 'blend.yaml:14:9: error: tradeoff: n 8, blend 1: root: unknown key "blend"'
 file=study.yaml
-refused 'no "root.m" that could be refined' --set 'study.tradeoff.reference={root.n: 1, refine: [root.m]}'
+refused 'no "root.m" to refine' --set 'study.tradeoff.reference={root.n: 1, refine: [root.m]}'
 refused 'the reference is one answer' --set 'study.tradeoff.reference={root.n: [1, 2]}'
 refused 'unknown key "estimates"' --set 'study.tradeoff.estimates=none'
 refused 'unknown key "candidate"' --set 'study.tradeoff.candidate=[]'
 refused 'tradeoff.repeats: 0 is too small; it must be at least 1' --set study.tradeoff.repeats=0
 refused 'tradeoff.accuracy: -0.01 is too small; it must be above 0' --set 'study.tradeoff.accuracy=-1 %'
 refused 'either sweeps or measures' --set 'study.sweep={root.n: [1, 2]}'
-refused 'it cannot be spread' --shard 1/2
+refused 'cannot be distributed' --shard 1/2
 code=0
 sed 's/n: 100/n: 32/' study.yaml >blind.yaml
 "$flankfilm" run blind.yaml -o blind >blind.txt 2>&1 || code=$?
@@ -152,12 +152,12 @@ grep -q 'blind.yaml:11:16: error: tradeoff: the reference failed (n 64): .*nothi
 # What is 0 in the reference has no shares: its errors are absolute. A name of the file stands before the rest.
 sed 's/    repeats: 3/    repeats: 1/; s/outputs: \[root.value, root.curve, slow.total\]/outputs: [root.value, root.curve, slow.height]/; s/- {root.n: \[2, 4, 8, 16, 64\]/- {name: quick, root.n: [2, 8]/; s/{root.n: 8, root.blind/{name: slow, root.n: 8, root.blind/' study.yaml >sign.yaml
 "$flankfilm" run sign.yaml -o sign >sign.txt || true
-grep -q '^slow.height, known to .* %$' sign.txt || fail "one measure of all series"
+grep -q '^slow.height, uncertain by .* %$' sign.txt || fail "one measure of all series"
 grep -q 'slow, n 8, blind 100' sign.txt || fail "the name of the file"
 "$flankfilm" run sign.yaml -o sign1 --set 'study.tradeoff.candidates=[{name: alone, root.n: 4}]' >sign1.txt
 grep -q ' alone *$' sign1.txt || fail "a name stands alone for one point"
 "$flankfilm" run sign.yaml -o none --set 'study.tradeoff.outputs=[root.value, root.trace]' >none.txt || true
-grep -q '^root.trace, 0 in the reference: errors in SI, known to 0$' none.txt || fail "0 in the reference"
+grep -q '^root.trace, 0 in the reference: errors in SI, uncertain by 0$' none.txt || fail "0 in the reference"
 grep -q '^[* ] *0.0156 *0.0156 .* quick, n 8$' none.txt || fail "0 in the reference: 1/64 itself"
 
 # Where it becomes 0, the change has no share either, and it has not settled.
@@ -179,7 +179,7 @@ END
 sed 's/n: 100, refine: \[root.n\]/n: 100, refine: {root.n: 0.5}/' study.yaml >stall.yaml
 "$flankfilm" run stall.yaml -o stall >stall.txt || true
 grep -q '^reference 2' stall.txt && ! grep -q '^reference 3' stall.txt || fail "it was refined in vain"
-grep -q '0.1 %: root.value, root.curve; finer' stall.txt || fail "it does not say what keeps it"
+tr -s '\n ' ' ' <stall.txt | grep -q '0.1 %: root.value, root.curve; refinement does not' || fail "it does not say what keeps it"
 
 # The figure names the points of the front, and shows how well each number is known.
 python3 - <<'END' || fail "the figure"

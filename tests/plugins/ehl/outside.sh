@@ -40,7 +40,7 @@ for fault in slow no-squeeze thick soft light lazy suction nan stubborn talking;
     status=0
     "$flankfilm" run "$lab/wrong.yaml" --plugin-path "$folder" --set bad.fault="$fault" -o "$lab/$fault" \
         >"$lab/$fault.said" 2>&1 || status=$?
-    why=$(grep -m 1 -o 'film\.[a-z_]* = [^ ]*, held to [^ ]*: bad' "$lab/$fault.said" ||
+    why=$(grep -m 1 -o 'film\.[a-z_]* = [^ ]*, limit [^ ]*: bad' "$lab/$fault.said" ||
         grep -m 1 -o 'returned an invalid film' "$lab/$fault.said" ||
         grep -m 1 -o 'had failed at more than a fifth of the instants' "$lab/$fault.said" ||
         grep -m 1 -o '(bad: the sweep 7 diverges)' "$lab/$fault.said" || true)

@@ -113,7 +113,7 @@ static bool read_follow(reading *r, const ff_node *node, const char *path, bool 
     bool word = node->kind == FF_SCALAR, up = word && !strcmp(node->text, "up");
     bool down = word && !strcmp(node->text, "down"), both = word && !strcmp(node->text, "both");
     if (!up && !down && !both)
-        return refuse(r, node->place, NULL, "\"follow\" is up, down or both", path);
+        return refuse(r, node->place, NULL, "\"follow\" must be up, down or both", path);
     if (study->followed != SIZE_MAX)
         return refuse(r, node->place, NULL, "only one range of a study can be followed", path);
     study->backwards = down != falling;
@@ -143,7 +143,7 @@ static bool read_end(reading *r, const ff_node *node, const char *path, double *
     ff_unit parsed;
     if (!node || node->kind != FF_SCALAR || !ff_number_parse(node->text, number, unit))
         return refuse(r, node ? node->place : FF_NOWHERE, "write {from: 400 Hz, to: 4000 Hz, ...}",
-                      "\"from\" and \"to\" must be numbers with their unit", path);
+                      "\"from\" and \"to\" must be numbers with units", path);
     *unit += strspn(*unit, " ");
     return ff_unit_parse(*unit, &parsed, why, sizeof why) ||
            ff_error(r->report, FF_FAULT_INPUT, node->place, NULL,
@@ -159,20 +159,21 @@ static bool read_span(reading *r, const ff_node *map, const char *path, span *s)
     ff_unit a, b;
     if (!from || !to)
         return refuse(r, map->place, "write {from: 400 Hz, to: 4000 Hz, points: 10}",
-                      "a range wants \"from\" and \"to\"", path);
+                      "a range needs \"from\" and \"to\"", path);
     if (!read_end(r, from, path, &s->from, &s->unit) || !read_end(r, to, path, &s->to, &unit))
         return false;
     ff_unit_parse(s->unit, &a, why, sizeof why);
     ff_unit_parse(unit, &b, why, sizeof why);
     if (!ff_unit_same_dimension(&a, &b))
-        return refuse(r, to->place, NULL, "\"from\" and \"to\" have units that do not agree", path);
+        return refuse(r, to->place, NULL, "\"from\" and \"to\" have units of different dimensions",
+                      path);
     if (strcmp(unit, s->unit) != 0)
         s->to = ff_unit_from_si(&a, ff_unit_to_si(&b, s->to));
     s->log = spacing && spacing->kind == FF_SCALAR && !strcmp(spacing->text, "log");
     if (spacing && !s->log && (spacing->kind != FF_SCALAR || strcmp(spacing->text, "linear") != 0))
         return refuse(r, spacing->place, NULL, "\"spacing\" is either linear or log", path);
     if (s->log && !(s->from > 0 && s->to > 0))
-        return refuse(r, map->place, NULL, "spacing log wants two positive ends", path);
+        return refuse(r, map->place, NULL, "spacing log needs positive ends", path);
     return true;
 }
 
@@ -195,7 +196,7 @@ static bool read_count(reading *r, const ff_node *node, const char *name, int64_
         *count >= least && *count <= MOST_CASES)
         return true;
     return ff_error(r->report, FF_FAULT_INPUT, node->place, NULL,
-                    "study: %s wants a whole number from %d to %d", name, (int)least, MOST_CASES);
+                    "study: %s needs a whole number from %d to %d", name, (int)least, MOST_CASES);
 }
 
 static bool too_many(reading *r, ff_place place, double cases)
@@ -229,14 +230,13 @@ static bool read_range(reading *r, const ff_node *map, const char *path)
     if (!study_check_keys(map, "study", path, known, r->report) || !read_span(r, map, path, &s))
         return false;
     if (!points && !drawn)
-        return refuse(r, map->place, NULL, "a range wants \"points\"", path);
+        return refuse(r, map->place, NULL, "a range needs \"points\"", path);
     if (points && !read_count(r, points, "points", 2, &count))
         return false;
     if (drawn && !has_dimension(r, map->place, path))
         return false;
     if (drawn && follow)
-        return refuse(r, follow->place, NULL, "a range that is drawn from cannot be followed",
-                      path);
+        return refuse(r, follow->place, NULL, "a sampled range cannot be followed", path);
     if (points && too_many(r, points->place, cases_of(r->study) * (double)count))
         return false; /* refused before memory for so many cases is allocated */
     if (follow && !read_follow(r, follow, path, s.to < s.from))
@@ -287,9 +287,9 @@ static bool read_sweep(reading *r, const ff_node *map)
         else if (node->kind == FF_SEQUENCE && node->count > 0)
             add_list(r, map->keys[i], node, add_axis(r, node->count));
         else
-            good = refuse(r, node->place, "of one value: [VALUE]; an axis is not taken away",
-                          "expected a list of values, or {from: ..., to: ..., points: ...}",
-                          map->keys[i]);
+            good = refuse(
+                r, node->place, "for a single value write [VALUE]; an axis cannot be removed",
+                "expected a list of values, or {from: ..., to: ..., points: ...}", map->keys[i]);
     }
     return good;
 }
@@ -368,7 +368,7 @@ static bool finish_axes(reading *r, const ff_node *node)
                 return refuse(r, node->place, NULL, "it is varied twice", study->varied[k].path);
     if (r->sampled && r->dimension == 0)
         return refuse(r, node->place, "give it {from: ..., to: ...} under sweep, without points",
-                      "there is no range to draw from", "sample");
+                      "there is no range to sample", "sample");
     study->followed = study->followed < study->axis_count ? study->followed : study->axis_count;
     study->direction = study->direction < study->axis_count ? study->direction : study->axis_count;
     study->count = cases <= MOST_CASES ? (size_t)cases : 0;
@@ -393,14 +393,14 @@ static bool read_all(reading *r, const ff_node *node)
     const ff_node *sample = ff_node_get(node, "sample"), *cases = ff_node_get(node, "cases");
     if (cases && (sweep || zip || sample))
         return refuse(r, cases->place, "write two files",
-                      "a study either lists its cases or sweeps", "cases");
+                      "a study has either a list of cases or a sweep", "cases");
     if (cases)
         return (study_listed_is(cases) ? study_listed_read(r->study, cases, r->report)
                                        : study_rows_read(r->study, cases, r->report)) &&
                study_spectrum_finish(r->study, cases, ff_node_get(node, "below"), r->report);
     if (ff_node_get(node, "below"))
         return refuse(r, ff_node_get(node, "below")->place, NULL,
-                      "it is for cases with a column \"time\"", "below");
+                      "it needs cases with a column \"time\"", "below");
     const ff_node *toleranced = sample ? ff_node_get(sample, "tolerances") : NULL;
     if (node->kind != FF_MAP || (!sweep && !zip && !toleranced))
         return refuse(r, node->place, "write study: {sweep: {duty.torque: [100 N m, 200 N m]}}",

@@ -32,7 +32,7 @@ static const char *read_file(int fd, ff_source *source)
     if (!file_read(fd, source->text, source->length, -1))
         return strerror(errno);
     return strlen(source->text) == source->length ? NULL
-                                                  : "it holds a character 0, so that it is no text";
+                                                  : "it contains a zero byte, so it is not text";
 }
 
 const char *study_csv_open(study_csv *table, const char *path)

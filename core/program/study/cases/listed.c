@@ -97,7 +97,8 @@ bool study_listed_read(study_definition *study, const ff_node *cases, ff_report 
     for (size_t i = 0; i < rows.count; i++)
         read_row(study, &rows, i);
     if (ff_report_errors(report) == errors && rows.count == 0)
-        ff_error(report, FF_FAULT_INPUT, cases->place, NULL, "study: cases: no row lasts any time");
+        ff_error(report, FF_FAULT_INPUT, cases->place, NULL,
+                 "study: cases: all rows have the time 0");
     else if (ff_report_errors(report) == errors && study->varied_count == 0)
         ff_error(report, FF_FAULT_INPUT, cases->place, NULL,
                  "study: cases: no row names a path of the pipeline");

@@ -63,7 +63,7 @@ static bool read_head(study_rows *rows, study_csv_field *f, column *c, ff_report
         return ff_error(report, FF_FAULT_INPUT, place_of(rows, f), NULL, "the unit \"%.40s\" %s",
                         unit, why);
     return (*f->text && !strchr(f->text, '=')) ||
-           refuse(rows, f, report, "a path such as duty.torque, as --set takes it",
+           refuse(rows, f, report, "a path as for --set, such as duty.torque",
                   "a column needs a name");
 }
 
@@ -77,7 +77,7 @@ static bool add_column(study_rows *rows, study_csv_field *f, column *c, ff_repor
     c->time = !strcmp(f->text, study_time_name);
     if (c->time && rows->streams)
         return refuse(rows, f, report, "write the rows to a file",
-                      "time: what rows of standard input give is not summed");
+                      "time: results of rows from standard input are not summed");
     for (size_t i = 0; c->time && i < rows->column_count; i++)
         if (rows->columns[i].time)
             return refuse(rows, f, report, NULL, "time has two columns");
@@ -196,7 +196,7 @@ static bool check_row(const study_rows *rows, ff_report *report)
                  l->count, rows->column_count);
     return report &&
            ff_error(report, FF_FAULT_INPUT, rows->streams ? FF_NOWHERE : place_of(rows, f),
-                    l->fault ? NULL : "a field that holds the separator is written in quotes", "%s",
+                    l->fault ? NULL : "write a field that contains the separator in quotes", "%s",
                     why);
 }
 
@@ -284,7 +284,7 @@ static bool read_table(study_definition *study, const ff_node *node, ff_report *
     if (good && study->count == 0)
         good = ff_error(report, FF_FAULT_INPUT, node->place,
                         "the first line names paths, each further line is a case",
-                        study->spectrum ? "study: cases: no row of %.300s lasts any time"
+                        study->spectrum ? "study: cases: all rows of %.300s have the time 0"
                                         : "study: cases: %.300s has no case",
                         path);
     ff_free(path);

@@ -144,7 +144,7 @@ void study_setup_compare(const study_case *c, const study_definition *study,
     }
     if (ftell(out) == start)
         fputs(c->states ? "the cases before them in their chain\n"
-                        : "what stands in files, digits that are not shown, or which stage feeds "
+                        : "contents of files, digits that are not shown, or which stage feeds "
                           "which\n",
               out);
 }
@@ -180,10 +180,11 @@ void study_setup_warn_rebuilt(const study_run *run, const study_records *records
         print_build(stage, build);
         if (!known || json_object_get(known, build))
             continue;
-        ff_warn(report, stage->use_place,
-                "%s: the plugin %s is another build than that of the results in %s: their cases "
-                "run anew",
-                stage->name, stage->loaded->path, run->directory);
+        ff_warn(
+            report, stage->use_place,
+            "%s: the plugin %s is a different build from that of the results in %s: their cases "
+            "run anew",
+            stage->name, stage->loaded->path, run->directory);
         json_object_set_new(known, build, json_true());
     }
     json_decref(builds);

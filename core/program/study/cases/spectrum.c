@@ -61,7 +61,7 @@ bool study_spectrum_add(study_definition *study, const char *text, ff_place plac
         s->shares = share;
     if (s->shares != share)
         return ff_error(report, FF_FAULT_INPUT, place, NULL,
-                        "time: a share stands beside times: either all rows have shares or all "
+                        "time: shares and times are mixed: either all rows have shares or all "
                         "have times");
     *empty = !(value > 0);
     s->empty += *empty;
@@ -135,7 +135,7 @@ void study_spectrum_check(const study_definition *study, const ff_pipeline *pipe
         double value;
         char why[300];
         if (!unit)
-            ff_error(report, FF_FAULT_INPUT, limit->place, "ask for it under outputs",
+            ff_error(report, FF_FAULT_INPUT, limit->place, "request it under outputs",
                      "study: below: %.100s is not a scalar that the cases give", limit->output);
         else if (!read_in(limit->text, unit, &value, why, sizeof why))
             ff_error(report, FF_FAULT_INPUT, limit->at, NULL, "study: below: %.100s: %s",
@@ -261,7 +261,7 @@ static bool add_arrays(reading *r, arrays_reader *logs, const json_t *record, si
         memory_arena_free(&arena);
         if (!values)
             return ff_error(
-                report, FF_FAULT_INPUT, FF_NOWHERE, "flankfilm run with --rerun all writes it anew",
+                report, FF_FAULT_INPUT, FF_NOWHERE, "flankfilm run --rerun all writes it again",
                 "an array of row %zu in %s cannot be read: %s", row + 1, directory, why);
     }
     return true;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Runs studies whose later cases depend on what earlier ones gave: finds the driver, reads its keys
-   and the cases that are known beforehand, and runs it. */
+/* Runs studies whose later cases depend on results of earlier ones: finds the driver, lets it read
+ * its keys and submit the first cases, and runs it. */
 #include "kinds.h"
 
 #include "../../run/run.h"
@@ -12,10 +12,10 @@
 typedef struct study_driver {
     const study_kind *kind;
     study_context context;
-    void *study; /* what the kind has read */
+    void *study; /* the data that the kind has read */
 } study_driver;
 
-/* Returns the outputs that the driver requests of its cases, as a file would list them. */
+/* Returns the outputs that the driver requests, in the form of `outputs:` in a file. */
 static ff_node *request_of(study_context *context)
 {
     ff_node *list = memory_arena_alloc(&context->arena, sizeof *list);
@@ -32,7 +32,7 @@ static ff_node *request_of(study_context *context)
     return list;
 }
 
-/* Adds the stage in which an assignment makes cases differ. */
+/* Adds the stage to which an assignment belongs, since cases differ in it. */
 static void add_knob(study_context *context, study_measure *m, const char *assignment)
 {
     static const char prefix[] = "pipeline.";
@@ -48,7 +48,7 @@ static void add_knob(study_context *context, study_measure *m, const char *assig
         m->knobs[m->knob_count++] = memory_arena_text(&context->arena, assignment, length);
 }
 
-/* Returns what is measured beside the scalars; NULL when nothing is. */
+/* Returns what is measured in addition to the scalars; NULL if nothing is. */
 static study_measure *measure_of(study_context *context, const ff_node *request)
 {
     size_t most = context->planned * context->path_count + context->stage_count + 1;
@@ -66,7 +66,7 @@ static study_measure *measure_of(study_context *context, const ff_node *request)
     return m;
 }
 
-/* Makes the study consist of the cases that are known beforehand. */
+/* Sets the cases of the study to those submitted before the run. */
 static void lay_out_planned(study_context *context, study_definition *study)
 {
     const study_definition *grid = context->grid;
@@ -106,7 +106,7 @@ static bool check_keys(const study_kind *kind, const ff_node *map, ff_report *re
     return ff_report_errors(report) == errors;
 }
 
-/* Reads a key that has a type, from its node or its preset. */
+/* Reads a key with a type, from its node or its preset. */
 static bool read_value(const study_kind *kind, const ff_param *key, study_key_value *value,
                        ff_report *report)
 {
@@ -157,8 +157,7 @@ static bool open_driver(study_definition *study, const ff_node *root, const stud
         driver->context.list.direction = 1;
     if (map->kind != FF_MAP)
         return ff_error(report, FF_FAULT_INPUT, map->place, NULL,
-                        "%s: expected a map; flankfilm schema lists what may stand there",
-                        kind->name);
+                        "%s: expected a map; flankfilm schema lists its keys", kind->name);
     if (!read_keys(driver, map, report))
         return false;
     lay_out_planned(&driver->context, study);
@@ -166,8 +165,8 @@ static bool open_driver(study_definition *study, const ff_node *root, const stud
         for (const char *const *own = study_keys; *own; own++)
             if (!strcmp(node->keys[i], *own) && !strstr(*own, "_limit"))
                 return ff_error(report, FF_FAULT_INPUT, map->place, NULL,
-                                "study: %s: a study either sweeps or %s: write two files",
-                                kind->name, kind->verb);
+                                "study: %s: a study either sweeps or %s; use two files", kind->name,
+                                kind->verb);
     return true;
 }
 
@@ -190,8 +189,8 @@ static const study_kind *find_kind(const ff_node *node, ff_report *report)
                 continue;
             if (found)
                 ff_error(report, FF_FAULT_INPUT, node->key_places[i], NULL,
-                         "study: \"%s\" and \"%s\" exclude each other: write two files",
-                         found->name, (*kind)->name);
+                         "study: \"%s\" and \"%s\" exclude each other; use two files", found->name,
+                         (*kind)->name);
             found = *kind;
         }
     return found;
@@ -232,8 +231,9 @@ static bool check_stage(const study_context *context, const ff_pipeline *pipelin
                     (int)strcspn(path, "."), path);
 }
 
-/* Whether the driver cannot compare outputs of these dimensions: it takes scalars or, when it
-   measures, series as well. Of two dimensions an optional one may be absent. */
+/* Whether the driver cannot compare outputs with these dimensions. It can compare scalars and, if
+ * it measures costs, also series; if one of two dimensions is optional, the output may be a series.
+ */
 static bool is_too_much(const study_context *context, const char *dims)
 {
     bool series = *dims != '\0', field = strchr(dims, ' ') && !strchr(dims, '?');
@@ -272,7 +272,7 @@ void study_check(const study_definition *study, const ff_pipeline *pipeline, ff_
         study->driver->kind->check(study->driver->study, pipeline, report);
     if (context && context->knobs && scaled == 0)
         ff_warn(report, FF_NOWHERE,
-                "%s: no number is refined, so that verdicts rest on the quality alone",
+                "%s: no parameter is refined, so verdicts rest only on the quality lines",
                 context->name);
 }
 
@@ -320,8 +320,8 @@ bool study_drive(const study_run *run, study_counters *counters, ff_report *repo
     return good && ff_report_errors(report) == 0;
 }
 
-/* A driver goes the way of a run as far as the cases on it are done; those that it knew beforehand
-   are left behind the first that is not. */
+/* Counts what a run would do. The driver proceeds as in a run until it needs a case that is not
+ * done. The cases submitted before the run are counted in any case. */
 void study_plan_run(const study_run *run, study_plan *plan)
 {
     study_driver *driver = run->study->driver;
@@ -354,7 +354,7 @@ const char *study_compared(const study_definition *study, size_t i, size_t *inde
 
 const char *study_cases(const study_definition *study)
 {
-    return study->driver && study->driver->context.grid ? "cells of the grid" : "cases";
+    return study->driver && study->driver->context.grid ? "grid cells" : "cases";
 }
 
 const char *study_kind_name(const study_definition *study)

@@ -56,7 +56,7 @@ const study_definition *study_context_expand(study_context *context, const ff_no
     context->expanded[context->expanded_count++] = study;
     if (study->followed == study->axis_count)
         return study;
-    study_context_refuse(context, map, NULL, "its cases stand alone: \"follow\" is for sweeps");
+    study_context_refuse(context, map, NULL, "its cases are independent; \"follow\" is for sweeps");
     return NULL;
 }
 

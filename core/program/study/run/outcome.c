@@ -24,7 +24,7 @@ static const double *read_array(study_context *context, arrays_reader *reader, c
         study_array_read(reader, record, name, &context->arena, rank, count, why);
     if (!values && *why)
         ff_error(context->report, FF_FAULT_INPUT, FF_NOWHERE,
-                 "flankfilm run with --rerun all writes it anew", "%s/%s cannot be read: %s",
+                 "flankfilm run --rerun all writes it again", "%s/%s cannot be read: %s",
                  context->run->directory,
                  json_string_value(json_array_get(json_object_get(record, "log"), 0)), why);
     return values;

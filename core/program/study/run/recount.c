@@ -46,7 +46,7 @@ bool study_recount(const study_run *run, study_records *records, char (*keys)[ST
         study_tally_free(&found.tally);
     }
     return whole || ff_report_errors(report) > 0 ||
-           ff_error(report, FF_FAULT_RUN, FF_NOWHERE, "the same command does them again",
-                    "%zu of %zu cases that were done are not on the disk of \"%s\" any more",
+           ff_error(report, FF_FAULT_RUN, FF_NOWHERE, "the same command runs them again",
+                    "%zu of %zu finished cases are no longer on the disk in \"%s\"",
                     answered - found.done, answered, run->directory);
 }

@@ -134,11 +134,10 @@ static int32_t next_chain(void *ctx, size_t *task)
 static _Noreturn void end_written_over(execution *r, const char *path)
 {
     char sentence[CRASH_SENTENCE];
-    snprintf(
-        sentence, sizeof sentence,
-        "the plugin %.*s was written over while the study ran; what it did before is kept, and "
-        "the same command goes on with the plugin as it is now",
-        (int)strcspn(path, "\n"), path);
+    snprintf(sentence, sizeof sentence,
+             "the plugin %.*s was overwritten while the study ran; earlier results are kept, and "
+             "the same command continues with the new plugin",
+             (int)strcspn(path, "\n"), path);
     study_pool_kill(&r->pool);
     if (r->run->executor)
         study_fork_server_end(&r->fork_server);
@@ -176,8 +175,8 @@ static bool record_answer(execution *r, size_t index, const char *key, char verd
     bool known = verdict == STUDY_VERDICT_KNOWN || verdict == STUDY_VERDICT_KNOWN_BAD;
     if (verdict == STUDY_VERDICT_FATAL)
         return ff_error(r->report, FF_FAULT_RUN, FF_NOWHERE,
-                        "the same command goes on with the rest", "%.*s", (int)strcspn(text, "\n"),
-                        text);
+                        "the same command continues with the rest", "%.*s",
+                        (int)strcspn(text, "\n"), text);
     if (verdict == STUDY_VERDICT_WRITTEN_OVER)
         end_written_over(r, text);
     if (!good && !known) /* a good answer was checked by its worker */
@@ -451,12 +450,12 @@ static void finish_run(execution *r)
     if (run->progress)
         run->progress(run->ctx, r->counters);
     if (study_signals_count() > 0)
-        ff_error(r->report, FF_FAULT_RUN, FF_NOWHERE, "the same command goes on with the rest",
+        ff_error(r->report, FF_FAULT_RUN, FF_NOWHERE, "the same command continues with the rest",
                  "the study was stopped");
     else if (r->counters->done < r->counters->total && !r->ending &&
              ff_report_errors(r->report) == 0)
-        ff_error(r->report, FF_FAULT_PLUGIN, FF_NOWHERE, "the same command goes on with the rest",
-                 "the executor left %zu cases undone", r->counters->total - r->counters->done);
+        ff_error(r->report, FF_FAULT_PLUGIN, FF_NOWHERE, "the same command continues with the rest",
+                 "the executor did not run %zu cases", r->counters->total - r->counters->done);
     if (run->study->streams && study_rows_are_cut(run->study->rows))
         ff_error(r->report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
                  "study: cases: row %zu of standard input is longer than 1 MiB",

@@ -10,7 +10,7 @@ static volatile sig_atomic_t interrupts, last_signal, leading;
 
 static void on_interrupt(int number, siginfo_t *info, void *context)
 {
-    static const char text[] = "\nfinishing the cases at hand; once more to end at once\n";
+    static const char text[] = "\nfinishing the running cases; press again to end at once\n";
     (void)context;
     if (info->si_pid == getpid() && ff_guard_current().path) { /* the signal was sent by a plugin */
         signal(number, SIG_DFL);

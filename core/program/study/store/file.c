@@ -53,7 +53,7 @@ void study_file_drop(study_file *file)
     if (file->out)
         fclose(file->out);
     if (file->part)
-        unlink(file->part); /* it is gone after it got its name */
+        unlink(file->part); /* a renamed file no longer has this name */
     free(file->path);
     free(file->part);
     *file = (study_file){.out = NULL};
@@ -87,14 +87,14 @@ bool study_check_format(const char *directory, ff_report *report)
     json_t *study = study_read_json(AT_FDCWD, path, &error);
     const json_t *told = json_object_get(study, "format");
     json_int_t format = told ? json_integer_value(told) : 1;
-    bool good =
-        !study || format == STUDY_FORMAT ||
-        ff_error(report, FF_FAULT_INPUT, FF_NOWHERE,
-                 format < STUDY_FORMAT
-                     ? "name another directory with -o, or read it with that flankfilm"
-                     : "read it with a newer flankfilm",
-                 "\"%s\" is of %s flankfilm: its files are of format %lld, not %d", directory,
-                 format < STUDY_FORMAT ? "an older" : "a newer", (long long)format, STUDY_FORMAT);
+    bool good = !study || format == STUDY_FORMAT ||
+                ff_error(report, FF_FAULT_INPUT, FF_NOWHERE,
+                         format < STUDY_FORMAT
+                             ? "name another directory with -o, or read it with that flankfilm"
+                             : "read it with a newer flankfilm",
+                         "\"%s\" was written by %s flankfilm: its files have format %lld, not %d",
+                         directory, format < STUDY_FORMAT ? "an older" : "a newer",
+                         (long long)format, STUDY_FORMAT);
     json_decref(study);
     free(path);
     return good;

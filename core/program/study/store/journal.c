@@ -152,7 +152,7 @@ static bool claim_directory(const char *path, ff_report *report)
     return (study_make_path(path) && mark_directory(path)) ||
            ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, "name another directory with -o",
                     errno ? "the result directory \"%s\" cannot be used: %s"
-                          : "\"%s\" holds files that are not results of a study",
+                          : "\"%s\" contains files that are not results of a study",
                     path, strerror(errno));
 }
 
@@ -240,7 +240,7 @@ static bool is_as_left(const study_journal *journal, ff_report *report)
 {
     const char *change = find_change(journal);
     return !change || ff_error(report, FF_FAULT_RUN, FF_NOWHERE,
-                               "the same command does the cases again that the journal has not",
+                               "the same command runs the cases that the journal does not have",
                                "the journal \"%s/%s\" %s while the study ran", journal->path,
                                journal->name, change);
 }
@@ -248,7 +248,7 @@ static bool is_as_left(const study_journal *journal, ff_report *report)
 static bool refuse_write(int cause, ff_report *report)
 {
     return ff_error(report, FF_FAULT_RUN, FF_NOWHERE,
-                    "nothing that was finished is lost; the same command goes on",
+                    "no finished case is lost; the same command continues",
                     "the journal could not be written: %s", strerror(cause));
 }
 

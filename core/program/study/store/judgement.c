@@ -107,7 +107,7 @@ static void add_words(doubts *all, char *words)
    shown. */
 static void add_least(doubts *all, const char *name)
 {
-    add_words(all, memory_print_text("%s known from below alone", name));
+    add_words(all, memory_print_text("%s only a lower bound", name));
 }
 
 static int by_gravity(const void *a, const void *b)

@@ -53,7 +53,7 @@ static void check_blind(void)
     run(&f, &all);
     check_true("one parameter is held",
                f.law->free_count == 4 && fitting_param(&f, "V_occ")->found == FIT_HELD);
-    check_true("and the note says so", strstr(f.law->note, "V_occ is held at") != NULL);
+    check_true("and the note says so", strstr(f.law->note, "V_occ is fixed at") != NULL);
     check_below("the law is that of the data all the same", f.law->rms, 1e-6);
     fitting_close(&f);
 }
@@ -167,7 +167,7 @@ static void check_no_data(void)
     for (int i = 0; i < POINTS; i++)
         T[i] = 300 + 10 * (i % 2);
     check_refused("two temperatures", &(points){.n = POINTS, .p = p, .eta = eta, .T = T},
-                  "knows no temperature");
+                  "does not depend on temperature");
     memcpy(other, p, sizeof other);
     other[7] = other[6];
     eta[7] = eta[6];

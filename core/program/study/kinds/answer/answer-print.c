@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Prints a table on the terminal: heads and units above columns that are as wide as they must be.
- */
+/* Prints a table on the terminal, with heads and units above columns of the necessary width. */
 #include "answer.h"
 #include "number.h"
 
@@ -87,7 +86,7 @@ static void print_heads(const study_context *context, const study_table *table, 
         end_line(context, table, &l);
 }
 
-/* A column that is set to the left is as wide as its widest text. */
+/* Returns the width of a column. A left-aligned column is as wide as its widest text. */
 static int *widths_of(const study_table *table)
 {
     int *widths = memory_alloc((table->column_count + 1) * sizeof *widths);

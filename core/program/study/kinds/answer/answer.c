@@ -42,8 +42,8 @@ json_t *study_answer_draw(study_answer *answer, json_t *figure)
     return figure;
 }
 
-/* Puts the tables of the page below their drawings; the sentences and the tables without a drawing
-   come last. */
+/* Places the page's tables below their drawings. Sentences, and tables without a drawing, come
+ * last. */
 static json_t *page_of(const study_answer *answer)
 {
     json_t *alone = json_array(), *all = json_array();
@@ -82,7 +82,7 @@ static void put_json(const study_answer *answer, const char *ending, const json_
     fclose(out);
 }
 
-/* The rows of all tables by their titles, for a kind that gives no value of its own. */
+/* Returns the rows of all tables by their titles, for a kind that does not set `value`. */
 static json_t *value_of(const study_answer *answer)
 {
     json_t *value = json_object();
@@ -97,7 +97,7 @@ static json_t *value_of(const study_answer *answer)
 static json_t *facts_of(const study_answer *answer)
 {
     char *text = json_dumps(answer->value, JSON_COMPACT | JSON_REAL_PRECISION(12));
-    assert(text); /* a kind makes its value of texts that JSON can hold */
+    assert(text); /* the texts of a kind are always valid UTF-8 */
     json_t *rounded = json_loads(text, 0, NULL);
     free(text);
     return json_pack("{s:o}", answer->context->name, rounded);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A kind of study whose later cases depend on what earlier ones gave: one row of functions. */
+/* A kind of study whose later cases depend on results of earlier ones, as a struct of functions. */
 #ifndef STUDY_KIND_H
 #define STUDY_KIND_H
 
@@ -7,23 +7,23 @@
 
 typedef struct study_kind {
     const char *name; /* the key under `study:` */
-    const char *verb; /* what it does, for messages: "maps" */
+    const char *verb; /* a verb for messages: "maps" */
     const char *summary;
-    const char *file; /* what its files are called: "map" */
-    /* what may stand under it; a key without a type takes a value, a list or a map */
+    const char *file; /* name of its files: "map" */
+    /* the keys below it; a key without a type may be a value, a list or a map */
     const ff_param *keys;
     size_t key_count;
-    /* Reads the keys, sets the context and submits the cases that are known; NULL after an error.
-       What it returns lives as long as the context. */
+    /* Reads the keys, sets the context and submits the first cases. Returns the kind's data, which
+     * live as long as the context, or NULL after an error. */
     void *(*read)(study_context *context, const study_key_value *values);
-    /* Runs the cases and submits others; false when the study cannot go on. */
+    /* Runs the cases and submits others; returns false if the study cannot continue. */
     bool (*cases)(void *study);
-    /* Says what they gave. */
+    /* Evaluates the results and writes the answer. */
     void (*reduce)(void *study, study_answer *answer);
-    /* Checks what only the pipeline tells; NULL: nothing. */
+    /* Checks that need the pipeline; NULL: none. */
     void (*check)(const void *study, const ff_pipeline *pipeline, ff_report *report);
 } study_kind;
 
-extern const study_kind *const study_kinds[]; /* NULL ends them */
+extern const study_kind *const study_kinds[]; /* ended by NULL */
 
 #endif

@@ -54,7 +54,7 @@ void study_number_short(double value, char out[STUDY_NUMBER_SIZE])
 study_readable study_readable_unit(const char *si_unit, double magnitude)
 {
     const double pi = 3.14159265358979323846;
-    /* rows of one unit, in rising order of the magnitude from which they are used */
+    /* rows with the same SI unit are in rising order of the magnitude from which they are used */
     const struct {
         const char *si;
         double from, factor;
@@ -93,7 +93,8 @@ study_readable study_readable_unit(const char *si_unit, double magnitude)
     return readable;
 }
 
-/* Whether an output is a temperature, and no difference of two: an error, a rise, a spread. */
+/* Whether an output is a temperature, not a temperature difference such as an error, a rise or a
+ * spread. */
 static bool is_temperature(const char *name, const char *si_unit)
 {
     static const char *const differences[] = {"flash", "error", "spread", "margin", "deviation"};

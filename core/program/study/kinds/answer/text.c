@@ -41,8 +41,8 @@ const char **study_read_names(study_context *context, const ff_node *list, const
         if (study_is_map(list) || !dot || dot == word || !dot[1] || strchr(word, '*')) {
             study_context_refuse(
                 context, items[i], NULL,
-                study_context_format(context, "\"%s\" is a list of names such as film.h_min_lowest",
-                                     key));
+                study_context_format(
+                    context, "\"%s\" must be a list of names such as film.h_min_lowest", key));
             return NULL;
         }
         names[i] = word;
@@ -53,10 +53,10 @@ const char **study_read_names(study_context *context, const ff_node *list, const
 bool study_read_outputs(study_context *context, const ff_node *list)
 {
     if (!list || !study_read_names(context, list, "outputs", &context->output_count))
-        return false; /* a kind lets "outputs" be missing only by mistake */
+        return false; /* every kind requires "outputs" */
     if (context->output_count == 0)
         return study_context_refuse(context, list, "write outputs: [film.h_min_lowest]",
-                                    "\"outputs\" names at least one");
+                                    "\"outputs\" must name at least one");
     const ff_node *const *items = study_items(&list, &context->output_count);
     const ff_node **kept =
         memory_arena_alloc(&context->arena, context->output_count * sizeof *kept);
@@ -80,11 +80,11 @@ bool study_read_factors(study_context *context, const ff_node *node, const char 
              (!ff_number_parse(text, &(*factors)[i], &end) || *end || !((*factors)[i] > 0))))
             return study_context_refuse(context, node->items[i],
                                         "write refine: [film.cells] or {motion.tolerance: 0.01}",
-                                        "\"refine\" is a list of parameters to double, or a map "
-                                        "from parameters to factors");
+                                        "\"refine\" must be a list of parameters to double, or a "
+                                        "map from parameters to factors");
     }
     return !node || *count > 0 ||
-           study_context_refuse(context, node, NULL, "\"refine\" names at least one parameter");
+           study_context_refuse(context, node, NULL, "\"refine\" must name at least one parameter");
 }
 
 study_comparison study_read_comparison(study_context *context, const char *text)

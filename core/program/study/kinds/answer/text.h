@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Helps the drivers with lines on the terminal and with texts in tables and figures. */
+/* Functions with which drivers read texts, and write lines on the terminal. */
 #ifndef STUDY_TEXT_H
 #define STUDY_TEXT_H
 
@@ -10,7 +10,7 @@ typedef struct study_line {
     char text[4000];
 } study_line;
 
-/* Appends to the line as much as has room. */
+/* Appends as much as fits to the line. */
 void study_line_add(study_line *line, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 /* Prints the line as study_context_print_line does, and empties it. */
@@ -18,10 +18,10 @@ void study_line_print(const study_context *context, study_line *line, int indent
 
 /* Returns the items of a list; a word counts as a list of one. */
 const ff_node *const *study_items(const ff_node *const *list, size_t *count);
-/* Reads such a list of "stage.name"; NULL after an error, which names the key. */
+/* Reads a list of "stage.name"; NULL after an error, which names the key. */
 const char **study_read_names(study_context *context, const ff_node *list, const char *key,
                               size_t *count);
-/* Reads the outputs that cases are asked for, at least one. */
+/* Reads the requested outputs, at least one. */
 bool study_read_outputs(study_context *context, const ff_node *list);
 /* Reads a list of parameters to double, or a map from parameters to factors. */
 bool study_read_factors(study_context *context, const ff_node *node, const char ***names,
@@ -29,27 +29,28 @@ bool study_read_factors(study_context *context, const ff_node *node, const char 
 
 /* "film.h_min < 0.1 um" */
 typedef struct study_comparison {
-    const char *name;  /* of what stands before the sign */
-    char sign;         /* '<' or '>'; 0 without one */
-    const char *limit; /* what follows; "" without a sign */
+    const char *name;  /* name before the sign, and its length */
+    char sign;         /* '<' or '>'; 0 if there is none */
+    const char *limit; /* text after the sign; "" if there is none */
 } study_comparison;
 study_comparison study_read_comparison(study_context *context, const char *text);
 
-/* Reads a share such as "0.01" or "1 %"; false where the text, which may be NULL, is none. */
+/* Reads a share such as "0.01" or "1 %". Returns false if the text, which may be NULL, is not a
+ * share. */
 bool study_read_share(const char *text, double *share);
 
-/* A number with its unit, as it is written. */
+/* A number with its unit, as written. */
 typedef struct study_quantity {
     double number;
-    const char *text; /* of the unit, "" without one */
+    const char *text; /* dimension of the unit, "" if it has none */
     ff_unit unit;
 } study_quantity;
 
-/* Reads one; reports that the key of that name has none. */
+/* Reads a quantity; if there is none, reports an error that names the key. */
 bool study_read_quantity(study_context *context, const ff_node *node, const char *name,
                          const char *hint, study_quantity *quantity);
 
-/* Return a member of a JSON object; "" or NaN when it is missing. */
+/* Return a member of a JSON object; "" or NaN if it is missing. */
 const char *study_text_of(const json_t *map, const char *key);
 double study_number_of(const json_t *map, const char *key);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The layout of the grid of a map, and what the case of each cell gave. */
+/* The layout of a map's grid, and the results of its cells. */
 #include "stability.h"
 
 size_t study_map_columns(const study_map *map)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Judges how far the numbers of a cell can be trusted. */
+/* Judges whether the numbers of a cell can be trusted. */
 #include "stability.h"
 
 #include "../../../accuracy/compare.h"
@@ -10,20 +10,20 @@
 const char *const study_class_names[STUDY_CLASSES] = {
     "converged", "outside", "physical", "unchecked", "degraded", "silent", "failed", "refused"};
 const char *const study_class_texts[STUDY_CLASSES] = {
-    "every line of quality holds, and a case of coarser or finer settings agrees, if it has any",
-    "solved as well, but outside the range of a model",
-    "solved as well; what is solved is unstable itself, so that it has no one answer",
-    "no case of coarser or finer settings ran, so nothing confirms it",
-    "a line of quality warns",
-    "no line warns, yet a case of other settings differs by more than three estimates",
+    "all quality lines are good, and a case with coarser or finer settings agrees, if there is one",
+    "solved equally well, but outside the range of a model",
+    "solved equally well, but the machine itself is unstable, so there is no unique answer",
+    "no case with coarser or finer settings ran, so the answer is not confirmed",
+    "a quality line warns",
+    "no line warns, but a case with other settings differs by more than three error estimates",
     "no result, and the reason why",
-    "the model does not take such input"};
+    "the model does not accept this input"};
 const char study_class_letters[STUDY_CLASSES + 1] = ".op?d!Fx";
-const char study_note_text[] = "as good as its letter says, and good to know";
+const char study_note_text[] = "does not change the verdict";
 
 /* A difference counts as too large beyond this multiple of its estimate. */
 static const double most_times = 3;
-/* A relative difference by rounding, which the estimates do not cover. */
+/* A relative difference due to rounding, which the estimates do not cover. */
 static const double rounding = 1e-9;
 
 static bool output_of(const study_map *map, const study_outcome *answer, const char *name,
@@ -41,7 +41,7 @@ static bool output_of(const study_map *map, const study_outcome *answer, const c
     return false;
 }
 
-/* Returns 0 for a number that a line lacks. */
+/* Returns a number of a line; 0 if the line does not have it. */
 static double number_or_zero(double number)
 {
     return isnan(number) ? 0 : number;
@@ -60,7 +60,8 @@ static bool is_among(const char *name, const char *const *names, size_t count)
     return false;
 }
 
-/* Evaluates a condition; false if it does not hold, or if the answer lacks its line or output. */
+/* Evaluates a condition; false if it does not hold, or if the answer does not have its line or
+ * output. */
 static bool condition_holds(const study_map *s, const study_condition *c,
                             const study_outcome *answer, double *value)
 {
@@ -102,15 +103,15 @@ static void set_class(study_cell *cell, enum study_class class, const study_qual
     cell->why = *line->text ? line->text : NULL;
 }
 
-/* Distance of a line beyond its limit, to compare two lines that warn alike. */
+/* How far a line is beyond its limit, to compare lines with the same verdict. */
 static double beyond_limit(const study_quality *line)
 {
     double value = fabs(line->value), limit = fabs(line->limit);
     return value > 0 && limit > 0 ? fabs(log(value / limit)) : HUGE_VAL;
 }
 
-/* Judges a cell by the worst line that warns, either among the notes or among the others. Lines
-   about the numerics come before others. */
+/* Judges a cell by its worst warning line, either only among the notes or only among the other
+ * lines. Lines about the numerics take precedence. */
 static void judge_lines(study_cell *cell, const study_map *s, const study_outcome *answer,
                         bool notes)
 {
@@ -162,8 +163,9 @@ static void judge_notes(study_cell *cell, const study_map *s, const study_outcom
     }
 }
 
-/* True if the twin is to be compared. The difference shows how bad a degraded cell is. If the model
-   itself warns that there are several answers, the twin need not agree. */
+/* True if the cell is compared with its twin: also a degraded cell, for which the difference shows
+ * how bad it is. If the model itself warns that there are several answers, the twin need not agree.
+ */
 static bool is_compared(const study_cell *cell, const study_map *s, const study_outcome *answer)
 {
     return cell->class <= STUDY_DEGRADED &&
@@ -186,7 +188,7 @@ static void judge_claim(study_cell *cell, const study_map *s, const study_claim 
     estimate = promised ? estimate : s->tolerance / most_times;
     const accuracy_series one = {0, 1, NULL, &value, 0, false};
     const bool known = accuracy_compare(&one, &(accuracy_series){0, 1, NULL, &other, 0, false}, &d);
-    /* a difference from 0 has no share */
+    /* a difference from 0 cannot be relative */
     double difference = known && (!d.absolute || value == other) ? d.typical : (double)INFINITY;
     if (cell->output &&
         difference / (estimate + rounding) <= cell->difference / (cell->estimate + rounding))
@@ -224,13 +226,14 @@ static void judge_twin(study_cell *cell, const study_map *s, const study_outcome
     cell->limit = most_times * cell->estimate;
     cell->why =
         isinf(cell->difference)
-            ? study_context_format(s->context, "%s, it is 0 or not finite: no share of it differs",
+            ? study_context_format(s->context,
+                                   "%s, it is 0 or not finite, so the twin cannot be compared",
                                    name_twin(cell))
             : study_context_format(s->context, "%s, it differs by %.2g %%; the estimate is %.2g %%",
                                    name_twin(cell), 100 * cell->difference, 100 * cell->estimate);
 }
 
-/* Judges a cell whose knobs have no other values within their limits. */
+/* Judges a cell without a twin, since the limits of its parameters allow no other values. */
 static void judge_bounded(study_cell *cell)
 {
     if (cell->class == STUDY_DEGRADED)

@@ -64,8 +64,7 @@ static const char *cause_of(const study_cell *cell)
     return cell->line ? cell->line : cell->why ? cell->why : "";
 }
 
-/* Prints the lines and outputs that decide, with the number of cells, or the reasons; only the
-   first few. */
+/* Prints the first few of the deciding lines, outputs or reasons, with their numbers of cells. */
 static void print_causes(const study_map *map, enum study_class class)
 {
     size_t shown = 0, left = 0;
@@ -93,7 +92,7 @@ static void print_causes(const study_map *map, enum study_class class)
         else if (class == STUDY_SILENT)
             study_line_add(&line, "%zu: %s: %s", count, cell->line, cell->why);
         else
-            study_line_add(&line, "%zu: %s, as %s with limit %.3g", count, cell->line, value,
+            study_line_add(&line, "%zu: %s, for example %s, limit %.3g", count, cell->line, value,
                            cell->limit);
         study_line_print(map->context, &line, 0);
     }

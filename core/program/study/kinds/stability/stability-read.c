@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reads the keys of a map: a grid of cells and what judges them. */
+/* Reads the keys of a map: the grid of cells, and the criteria for judging them. */
 #include "stability.h"
 
 #include <math.h>
@@ -22,7 +22,7 @@ static bool is_range(const ff_node *axis)
     return ff_node_get(axis, "from");
 }
 
-/* Reads the axes, which are written as those of a sweep. */
+/* Reads the axes, which have the form of a sweep's. */
 static bool read_axes(study_map *map)
 {
     const ff_node *axes = map->values[MAP_AXES].node;
@@ -30,7 +30,7 @@ static bool read_axes(study_map *map)
         return refuse(map, axes,
                       "write axes: {duty.torque: {from: 1 N m, to: 1000 N m, points: 7, "
                       "spacing: log}}",
-                      "\"axes\" is a map from paths to ranges or lists");
+                      "\"axes\" must be a map from paths to ranges or lists");
     map->grid = study_context_expand(map->context, axes);
     map->axis_count = axes->count;
     return map->grid;
@@ -50,14 +50,14 @@ static bool read_halvings(study_map *map)
         if (own && (!text || !ff_number_parse(text, &value, &end) || *end || value < 0 ||
                     value != floor(value) || value > MOST_HALVINGS))
             return refuse(map, own, "write bisect: 4, or bisect: {duty.torque: 4}",
-                          "\"bisect\" wants whole numbers from 0 to 40");
+                          "\"bisect\" needs whole numbers from 0 to 40");
         map->halvings[a] = is_range(axes->items[a]) ? (size_t)value : 0;
     }
     for (size_t i = 0; study_is_map(bisect) && i < bisect->count; i++) {
         const ff_node *axis = ff_node_get(axes, bisect->keys[i]);
         if (!axis || !is_range(axis))
             return refuse(map, bisect->items[i], NULL,
-                          "\"bisect\" names an axis that has \"from\" and \"to\"");
+                          "\"bisect\" must name an axis that has \"from\" and \"to\"");
     }
     return true;
 }
@@ -80,7 +80,7 @@ static bool read_claims(study_map *map)
         if (!study_is_map(estimates) || k == map->claim_count)
             return refuse(map, estimates,
                           "write estimates: {film.h_min_lowest: [film.h_min_space_error]}",
-                          "\"estimates\" is a map from outputs of this study to names");
+                          "\"estimates\" must be a map from outputs of this study to names");
         map->claims[k].estimates = study_read_names(map->context, estimates->items[i], "estimates",
                                                     &map->claims[k].estimate_count);
         if (!map->claims[k].estimates)
@@ -111,7 +111,8 @@ static bool read_condition(const study_map *map, const char *text, study_conditi
            (!read.sign || (ff_number_parse(read.limit, &c->value, &end) && !*end));
 }
 
-/* Reads a list of conditions, or a map from conditions to the lines that warn because of them. */
+/* Reads a list of conditions, or a map from conditions to the lines that may warn because of them.
+ */
 static bool read_physical(study_map *map)
 {
     const ff_node *physical = map->values[MAP_PHYSICAL].node;
@@ -125,8 +126,8 @@ static bool read_physical(study_map *map)
         if (!read_condition(map, text ? text : "", c))
             return refuse(
                 map, items[i], NULL,
-                "\"physical\" is a list of lines of quality, such as motion.stability, "
-                "and of conditions in SI, such as \"motion.stable_motions < 1\", or a map "
+                "\"physical\" must be a list of quality lines, such as motion.stability, and of "
+                "conditions in SI, such as \"motion.stable_motions < 1\", or a map "
                 "from them to lists of lines");
         if (by_name &&
             !(c->lines = study_read_names(map->context, items[i], "physical", &c->line_count)))
@@ -144,9 +145,9 @@ static bool read_notes(study_map *map)
         const char *words =
             study_is_map(notes) && notes->count ? study_word(notes->items[i]) : NULL;
         if (!words || !read_condition(map, notes->keys[i], c))
-            return refuse(map, notes,
-                          "write notes: {\"motion.stable_motions > 1\": stable motions coexist}",
-                          "\"notes\" is a map from lines of quality and conditions in SI to words");
+            return refuse(
+                map, notes, "write notes: {\"motion.stable_motions > 1\": stable motions coexist}",
+                "\"notes\" must be a map from quality lines and conditions in SI to words");
         c->words = words;
         map->note_count++;
     }
@@ -161,8 +162,8 @@ static bool read_kinds(study_map *map)
            read_physical(map) && read_notes(map);
 }
 
-/* Results that judge beside the outputs, where a model has them, and names whose stages must exist.
- */
+/* Lists further results that cells are judged by, if a model has them, and the names whose stages
+ * must exist. */
 typedef struct wanted {
     const char **extras, **names;
     size_t extra_count, name_count;
@@ -204,7 +205,7 @@ static void request_outputs(const study_map *map)
     context->knob_count = map->knob_count;
 }
 
-/* Makes the axes, then the knobs that are not axes, the columns of the table. */
+/* Sets the columns of the table: the axes, then the refined parameters that are not axes. */
 static void set_columns(const study_map *map)
 {
     study_context *context = map->context;
@@ -232,7 +233,7 @@ void *study_map_read(study_context *context, const study_key_value *values)
         return NULL;
     map->values = NULL;
     context->grid = map->grid;
-    context->further = "and as many coarser, finer where those differ; then halvings";
+    context->further = "and as many coarser twins, finer ones where those differ; then halvings";
     set_columns(map);
     request_outputs(map);
     for (size_t i = 0; i < map->grid->count; i++) {

@@ -1,10 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a map found: the result, its tables and its drawings. */
+/* Makes the result of a map, its tables and its drawings. */
 #include "stability.h"
 
 #include <string.h>
 
-enum { MOST_BOUNDARIES = 40, MOST_ROWS = 60 }; /* of an axis, and of a slice, that are shown */
+enum {
+    MOST_BOUNDARIES = 40,
+    MOST_ROWS = 60
+}; /* boundaries shown for each axis, and cells for each
+    * slice */
 
 static json_t *text_or_null(const char *text)
 {
@@ -17,15 +21,15 @@ static json_t *number_or_null(double number, bool there)
     return there ? study_json_real(number) : json_null();
 }
 
-/* Returns the key of a case in the journal; NULL without a case. */
+/* Returns the key of a case in the journal; NULL if there is no case. */
 static const char *key_of(const study_map *map, int64_t number)
 {
     const study_outcome *answer = study_map_outcome(map, number);
     return answer ? answer->key : NULL;
 }
 
-/* Returns {path: value} of the axes of a cell but one; `shortened`: numbers as study_map_short
-   writes them. */
+/* Returns {path: value} for all axes of a cell but one; `shortened`: with numbers as in
+ * study_map_short. */
 static json_t *place_of(const study_map *map, const study_cell *cell, size_t without,
                         bool shortened)
 {
@@ -130,7 +134,8 @@ static void add_file(const study_map *map, study_answer *answer)
                                     .forms = STUDY_IN_FILE});
 }
 
-/* "2.976 m/s converged", "3.025 m/s failed", where it lies, and what decides the worse of both. */
+/* Returns a row of the table of boundaries: "2.976 m/s converged", "3.025 m/s failed", the position
+ * on the other axes, and the line or output that decides the worse of both cells. */
 static json_t *boundary_row(const study_map *map, const study_boundary *b)
 {
     const study_cell *low = &map->cells[b->low], *high = &map->cells[b->high];
@@ -177,7 +182,7 @@ static void tell_boundaries(const study_map *map, study_answer *answer, size_t a
                          path);
 }
 
-/* Adds the cells of a slice that are not converged, and why. */
+/* Adds the cells of a slice that are not converged, with the reasons. */
 static void tell_cells(const study_map *map, size_t slice, study_answer *answer, json_t *figure)
 {
     static const study_column why[] = {
@@ -218,8 +223,8 @@ static void tell_cells(const study_map *map, size_t slice, study_answer *answer,
                     .figure = figure});
 }
 
-/* Returns the cells of a slice as the page draws them: their class; of those that are not
-   converged, the reasons. */
+/* Returns the cells of a slice for the page's figure: their classes, and the reasons of those that
+ * are not converged. */
 static json_t *cells_of(const study_map *map, size_t slice)
 {
     json_t *cells = json_array();
@@ -237,7 +242,8 @@ static json_t *cells_of(const study_map *map, size_t slice)
     return cells;
 }
 
-/* Returns the boundaries of a slice: axis, column and row, and the values between which it lies. */
+/* Returns the boundaries of a slice: axis, column and row, and the two values between which each
+ * lies. */
 static json_t *boundaries_of(const study_map *map, size_t slice)
 {
     json_t *list = json_array();
@@ -287,6 +293,6 @@ void study_map_reduce(void *study, study_answer *answer)
     for (size_t i = 0; i < study_map_slices(map); i++)
         tell_cells(map, i, answer, draw(map, i, answer));
     study_context_print_line(map->context, 0, "");
-    /* a map is there to find cells that fail, so only silent failures make it bad */
+    /* finding failed cells is the purpose of a map, so only silent failures make it bad */
     map->context->verdict = map->counts[STUDY_SILENT] + map->more[STUDY_SILENT] ? FF_BAD : FF_GOOD;
 }

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Runs the cells of a map in rounds: the grid, its twins, then repeatedly cells halfway between
- * neighbours whose classes differ. The first twin is coarser and costs a fraction of the answer:
- * where an error falls with any order from 1 on, the error of the answer is at most what lies
- * between the two. A finer twin, which costs several times the answer, decides the rest.
- */
+/* Runs the cells of a map in rounds: the grid, its twins, then repeatedly cells halfway between
+ * neighbours whose classes differ. The first twin is coarser and costs a fraction of the answer. If
+ * the error falls with order 1 or more, the error of the answer is at most the difference between
+ * the two. A finer twin, which costs several times the answer, decides the remaining cells. */
 #include "stability.h"
 
 #include <math.h>
@@ -18,28 +16,29 @@ static const ff_param keys[STUDY_MAP_KEYS] = {
                      .flags = FF_REQUIRED,
                      .doc = "list of the scalars that must be right: [film.h_min_lowest]"},
     [MAP_ESTIMATES] = {.name = "estimates",
-                       .doc = "map from outputs to the lines of quality that say their errors"},
+                       .doc = "map from outputs to the quality lines that state their errors"},
     [MAP_REFINE] = {.name = "refine",
-                    .doc = "list of parameters to halve in the case that confirms a cell, and to "
-                           "double where it does not, or a map to factors"},
+                    .doc = "list of parameters that are halved in the case that confirms a cell, "
+                           "and doubled if it does not; or a map to factors"},
     [MAP_BISECT] = {.name = "bisect",
                     .doc = "halvings between neighbours that differ, 0 to 40, or a map from axes"},
     [MAP_PHYSICAL] = {.name = "physical",
-                      .doc = "list of lines of quality, and of conditions in SI, which say that "
-                             "the machine itself is unstable, or a map to the lines that warn "
+                      .doc = "list of quality lines, and of conditions in SI, that mean that the "
+                             "machine itself is unstable, or a map to the lines that warn "
                              "because of it"},
     [MAP_NOTES] = {.name = "notes",
-                   .doc = "map from such lines and conditions to words behind their value, which "
-                          "leave the verdict alone: {\"motion.period > 1\": mesh cycles long}"},
+                   .doc =
+                       "map from such lines and conditions to words printed after their value; "
+                       "they do not change the verdict: {\"motion.period > 1\": mesh cycles long}"},
     [MAP_RANGE] = {.name = "range",
-                   .doc = "list of lines of quality that say where a model applies"},
+                   .doc = "list of quality lines that state where a model applies"},
     [MAP_TOLERANCE] = {.name = "tolerance",
                        .type = FF_REAL,
                        .unit = "1",
                        .flags = FF_MIN_OPEN,
                        .max = HUGE_VAL,
                        .preset = "1 %",
-                       .doc = "share of an output without an estimate"},
+                       .doc = "relative difference allowed for an output without an estimate"},
 };
 
 static size_t point_of(const study_map *map, size_t axis, size_t cell)
@@ -60,7 +59,7 @@ static study_cell *add_cell(study_map *map, const study_setting *settings)
     return cell;
 }
 
-/* Adds the cells of the grid, whose cases study_map_read has submitted first. */
+/* Adds the cells of the grid, whose cases study_map_read has already submitted. */
 static void add_grid(study_map *map)
 {
     for (size_t i = 0; i < map->grid->count; i++) {
@@ -100,8 +99,8 @@ static void add_between(study_map *map, size_t axis, size_t low, size_t high)
                     &unit); /* the number as rounded by printing */
 }
 
-/* Submits the case of a cell. `scaled` has assignments of the knobs, with NULL for one that stays;
-   a knob that is also an axis replaces its value. */
+/* Submits the case of a cell. `scaled` has assignments of the knobs, or NULL for one that keeps its
+ * value; a knob that is also an axis replaces the value of the axis. */
 static int64_t submit_cell(const study_map *map, const study_cell *cell, const char *const *scaled)
 {
     study_context *context = map->context;
@@ -146,8 +145,8 @@ static bool run_round(study_map *map, int64_t begin, int64_t end, size_t first)
     return true;
 }
 
-/* Runs the coarser twins of the cells from `first` on that have an answer to compare, or the finer
-   ones of those that the coarser did not confirm or that can have no coarser one. */
+/* Runs twins of the cells from `first` on: the coarser twin of each cell that has an answer, or the
+ * finer twin of each cell whose coarser one did not confirm it or is impossible. */
 static bool run_twins(study_map *map, int64_t begin, size_t first, bool finer)
 {
     int64_t end = begin;
@@ -204,8 +203,8 @@ static void find_boundaries(study_map *map)
     }
 }
 
-/* Narrows a boundary to the middle and the end that differs from it; where both ends do, to the
-   better one. */
+/* Narrows a boundary to the middle and the end that differs from it; if both ends differ, to the
+ * better one. */
 static void narrow_boundary(const study_map *map, study_boundary *b, size_t middle)
 {
     enum study_class low = map->cells[b->low].class, high = map->cells[b->high].class;

@@ -6,11 +6,12 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Lists in `front`, by rising cost, the points that no other beats in both, and returns their
-   number. A point whose cost or error is not finite is not on the front. */
+/* Lists in `front`, by rising cost, the points for which no other has both a lower cost and a
+ * smaller error, and returns their number. Points with a cost or error that is not finite are left
+ * out. */
 size_t study_front(const double *cost, const double *error, size_t count, size_t *front);
-/* Returns the place on the front beyond which a smaller error costs more than before: the one
-   farthest from the line between its ends, in logarithms. `length` when there is none. */
+/* Returns the index of the knee of the front, beyond which a smaller error becomes more expensive:
+ * the point farthest from the line between its ends, in logarithms. `length` if there is none. */
 size_t study_front_knee(const double *cost, const double *error, const size_t *front,
                         size_t length);
 /* Returns the cost of a point over that of the cheapest point that is as good. */

@@ -13,7 +13,7 @@ static bool refuse(const study_tradeoff *t, const ff_node *where, const char *hi
     return study_context_refuse(t->context, where, hint, what);
 }
 
-/* Returns the number of a knob, which is added when it is new; STUDY_MOST_KNOBS after an error. */
+/* Returns the index of a knob, and adds it if it is new; STUDY_MOST_KNOBS after an error. */
 static size_t find_knob(study_tradeoff *t, const char *path, const ff_node *place)
 {
     size_t k = 0;
@@ -73,14 +73,14 @@ static const ff_node *knobs_of(study_context *context, const ff_node *map)
     return knobs;
 }
 
-/* Adds a point for every case of a map from paths to values; an empty map gives the file as it is.
- */
+/* Adds a point for every case of a map from paths to values. An empty map gives one point, the
+ * unchanged file. */
 static bool add_block(study_tradeoff *t, const ff_node *map)
 {
     const ff_node *knobs = knobs_of(t->context, map), *name = ff_node_get(map, "name");
     const char *named = study_word(name);
     if (name && !named)
-        return refuse(t, name, NULL, "\"name\" is what the points of a candidate are called");
+        return refuse(t, name, NULL, "\"name\" must be a text, the name of the candidate's points");
     if (knobs->count == 0) {
         add_point(t, map)->name = named;
         return true;
@@ -100,14 +100,14 @@ static bool add_block(study_tradeoff *t, const ff_node *map)
     return good;
 }
 
-/* Parameters that grow from level to level, and by which factor. */
+/* Parameters that are refined from level to level, and their factors. */
 typedef struct growth {
     const char **names;
     double *factors;
     size_t count;
 } growth;
 
-/* Makes a level finer than what the file says; level 0 stays. */
+/* Refines a level relative to the file; level 0 is left as it is. */
 static bool refine_level(study_tradeoff *t, const ff_node *map, const growth *g, size_t level)
 {
     for (size_t i = 0; level > 0 && i < g->count; i++) {
@@ -115,7 +115,7 @@ static bool refine_level(study_tradeoff *t, const ff_node *map, const growth *g,
         const char *text = study_word(item), *end;
         double number;
         if (!text || !ff_number_parse(text, &number, &end))
-            return refuse(t, item, NULL, "what is refined must be a number");
+            return refuse(t, item, NULL, "a refined parameter must be a number");
         const char *value = study_context_format(t->context, "%.12g%s",
                                                  number * pow(g->factors[i], (double)level), end);
         if (!assign_knob(t, &t->points[t->count - 1], g->names[i],
@@ -136,9 +136,9 @@ static bool read_growth(const study_tradeoff *t, const ff_node *map, growth *g)
     for (size_t i = 0; i < g->count; i++)
         if (!ff_node_get(map, g->names[i]))
             return refuse(t, refine->items[i], NULL,
-                          study_context_format(
-                              t->context, "the reference gives no \"%.80s\" that could be refined",
-                              g->names[i]));
+                          study_context_format(t->context,
+                                               "the reference gives no \"%.80s\" to refine",
+                                               g->names[i]));
     return true;
 }
 
@@ -149,11 +149,11 @@ static bool read_reference(study_tradeoff *t, const ff_node *map)
     double refinements = 3;
     if (!study_is_map(map))
         return refuse(t, map, "write reference: {film.cells: 2048, refine: [film.cells]}",
-                      "\"reference\" is a map from paths to the values of the finest answer");
+                      "\"reference\" must be a map from paths to the values of the finest answer");
     if (times &&
         (!text || !ff_number_parse(text, &refinements, &end) || *end ||
          refinements != floor(refinements) || refinements < 0 || refinements > MOST_REFINEMENTS))
-        return refuse(t, times, NULL, "\"refinements\" wants a whole number from 0 to 20");
+        return refuse(t, times, NULL, "\"refinements\" needs a whole number from 0 to 20");
     growth g;
     if (!read_growth(t, map, &g))
         return false;
@@ -162,7 +162,7 @@ static bool read_reference(study_tradeoff *t, const ff_node *map)
         if (!add_block(t, map) || !refine_level(t, map, &g, level))
             return false;
         else if (t->count != level + 1)
-            return refuse(t, map, NULL, "the reference is one answer: give one value each");
+            return refuse(t, map, NULL, "the reference is one answer: give each path one value");
     return true;
 }
 
@@ -171,11 +171,11 @@ static bool read_candidates(study_tradeoff *t, const ff_node *list)
     if (!list || list->kind != FF_SEQUENCE || list->count == 0)
         return refuse(t, list,
                       "write candidates: [{film.cells: [128, 256], film.steps: [500, 1000]}]",
-                      "\"candidates\" is a list of maps from paths to lists of values");
+                      "\"candidates\" must be a list of maps from paths to lists of values");
     for (size_t i = 0; i < list->count; i++) {
         if (!study_is_map(list->items[i]))
             return refuse(t, list->items[i], NULL,
-                          "a candidate is a map from paths to lists of values");
+                          "a candidate must be a map from paths to lists of values");
         if (!add_block(t, list->items[i]))
             return false;
     }
@@ -183,7 +183,7 @@ static bool read_candidates(study_tradeoff *t, const ff_node *list)
     return true;
 }
 
-/* Reads the names under a key; none where it is missing. NULL after an error. */
+/* Reads the names under a key; an empty list if it is missing. NULL after an error. */
 static const char **names_of(const study_tradeoff *t, const ff_node *list, const char *key,
                              size_t *count)
 {
@@ -202,7 +202,7 @@ static bool read_measure(study_tradeoff *t, const study_key_value *values)
         memory_arena_alloc(&context->arena, (context->stage_count + 1) * sizeof *stages);
     for (size_t i = 0; i < context->stage_count; i++)
         if (!(stages[i] = study_word(items[i])))
-            return refuse(t, list, NULL, "\"stages\" is a list of stages");
+            return refuse(t, list, NULL, "\"stages\" must be a list of stages");
     context->stages = stages;
     if (!t->counts || !study_read_outputs(context, values[TRADEOFF_OUTPUTS].node))
         return false;
@@ -218,7 +218,7 @@ static bool read_measure(study_tradeoff *t, const study_key_value *values)
     return true;
 }
 
-/* Reads the keys that have a type. */
+/* Reads the keys with a type. */
 static void read_values(study_tradeoff *t, const study_key_value *values)
 {
     const char *along = values[TRADEOFF_ALONG].value.text;
@@ -227,8 +227,8 @@ static void read_values(study_tradeoff *t, const study_key_value *values)
     t->context->along = along ? study_context_format(t->context, "%s", along) : NULL;
 }
 
-/* Whether a point assigns a whole file or pipeline: then labels leave out the paths, which say
-   nothing. */
+/* Whether a point assigns a whole file or pipeline. Labels then leave out the paths, which would
+ * not help. */
 static bool assigns_whole_files(const study_tradeoff *t)
 {
     static const char *const whole[] = {"include=", "pipeline=", "accuracy="};
@@ -240,8 +240,8 @@ static bool assigns_whole_files(const study_tradeoff *t)
     return false;
 }
 
-/* Returns "model, cells 512" for "film.use=kind/model, film.cells=512", behind the name that the
-   file gives; such a name stands alone for a single point. */
+/* Returns "model, cells 512" for "film.use=kind/model, film.cells=512", after the name that the
+ * file gives, if any. For a single point the name alone is used. */
 static const char *label_of(const study_tradeoff *t, const study_point *p, bool whole)
 {
     study_line line = {0};
@@ -257,7 +257,7 @@ static const char *label_of(const study_tradeoff *t, const study_point *p, bool 
         study_line_add(&line, "%s%s%s%s", line.used ? ", " : "", use || whole ? "" : word,
                        use || whole ? "" : " ", use ? slash + 1 : value);
     }
-    return line.used ? study_context_format(t->context, "%s", line.text) : "as the file stands";
+    return line.used ? study_context_format(t->context, "%s", line.text) : "the unchanged file";
 }
 
 size_t study_tradeoff_case(const study_tradeoff *t, size_t point, size_t repeat)

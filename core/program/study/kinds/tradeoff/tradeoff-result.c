@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Computes the result of a trade-off: the error and the cost of every candidate, the
-   fronts. */
+/* Computes the result of a trade-off: error and cost of every candidate, and the Pareto fronts. */
 #include "tradeoff.h"
 
 #include <math.h>
@@ -81,7 +80,7 @@ static json_t *cost_of(const study_tradeoff *t, size_t point, bool whole, double
                  : json_null();
 }
 
-/* Difference of the last two levels of the reference: smaller errors cannot be told apart. */
+/* Difference of the last two levels of the reference; smaller errors cannot be distinguished. */
 static double floor_of(const study_tradeoff *t, size_t levels, size_t output)
 {
     accuracy_difference d;
@@ -89,8 +88,8 @@ static double floor_of(const study_tradeoff *t, size_t levels, size_t output)
     return known ? d.typical : 0;
 }
 
-/* The error that the answer states for itself: its output "film.h_min_error", else the quality line
-   of that name, which is relative; NaN if it has neither. */
+/* The error stated by the answer itself: its output "film.h_min_error", else the quality line of
+ * that name, which is relative; NaN if it has neither. */
 static double stated_error(const study_tradeoff *t, size_t point, size_t output, bool absolute)
 {
     const study_outcome *answer = study_tradeoff_outcome(t, point);
@@ -155,8 +154,8 @@ static json_t *describe_reference(const study_tradeoff *t, size_t levels)
                      "unsettled", kept, "levels", list);
 }
 
-/* Describes the front and what each step along it costs and gains; marks each error that is on the
-   front. */
+/* Describes the front and the cost and gain of each step along it; marks the errors on the front.
+ */
 static json_t *describe_front(const study_tradeoff *t, const double *cost, const double *error,
                               json_t *const *errors)
 {
@@ -226,8 +225,8 @@ static json_t *describe_candidate(const study_tradeoff *t, size_t point, double 
     return record;
 }
 
-/* Adds the errors of all candidates in an output, and returns the front that they make with the
-   costs. */
+/* Adds the errors of all candidates for an output, and returns the Pareto front of errors and
+ * costs. */
 static json_t *describe_output(const study_tradeoff *t, size_t levels, size_t output, json_t *list,
                                const double *cost)
 {
@@ -238,7 +237,7 @@ static json_t *describe_output(const study_tradeoff *t, size_t levels, size_t ou
     for (size_t c = 0; c < t->candidates; c++) {
         errors[c] = error_of(t, t->levels + c, levels - 1, output, &error[c]);
         json_object_set_new(json_object_get(json_array_get(list, c), "errors"), name, errors[c]);
-        if (isfinite(error[c])) /* no candidate is known to be better than this */
+        if (isfinite(error[c])) /* smaller errors cannot be distinguished */
             error[c] = fmax(error[c], fmax(floor, 1e-15));
     }
     json_t *front = describe_front(t, cost, error, errors);

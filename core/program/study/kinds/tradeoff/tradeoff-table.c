@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A trade-off as tables and in sentences. */
+/* Writes a trade-off as tables and sentences. */
 #include "tradeoff.h"
 
 #include <string.h>
 
 enum { SHOWN = STUDY_ON_TERMINAL | STUDY_ON_PAGE };
 
-/* The columns of a table as they are added to it. */
+/* The columns of a table under construction. */
 typedef struct columns {
     study_column *all;
     size_t count;
@@ -41,7 +41,7 @@ static json_t *sort_by_cost(const json_t *candidates)
     return sorted;
 }
 
-/* Returns {name: null} for every count that some candidate has. */
+/* Returns {name: null} for every count that at least one candidate has. */
 static json_t *names_of_counts(const json_t *candidates)
 {
     json_t *names = json_object(), *candidate, *value;
@@ -91,7 +91,7 @@ static void add_file(study_answer *answer, const json_t *result)
     json_decref(names);
 }
 
-/* `count` names the count that has a column, or is NULL. */
+/* `count` is the name of the count with its own column, or NULL. */
 static void add_candidates(study_answer *answer, const char *output, const json_t *of,
                            json_t *candidates, const char *count, json_t *figure)
 {
@@ -142,10 +142,10 @@ static void add_candidates(study_answer *answer, const char *output, const json_
                            .before = "  "});
     const double known = study_number_of(of, "reference_error");
     const char *title =
-        absolute
-            ? study_context_format(context, "%s, 0 in the reference: errors in SI, known to %.2g",
-                                   output, known)
-            : study_context_format(context, "%s, known to %.2g %%", output, 100 * known);
+        absolute ? study_context_format(context,
+                                        "%s, 0 in the reference: errors in SI, uncertain by %.2g",
+                                        output, known)
+                 : study_context_format(context, "%s, uncertain by %.2g %%", output, 100 * known);
     study_answer_add(answer, &(study_table){.title = title,
                                             .summary = "all candidates",
                                             .columns = c.all,
@@ -172,7 +172,8 @@ static void add_front(study_answer *answer, const json_t *candidates, const json
                            .factor = absolute ? 1 : 100,
                            .width = 8,
                            .digits = 3});
-    add(&c, (study_column){.of = {"bought"}, .head = "against the one above", .before = "  "});
+    add(&c,
+        (study_column){.of = {"bought"}, .head = "compared with the one above", .before = "  "});
     add(&c, (study_column){.of = {"knee"}, .head = "", .words = {"", "knee"}, .before = "  "});
     json_t *rows = json_array(), *one;
     size_t i;
@@ -225,15 +226,15 @@ static void tell_reference(study_answer *answer, const json_t *result)
     if (!json_is_true(json_object_get(reference, "reached")))
         study_answer_say(
             answer, SHOWN, 2,
-            "it changes by more than a tenth of the smallest error sought, %.3g %%%s%s%s",
+            "it changes by more than a tenth of the smallest error of interest, %.3g %%%s%s%s",
             100 * study_number_of(result, "accuracy"), kept.used ? ": " : "",
             kept.used ? kept.text : "",
             json_is_true(json_object_get(reference, "stalled"))
-                ? "; finer levels change it no less, so that none follows"
+                ? "; refinement does not reduce the change, so no finer level follows"
                 : "");
 }
 
-/* Draws the error of an output against the cost. */
+/* Draws the error of an output against its cost. */
 static json_t *draw(study_answer *answer, const json_t *candidates, const char *output, json_t *of)
 {
     json_t *points = json_array(), *one;

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Error against cost: refines a reference until it hardly changes, then runs each candidate several
- * times, alone on a core; finds the Pareto front.
- */
+/* Measures error against cost: refines a reference until it hardly changes, runs each candidate
+ * several times, alone on a core, and finds the Pareto front. */
 #include "tradeoff.h"
 
 #include <math.h>
@@ -18,7 +16,7 @@ static const ff_param keys[STUDY_TRADEOFF_KEYS] = {
                 "double, or a map to factors; refinements: how often at most, else 3"},
     [TRADEOFF_CANDIDATES] = {.name = "candidates",
                              .flags = FF_REQUIRED,
-                             .doc = "list of maps from paths to values, as under sweep"},
+                             .doc = "list of maps from paths to lists of values, as under sweep"},
     [TRADEOFF_REPEATS] = {.name = "repeats",
                           .unit = "",
                           .type = FF_INT,
@@ -27,27 +25,30 @@ static const ff_param keys[STUDY_TRADEOFF_KEYS] = {
                           .max = 100,
                           .doc =
                               "runs of each candidate, 1 to 100; the median of their costs counts"},
-    [TRADEOFF_ACCURACY] =
-        {.name = "accuracy",
-         .unit = "1",
-         .type = FF_REAL,
-         .flags = FF_MIN_OPEN,
-         .preset = "0.5 %",
-         .max = INFINITY,
-         .low = 1e-9,
-         .high = 1,
-         .doc = "smallest error sought, above 0; the reference is to change by a tenth"},
-    [TRADEOFF_COUNTS] = {.name = "counts", .doc = "list of what counts work: [film.convolutions]"},
-    [TRADEOFF_ALONG] = {.name = "along",
-                        .unit = "",
-                        .type = FF_TEXT,
-                        .doc = "the series that others are compared along; else one is found"},
+    [TRADEOFF_ACCURACY] = {.name = "accuracy",
+                           .unit = "1",
+                           .type = FF_REAL,
+                           .flags = FF_MIN_OPEN,
+                           .preset = "0.5 %",
+                           .max = INFINITY,
+                           .low = 1e-9,
+                           .high = 1,
+                           .doc = "smallest error of interest, above 0; the reference must change "
+                                  "by less than a tenth of it"},
+    [TRADEOFF_COUNTS] = {.name = "counts",
+                         .doc = "list of results that count work: [film.convolutions]"},
+    [TRADEOFF_ALONG] =
+        {.name = "along",
+         .unit = "",
+         .type = FF_TEXT,
+         .doc = "the series along which others are compared; found automatically if not given"},
     [TRADEOFF_STAGES] = {.name = "stages",
-                         .doc = "list of stages whose work counts although candidates share them"},
+                         .doc =
+                             "list of stages whose work counts although all candidates share it"},
 };
 
-/* True if every output has settled. Otherwise notes whether the change of one that has not still
-   falls. */
+/* True if every output has settled. Otherwise records whether the change of any other output still
+ * falls. */
 static bool level_has_settled(study_tradeoff *t, size_t level)
 {
     bool settled = true, falls = level < 2;
@@ -64,7 +65,8 @@ static bool level_has_settled(study_tradeoff *t, size_t level)
     return settled;
 }
 
-/* Runs the levels of the reference until one has settled, or until finer ones change it no less. */
+/* Runs the levels of the reference until one has settled, or until refinement no longer reduces the
+ * change. */
 static bool run_reference(study_tradeoff *t)
 {
     study_context *context = t->context;
@@ -77,9 +79,9 @@ static bool run_reference(study_tradeoff *t)
         if (*outcome->reason || lost)
             return ff_error(
                 context->report, FF_FAULT_RUN, t->points[level].place->place,
-                "a coarser reference, or fewer refinements, may do",
+                "try a coarser reference, or fewer refinements",
                 "%s: the reference failed (%s): %s", context->name, t->points[level].label,
-                lost ? "what it gave is lost; --rerun all computes it anew" : outcome->reason);
+                lost ? "its results are lost; --rerun all computes them again" : outcome->reason);
         if (level > 0 && (level_has_settled(t, level) || t->stalled))
             return true;
     }

@@ -12,7 +12,7 @@ typedef struct search {
 
 static void look_at(search *s, const ff_node *node, const char *path);
 
-/* Looks at what stands under a name, or at the place of a list. */
+/* Examines the value under a name, or at an index of a list. */
 static void look_below(search *s, const ff_node *node, const char *path, const char *name)
 {
     char *longer = memory_print_text("%s.%s", path, name);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The values of a file that have a tolerance. */
+/* Finds the values of a file that have a tolerance. */
 #ifndef STUDY_TOLERANCES_H
 #define STUDY_TOLERANCES_H
 
@@ -8,13 +8,13 @@
 #include "../../../memory/memory.h"
 
 typedef struct study_toleranced {
-    const char *path; /* as --set takes it */
+    const char *path; /* as for --set */
     const char *text; /* "3 mm +- 1 mm" */
     ff_tolerance tolerance;
 } study_toleranced;
 
 /* Returns the values with a tolerance in all stages, in the order of the file. Of the sets under
- * `with:` only that of the model in use counts. */
+ * `with:`, only that of the model in use counts. */
 study_toleranced *study_find_toleranced(const ff_node *root, memory_arena *arena, size_t *count);
 
 #endif

@@ -6,7 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-/* An error of a third of another adds only 5 % to it. */
+/* An error below a third of another one is neglected, since it adds only 5 % to it (sum of
+ * squares). */
 static const double counts_for_nothing = 1 / 3.;
 
 study_readable study_uncertainty_unit(const char *name, const json_t *of)
@@ -38,7 +39,7 @@ static double add_models(const study_uncertainty *u, size_t output, double nomin
         const char *reason = study_outcome_of(u->context, number)->reason;
         if (!isfinite(off)) {
             json_object_set_new(failed, u->models[i].name,
-                                json_string(*reason ? reason : "it does not give this output"));
+                                json_string(*reason ? reason : "it does not have this output"));
             continue;
         }
         json_object_set_new(tried, u->models[i].name, json_real(off));
@@ -52,7 +53,7 @@ static double add_models(const study_uncertainty *u, size_t output, double nomin
     return largest;
 }
 
-/* The input that contributes most of the spread. */
+/* Returns the input that contributes most to the spread. */
 static const char *largest_share(const json_t *of, double *share)
 {
     json_t *shares = json_object_get(of, "shares"), *one;
@@ -69,7 +70,8 @@ static const char *largest_share(const json_t *of, double *share)
     return found;
 }
 
-/* `kelvin` is the part of a temperature, which has no relative share; NaN for other outputs. */
+/* `kelvin` is the error of a temperature, for which no relative error is stated; NaN for other
+ * outputs. */
 static void add_part(study_line *line, double part, double kelvin, const char *what,
                      const char *missing)
 {
@@ -81,11 +83,11 @@ static void add_part(study_line *line, double part, double kelvin, const char *w
         study_line_add(line, "%s", missing);
 }
 
-/* Deviations on either side of the middle 95 % of a normal variate: the bar of the inputs is as
-   sure as that of the numbers. */
+/* Half width of the middle 95 % of a normal variate, in standard deviations, so that the bar of the
+ * inputs has the same confidence as that of the numbers. */
 static const double z95 = 1.959963984540054;
 
-/* Relative bar by the inputs with its 95 % interval; NaN if an end is not bounded. */
+/* Relative error bar due to the inputs, with its 95 % interval; NaN if an end is not bounded. */
 typedef struct input_bar {
     double value, low, high;
 } input_bar;
@@ -99,42 +101,42 @@ static input_bar input_bar_of(const json_t *of)
                        study_number_of(deviation, "high") * by};
 }
 
-/* True if the samples leave open whether the spread by the inputs or another bar is larger. */
+/* True if the samples cannot tell whether the spread due to the inputs or another bar is larger. */
 static bool is_open(const input_bar *input, double bar)
 {
     return input->value > 0 && isfinite(bar) && !(bar < input->low) && !(bar > input->high);
 }
 
-/* Names the inputs beside the larger of the two other bars, and the smaller one if it counts. */
+/* Names the inputs, the larger of the two other bars, and also the smaller one if it counts. */
 static const char *open_advice(double numerical, double model, const input_bar *input)
 {
     double least = counts_for_nothing * fmax(numerical, model);
     bool by_grid = numerical > least && is_open(input, numerical);
     bool by_model = model > least && is_open(input, model);
     if (by_grid && by_model)
-        return "the inputs, the choice of the model, cells and steps may matter alike";
+        return "the inputs, the choice of the model, and cells and steps may matter equally";
     if (by_grid)
-        return "the inputs, cells and steps may matter alike";
-    return numerical <= least ? "finer cells would change nothing, the inputs and the choice of "
-                                "the model may matter alike"
-                              : "the inputs and the choice of the model may matter alike";
+        return "the inputs, and cells and steps, may matter equally";
+    return numerical <= least ? "finer cells would change nothing; the inputs and the choice of "
+                                "the model may matter equally"
+                              : "the inputs and the choice of the model may matter equally";
 }
 
 /* Advises about the largest of the three bars. */
 static const char *advice(double numerical, double model, const input_bar *input)
 {
-    double other = fmax(model, input->value); /* of those that are known */
+    double other = fmax(model, input->value); /* largest of the known bars */
     bool grid_is_nothing = numerical <= counts_for_nothing * other;
     if (!(numerical > 0) && other <= 0)
-        return "none of these is known to move it";
+        return "none of these is known to change it";
     if (is_open(input, fmax(numerical, model)))
         return open_advice(numerical, model, input);
     if (numerical > other)
         return "finer cells and steps would help most";
     if (isnan(other))
-        return "nothing to compare with";
+        return "no bar to compare with";
     if (input->value >= model || isnan(model))
-        return grid_is_nothing ? "finer cells would change nothing, better inputs would"
+        return grid_is_nothing ? "finer cells would change nothing, better inputs would help"
                                : "better inputs would help most";
     return grid_is_nothing ? "finer cells would change nothing, the choice of the model does"
                            : "the choice of the model matters most";

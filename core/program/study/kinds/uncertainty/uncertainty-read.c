@@ -11,7 +11,8 @@
 
 enum { MOST_PATHS = 256 };
 
-/* The paths that cases assign: "sample" names the case, "accuracy" has its error measured. */
+/* The paths that cases assign: "sample" is a name of the case, "accuracy" makes it measure its
+ * error. */
 typedef struct path_list {
     const char *names[MOST_PATHS];
     size_t count;
@@ -23,8 +24,7 @@ static bool refuse(const study_uncertainty *u, const ff_node *where, const char 
     return study_context_refuse(u->context, where, hint, what);
 }
 
-/* Returns the number of a path, which is added when it is new; MOST_PATHS when there are too many.
- */
+/* Returns the index of a path, and adds it if it is new; MOST_PATHS if there are too many. */
 static size_t find_path(path_list *paths, const char *name)
 {
     size_t k = 0;
@@ -54,13 +54,13 @@ static bool read_percentiles(study_uncertainty *u, const ff_node *list)
     u->share_count = list ? list->count : 3;
     if (list && (list->kind != FF_SEQUENCE || list->count > UNCERTAINTY_MOST_SHARES))
         return refuse(u, list, "write percentiles: [5 %, 50 %, 95 %]",
-                      "\"percentiles\" is a list of at most 16 shares");
+                      "\"percentiles\" must be a list of at most 16 shares");
     for (size_t i = 0; i < u->share_count; i++) {
         double *share = &u->shares[i];
         *share = usual[list ? 0 : i];
         if ((list && !study_read_share(study_word(list->items[i]), share)) ||
             !(*share > 0 && *share < 1))
-            return refuse(u, list->items[i], NULL, "a percentile is a share such as 5 %");
+            return refuse(u, list->items[i], NULL, "a percentile must be a share such as 5 %");
     }
     return true;
 }
@@ -77,8 +77,8 @@ static bool read_condition(study_uncertainty *u, const ff_node *node, uncertaint
         if (!strcmp(context->outputs[c->output]->text, read.name))
             return true;
     return refuse(u, node, "write conditions: [\"film.h_min_lowest < 0.1 um\"]",
-                  sign ? "a condition is about one of the outputs of this study"
-                       : "a condition is an output, < or >, and a limit with its unit");
+                  sign ? "a condition must be about one of the outputs of this study"
+                       : "a condition must be an output, < or >, and a limit with its unit");
 }
 
 static bool read_conditions(study_uncertainty *u, const ff_node *list)
@@ -87,19 +87,19 @@ static bool read_conditions(study_uncertainty *u, const ff_node *list)
     u->conditions = memory_arena_alloc(&u->context->arena, (count + 1) * sizeof *u->conditions);
     if (list && list->kind != FF_SEQUENCE)
         return refuse(u, list, "write conditions: [\"film.h_min_lowest < 0.1 um\"]",
-                      "\"conditions\" is a list");
+                      "\"conditions\" must be a list");
     for (; u->condition_count < count; u->condition_count++)
         if (!read_condition(u, list->items[u->condition_count], &u->conditions[u->condition_count]))
             return false;
     return true;
 }
 
-/* The cost of a level: a share of that of a case as the file stands. */
+/* Reads the cost of a level, relative to that of a case with the unchanged file. */
 static bool read_cost(const study_uncertainty *u, const ff_node *node, uncertainty_patch *patch)
 {
     return (study_read_share(study_word(node), &patch->cost) && patch->cost > 0) ||
            refuse(u, node, NULL,
-                  "a cost is a share of that of a case as the file stands, such as 2 %");
+                  "a cost must be relative to that of a case with the unchanged file, such as 2 %");
 }
 
 static bool read_patch(const study_uncertainty *u, const char *name, const ff_node *map,
@@ -123,7 +123,7 @@ static bool read_patch(const study_uncertainty *u, const char *name, const ff_no
             return refuse(u, map, NULL, "more than 256 paths");
         if (k < u->first_patch)
             return refuse(u, map->items[i], NULL,
-                          study_context_format(u->context, "%.80s: an uncertain input sets it",
+                          study_context_format(u->context, "%.80s: it is set by an uncertain input",
                                                map->keys[i]));
         char *text = study_yaml_assignment(map->keys[i], map->items[i]);
         patch->assignments[k] = study_context_format(u->context, "%s", text);
@@ -139,15 +139,15 @@ static bool read_patches(study_uncertainty *u, const ff_node *map, const char *k
     if (map && (!study_is_map(map) || map->count > most - *count))
         return refuse(u, map, NULL,
                       study_context_format(u->context,
-                                           "\"%s\" is a map of at most %zu names to maps", key,
-                                           most - *count));
+                                           "\"%s\" must be a map from at most %zu names to maps",
+                                           key, most - *count));
     for (size_t i = 0; map && i < map->count; i++)
         if (!read_patch(u, map->keys[i], map->items[i], costed, paths, &patches[(*count)++]))
             return false;
     return true;
 }
 
-/* Level by level, so that a worker goes on with the models that it has. */
+/* Submits the samples level by level, so that a worker can reuse its models. */
 static void submit_pilot(study_uncertainty *u)
 {
     double *numbers = variates_draw(&u->inputs, u->seed, u->pilot);
@@ -160,14 +160,15 @@ static void submit_pilot(study_uncertainty *u)
     free(numbers);
 }
 
-/* Refuses too many cases before any is made; those that a ladder chooses are not known yet. */
+/* Refuses too many cases before any is made. The number that a ladder will choose is not known yet.
+ */
 static bool check_count(const study_uncertainty *u)
 {
     size_t samples = u->level_count > 1 ? u->level_count * u->pilot : u->samples;
     size_t count = 2 + u->model_count + (samples > u->sensitivity ? samples : u->sensitivity);
     return count <= STUDY_MOST_SUBMITTED ||
            refuse(u, ff_node_get(ff_node_get(u->context->root, "study"), u->context->name), NULL,
-                  "more than 1000000 cases: fewer samples");
+                  "more than 1000000 cases; choose fewer samples");
 }
 
 static void submit_planned(study_uncertainty *u)
@@ -185,7 +186,7 @@ static void submit_planned(study_uncertainty *u)
     u->first_main = u->context->list.count;
 }
 
-/* Reads the keys that have a type. */
+/* Reads the keys with a type. */
 static void read_values(study_uncertainty *u, const study_key_value *values)
 {
     u->samples = (size_t)values[UNCERTAINTY_SAMPLES].value.integer;
@@ -193,7 +194,7 @@ static void read_values(study_uncertainty *u, const study_key_value *values)
     u->pilot = (size_t)values[UNCERTAINTY_PILOT].value.integer;
     u->sensitivity = (size_t)values[UNCERTAINTY_SENSITIVITY].value.integer;
     u->aim = (estimate_aim)values[UNCERTAINTY_AIM].value.integer;
-    u->levels[0] = (uncertainty_patch){.name = "as the file stands", .cost = 1};
+    u->levels[0] = (uncertainty_patch){.name = "the unchanged file", .cost = 1};
     u->level_count = 1;
 }
 
@@ -229,11 +230,11 @@ void *study_uncertainty_read(study_context *context, const study_key_value *valu
     context->path_count = paths->count;
     context->further =
         u->level_count > 1
-            ? "then the samples that the pilot shows to be worth their cost"
+            ? "then as many samples as the pilot shows to be worthwhile"
             : study_context_format(context, "then %zu samples",
                                    u->samples > u->sensitivity ? u->samples : u->sensitivity);
     submit_planned(u);
-    context->opened = 1; /* a sample may be one that cannot be, but not the medians */
+    context->opened = 1; /* the medians must be a valid case; a sample need not be */
     context->first_compared = u->first_model;
     context->compared_count = u->model_count;
     context->compared = memory_arena_alloc(&context->arena, (u->model_count + 1) * sizeof(char *));

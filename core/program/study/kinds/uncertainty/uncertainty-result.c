@@ -61,7 +61,7 @@ static json_t *histogram_of(const estimate_samples *s)
                      "shares", list);
 }
 
-/* Name of a group of inputs: "torque + speed". */
+/* Returns the name of a group of inputs: "torque + speed". */
 static const char *name_of_group(const study_uncertainty *u, size_t group)
 {
     const char *text = NULL;
@@ -77,12 +77,11 @@ static size_t last_level(const study_uncertainty *u)
     return u->plan.level[u->plan.levels - 1];
 }
 
-/*
- * Shares of the inputs, from the level with the most samples. If r is its correlation with the
- * file's model, this model is a multiple of it plus a rest. The roots of the inputs' parts of a
- * variance obey the triangle inequality, so a share of the file's model lies between
- * (r sqrt(S) - e)^2 and (r sqrt(S) + e)^2 with e = sqrt(1 - r^2).
- */
+/* Computes the shares of the inputs from the level with the most samples. If r is the correlation
+ * of this level with the file's model, the file's model is a multiple of the level plus a
+ * remainder. The square roots of an input's parts of the variances obey the triangle inequality, so
+ * its share in the file's model lies between (r sqrt(S) - e)^2 and (r sqrt(S) + e)^2, where S is
+ * its share in the level and e = sqrt(1 - r^2). */
 static json_t *shares_of(const study_uncertainty *u, const estimate_samples *s)
 {
     estimate first[VARIATE_MOST], total[VARIATE_MOST];
@@ -94,7 +93,7 @@ static json_t *shares_of(const study_uncertainty *u, const estimate_samples *s)
         json_t *share =
             json_pack("{s:o, s:o}", "first", describe(first[g]), "total", describe(total[g]));
         if (!isfinite(first[g].value))
-            json_object_set_new(share, "untold", json_sprintf("%zu samples do not tell", n));
+            json_object_set_new(share, "untold", json_sprintf("too few samples (%zu)", n));
         json_object_set_new(shares, name_of_group(u, g), share);
     }
     return shares;
@@ -139,7 +138,7 @@ static const char *unit_of(const study_uncertainty *u, size_t output)
     return unit;
 }
 
-/* A list of {input, word, samples, mean, deviation}. */
+/* Returns a list of {input, word, samples, mean, deviation}. */
 static json_t *words_of(const study_uncertainty *u, const estimate_samples *s)
 {
     json_t *all = json_array();

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What an uncertainty study found as tables of statistics, and in sentences. */
+/* Writes the findings of an uncertainty study as tables of statistics and sentences. */
 #include "uncertainty.h"
 
 #include <math.h>
@@ -28,7 +28,7 @@ static const study_column levels[] = {
     {.of = {"remark"}, .head = "", .before = ", "},
 };
 
-/* A statistic: what it is called in the file and on the terminal, in SI and in a readable unit. */
+/* Adds a statistic with its names in the file and on the terminal, in SI and in a readable unit. */
 typedef struct statistic {
     const char *output, *name, *what, *unit;
     const json_t *of;
@@ -60,7 +60,7 @@ static json_t *row_of(const statistic *s)
     return row;
 }
 
-/* The shares of an input in the variance: alone and with others. */
+/* Adds the shares of an input in the variance: alone, and together with other inputs. */
 static void add_shares(json_t *rows, const char *output, const char *input, const json_t *share)
 {
     char first[200], total[200], what[100];
@@ -136,7 +136,7 @@ static json_t *draw(study_answer *answer, const char *name, const json_t *of)
            *histogram = study_answer_draw(
                answer,
                json_pack("{s:s, s:s+, s:s, s:s, s:f, s:f, s:O, s:O}", "sort", "histogram", "title",
-                         name, ": what the inputs make of it", "name", dot ? dot + 1 : name, "unit",
+                         name, ": spread by the inputs", "name", dot ? dot + 1 : name, "unit",
                          unit.unit, "factor", unit.factor, "offset", unit.offset, "percentiles",
                          json_object_get(of, "percentiles"), "histogram",
                          json_object_get(of, "histogram")));
@@ -167,13 +167,13 @@ static void tell_output(study_answer *answer, const char *name, const json_t *of
     json_array_extend(all, rows);
     study_context_print_line(context, 0, "");
     const char *title =
-        study_context_format(context, "%s, each with the interval that holds it with 95 %%", name);
+        study_context_format(context, "%s, each with its 95 %% confidence interval", name);
     add_statistics(answer, title, study_text_of(json_object_get(of, "limits"), "sentence"), rows,
                    draw(answer, name, of), SHOWN);
     if (failed)
         study_answer_say(answer, SHOWN, 2,
-                         "%lld samples failed and are left out: where that hangs on the inputs, "
-                         "all of the above is off",
+                         "%lld samples failed and are left out: if failing depends on the inputs, "
+                         "all results above are biased",
                          (long long)failed);
 }
 
@@ -189,7 +189,8 @@ static void tell_conditions(study_answer *answer, const json_t *conditions, json
     add_statistics(answer, NULL, "probabilities", rows, NULL, SHOWN);
 }
 
-/* What a level cost beside what the file states, or that the pilot measured it. */
+/* Returns the cost of a level: as stated in the file and as observed, or as measured by the pilot.
+ */
 static json_t *remark_of(const json_t *level, const json_t *first)
 {
     double found = study_number_of(level, "seconds") / study_number_of(first, "seconds");
@@ -220,8 +221,8 @@ static void tell_levels(study_answer *answer, const json_t *result)
                                             .indent = 2,
                                             .forms = SHOWN});
     study_answer_say(answer, SHOWN, 2,
-                     "the mean is known as from %.7g plain samples; %.3g times cheaper than they "
-                     "would be, pilot included (%.3g predicted from it)",
+                     "the mean is as accurate as from %.7g plain samples, and %.3g times cheaper, "
+                     "pilot included (predicted from the pilot: %.3g)",
                      round(study_number_of(gain, "plain")), study_number_of(gain, "found"),
                      study_number_of(gain, "predicted"));
 }

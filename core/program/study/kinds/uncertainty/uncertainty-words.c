@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What an output is for each word of an input of words: of each branch, where motions coexist. */
+/* Statistics of an output for each word of an input whose values are words, such as the branch of
+ * coexisting motions. */
 #include "uncertainty.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Samples that each count of levels needs for a mean with its spread. */
+/* Least number of samples for a mean with its spread, by the number of levels. */
 enum { LEAST = 3 };
 
 size_t study_uncertainty_words(const variate *v, const char *words[UNCERTAINTY_MOST_WORDS])
@@ -24,8 +25,8 @@ size_t study_uncertainty_words(const variate *v, const char *words[UNCERTAINTY_M
     return count;
 }
 
-/* How an input follows from its number. One that is correlated with others follows from theirs,
-   too. */
+/* Describes how an input follows from its standard normal number; a correlated input also depends
+ * on the numbers of the others. */
 static estimate_input shape_of(const study_uncertainty *u, size_t input)
 {
     const variate *v = &u->inputs.all[input];

@@ -17,31 +17,33 @@ static const ff_param keys[STUDY_UNCERTAINTY_KEYS] = {
                             .doc =
                                 "map from paths to {normal: [MEAN, SPREAD]}, {lognormal: [MEDIAN, "
                                 "SPREAD]}, {uniform: [FROM, TO]} or {samples: FILE.csv or a "
-                                "list}; with sets: [PATHS] one value for several. Left out: the "
+                                "list}; with sets: [PATHS] one value for several. If missing: the "
                                 "values of the pipeline that have a tolerance"},
-    [UNCERTAINTY_CORRELATIONS] = {.name = "correlations",
-                                  .doc = "list of [INPUT, INPUT, r], of the normal variates "
-                                         "(Gaussian copula)"},
+    [UNCERTAINTY_CORRELATIONS] =
+        {.name = "correlations",
+         .doc = "list of [INPUT, INPUT, r]: correlations of the normal variates "
+                "(Gaussian copula)"},
     [UNCERTAINTY_CONDITIONS] = {.name = "conditions",
-                                .doc = "list of conditions whose probability is asked: "
+                                .doc = "list of conditions whose probabilities are computed: "
                                        "[\"film.lambda_ratio_lowest < 1\"]"},
     [UNCERTAINTY_PERCENTILES] = {.name = "percentiles",
-                                 .doc = "list of shares, else [5 %, 50 %, 95 %]"},
+                                 .doc = "list of shares; if missing [5 %, 50 %, 95 %]"},
     [UNCERTAINTY_SAMPLES] = {.name = "samples",
                              .unit = "",
                              .type = FF_INT,
                              .preset = "100",
                              .min = 2,
                              .max = 1000000,
-                             .doc = "how many of the file's model; with a ladder: whose standard "
-                                    "error is to be reached"},
+                             .doc = "number of samples of the file's model; with a ladder: the "
+                                    "standard error of that many samples is reached"},
     [UNCERTAINTY_SEED] = {.name = "seed",
                           .unit = "",
                           .type = FF_INT,
                           .preset = "1",
                           .min = 0,
                           .max = 1000000,
-                          .doc = "of the random numbers; the same seed gives the same samples"},
+                          .doc =
+                              "seed of the random numbers; the same seed gives the same samples"},
     [UNCERTAINTY_LADDER] = {.name = "ladder",
                             .doc = "map from names to cheaper models, the cheapest last: {quick: "
                                    "{film.use: ehl/inlet-analysis, cost: 2 %}}"},
@@ -51,31 +53,31 @@ static const ff_param keys[STUDY_UNCERTAINTY_KEYS] = {
                            .preset = "20",
                            .min = 5,
                            .max = 10000,
-                           .doc = "first samples, on every level of the ladder, which tell how "
-                                  "many more are worth their cost"},
+                           .doc = "number of first samples on every level of the ladder; they "
+                                  "determine how many more are worth their cost"},
     [UNCERTAINTY_AIM] = {.name = "aim",
                          .unit = "",
                          .type = FF_CHOICE,
                          .preset = "mean",
                          .choices = "mean|distribution",
-                         .doc = "what a ladder must give as well as plain samples: the mean alone, "
-                                "or percentiles and probabilities, too"},
-    [UNCERTAINTY_SENSITIVITY] = {.name = "sensitivity",
-                                 .unit = "",
-                                 .type = FF_INT,
-                                 .preset = "0",
-                                 .min = 0,
-                                 .max = 100000,
-                                 .doc = "at least so many samples of the cheapest level that "
-                                        "is used: a surface through them tells what each input "
-                                        "makes of the variance"},
+                         .doc = "results that a ladder must give as accurately as plain samples: "
+                                "only the mean, or also percentiles and probabilities"},
+    [UNCERTAINTY_SENSITIVITY] =
+        {.name = "sensitivity",
+         .unit = "",
+         .type = FF_INT,
+         .preset = "0",
+         .min = 0,
+         .max = 100000,
+         .doc = "least number of samples of the cheapest level in use: a surface through them "
+                "gives the share of each input in the variance"},
     [UNCERTAINTY_MODELS] = {.name = "models",
                             .doc = "map from names to other models or settings, tried at the "
                                    "medians: {thermal: {film.thermal: full}}"},
 };
 
-/* What all samples share, such as a mesh under one torque, is computed once, and is no cost of a
-   sample: the cases of level 0 reuse it from the second one on. */
+/* Returns the cost of a case of level 0. Stages shared by all samples, such as a mesh under one
+ * torque, are computed once and do not count: the cases reuse them from the second one on. */
 static double shared_seconds(const study_uncertainty *u)
 {
     double least = INFINITY;
@@ -85,7 +87,7 @@ static double shared_seconds(const study_uncertainty *u)
     return isfinite(least) ? least : 0;
 }
 
-/* The median processor time of the cases of a level in the pilot. */
+/* Returns the median processor time of the cases of a level in the pilot. */
 static double seconds_of(const study_uncertainty *u, size_t level)
 {
     double shared = shared_seconds(u);
@@ -103,8 +105,9 @@ static double seconds_of(const study_uncertainty *u, size_t level)
     return median;
 }
 
-/* A cost that the file states makes samples the same on every machine. One that is measured is that
-   of the pilot's records, which stay; to one of 1, 2 or 5 times a power of ten. */
+/* Sets the costs of the levels. Costs stated in the file give the same samples on every machine.
+ * Measured costs are taken from the pilot's records, so that they stay the same when the study is
+ * resumed, and rounded to 1, 2 or 5 times a power of ten. */
 static void find_costs(study_uncertainty *u)
 {
     for (size_t k = 0; k < u->level_count; k++)
@@ -121,7 +124,7 @@ static void find_costs(study_uncertainty *u)
     }
 }
 
-/* Chooses the counts by the first output. */
+/* Chooses the numbers of samples from the first output. */
 static void plan_samples(study_uncertainty *u)
 {
     double *values = memory_alloc(u->level_count * u->pilot * sizeof *values);
@@ -169,8 +172,8 @@ static void submit_main(study_uncertainty *u)
     }
 }
 
-/* A level of a ladder that cannot be, whatever the inputs, is found with the first sample that the
-   file's own model takes. */
+/* A level of the ladder that is impossible for any inputs is found with the first sample that the
+ * file's own model accepts. */
 static bool open_levels(const study_uncertainty *u)
 {
     for (size_t i = 0; i < u->pilot; i++) {
@@ -223,7 +226,8 @@ static void check(const void *study, const ff_pipeline *pipeline, ff_report *rep
 const study_kind study_uncertainty_kind = {
     .name = "uncertainty",
     .verb = "samples uncertain inputs",
-    .summary = "What uncertain inputs make of the outputs, against the errors of grids and models",
+    .summary = "Spread of the outputs due to uncertain inputs, compared with the errors of grids "
+               "and models",
     .file = "uncertainty",
     .keys = keys,
     .key_count = STUDY_UNCERTAINTY_KEYS,

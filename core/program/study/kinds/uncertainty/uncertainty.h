@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Effect of uncertain inputs on the outputs, beside that of the grid and the choice of models.
- * First the answer at the medians, with its error bar and by other models; then a pilot of samples
- * on all levels of a ladder of cheaper models; then as many more samples of each level as the pilot
- * shows to be worth their cost. A surface through the samples tells the share of each input.
- */
+/* Effect of uncertain inputs on the outputs, compared with that of the grid and of the choice of
+ * models. The study runs the medians first, with the error bar and with other models, then pilot
+ * samples on all levels of a ladder of cheaper models, then as many further samples of each level
+ * as the pilot shows to be worth their cost. A surface through the samples tells the share of each
+ * input. */
 #ifndef STUDY_UNCERTAINTY_H
 #define STUDY_UNCERTAINTY_H
 
@@ -15,7 +14,7 @@
 
 #include "estimates/estimate.h"
 
-_Static_assert((int)VARIATE_MOST <= (int)ESTIMATE_MOST_INPUTS, "a surface takes all inputs");
+_Static_assert((int)VARIATE_MOST <= (int)ESTIMATE_MOST_INPUTS, "a surface uses all inputs");
 
 enum { UNCERTAINTY_MOST_MODELS = 16, UNCERTAINTY_MOST_SHARES = 16, UNCERTAINTY_TEXT = 64 };
 
@@ -38,9 +37,10 @@ enum {
 /* A level or a model to compare: its differences from the file; level 0 assigns nothing. */
 typedef struct uncertainty_patch {
     const char *name;
-    const ff_node *place;     /* NULL for the file as it stands */
+    const ff_node *place;     /* NULL for the unchanged file */
     const char **assignments; /* for each path of the study; NULL if the file's value stays */
-    double cost; /* of a case, over one of the file's model; NaN: the pilot measures it */
+    double cost; /* cost of a case, relative to one with the file's model; NaN: the pilot measures
+                  * it */
 } uncertainty_patch;
 
 /* "film.h_min_lowest < 0.1 um" */
@@ -60,31 +60,32 @@ typedef struct study_uncertainty {
     size_t pilot;       /* number of pilot samples; 0 without a ladder */
     uint64_t seed;
     estimate_aim aim;
-    double shares[UNCERTAINTY_MOST_SHARES]; /* of the percentiles */
+    double shares[UNCERTAINTY_MOST_SHARES]; /* shares of the percentiles */
     size_t share_count;
     uncertainty_condition *conditions;
     size_t condition_count;
     uncertainty_patch levels[ESTIMATE_MOST_LEVELS], models[UNCERTAINTY_MOST_MODELS];
     size_t level_count, model_count;
-    size_t first_patch; /* the paths before it are those of the inputs */
+    size_t first_patch; /* index of the first path that is not an input */
 
-    /* Numbers of cases. One each: nominal; nominal with its error bar (measured). The first of
-     * several: nominal with another model; pilot samples on the levels; further samples of the
-     * plan. */
+    /* Numbers of cases: the nominal case, the nominal case with its error bar (measured), and the
+     * first of the nominal cases with other models, of the pilot samples, and of the further
+     * samples. */
     size_t nominal, measured, first_model, first_pilot, first_main;
     estimate_plan plan;
     estimate_input shapes[VARIATE_MOST];
     double *numbers;                      /* standard normal numbers from which the samples are
                                              made */
-    double cost[ESTIMATE_MOST_LEVELS];    /* relative to a case of level 0 */
+    double cost[ESTIMATE_MOST_LEVELS];    /* costs relative to a case of level 0 */
     double seconds[ESTIMATE_MOST_LEVELS]; /* CPU time of a case in the pilot, s, or NaN */
 } study_uncertainty;
 
-/* uncertainty-read.c: reads the keys and submits the cases that are known; NULL after an error. */
+/* uncertainty-read.c: reads the keys and submits the first cases. Returns NULL after an error. */
 void *study_uncertainty_read(study_context *context, const study_key_value *values);
 
 /* uncertainty-case.c */
-/* Submits one case: inputs from the numbers of variates_draw, NULL for the medians. */
+/* Submits one case: with inputs from the numbers of variates_draw, or with the medians if they are
+ * NULL. */
 size_t study_uncertainty_submit(const study_uncertainty *u, const char *label,
                                 const double *numbers, const uncertainty_patch *patch,
                                 bool measured);
@@ -102,9 +103,9 @@ enum { UNCERTAINTY_MOST_WORDS = 8 };
 size_t study_uncertainty_words(const variate *v, const char *words[UNCERTAINTY_MOST_WORDS]);
 /* Sets u->shapes: how each input follows from its standard normal number. */
 void study_uncertainty_shapes(study_uncertainty *u);
-/* Sets *own to the samples in which the input has that word. If too few of them are left at some
- * level, *own has level 0 alone. Returns the number of these samples that ran the file's model, or
- * 0 if they are too few for a mean with its spread. */
+/* Sets *own to the samples in which the input has that word. If too few are left at some level,
+ * *own has only level 0. Returns the number of these samples that ran the file's model, or 0 if
+ * they are too few for a mean with its spread. */
 size_t study_uncertainty_of_word(const study_uncertainty *u, const estimate_samples *all,
                                  size_t input, const char *word, estimate_samples *own);
 
@@ -112,10 +113,10 @@ size_t study_uncertainty_of_word(const study_uncertainty *u, const estimate_samp
    `of` is its result, with the shares of the inputs if they are known. */
 json_t *study_uncertainty_limits(const study_uncertainty *u, size_t output, const json_t *of);
 
-/* The unit in which an output of that name is shown, by the size of its mean. */
+/* Returns the unit for showing an output, chosen by the size of its mean. */
 study_readable study_uncertainty_unit(const char *name, const json_t *of);
 
-/* uncertainty-table.c: what a study found. */
+/* uncertainty-table.c: writes the findings of the study. */
 void study_uncertainty_reduce(void *study, study_answer *answer);
 
 #endif

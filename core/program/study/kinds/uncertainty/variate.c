@@ -49,7 +49,7 @@ static bool read_spread(study_context *context, const ff_node *node, variate *v,
     } else {
         v->b = q.number * q.unit.factor / unit->factor;
     }
-    return v->b >= 0 || refuse(context, node, v->name, NULL, "a spread is not negative");
+    return v->b >= 0 || refuse(context, node, v->name, NULL, "a spread must not be negative");
 }
 
 static bool read_pair(study_context *context, const ff_node *list, variate *v)
@@ -65,7 +65,7 @@ static bool read_pair(study_context *context, const ff_node *list, variate *v)
         if (!read_spread(context, list->items[1], v, &first.unit))
             return false;
         if (v->kind == VARIATE_LOGNORMAL && !(v->a > 0))
-            return refuse(context, list, v->name, NULL, "lognormal wants a positive median");
+            return refuse(context, list, v->name, NULL, "lognormal needs a positive median");
         if (v->kind == VARIATE_LOGNORMAL) /* from the variance of a lognormal variate over its
                                              squared mean, exp(s^2) - 1 */
             v->b = sqrt(log1p(v->b / v->a * (v->b / v->a)));
@@ -75,10 +75,12 @@ static bool read_pair(study_context *context, const ff_node *list, variate *v)
         return false;
     v->b = second.number;
     if (!ff_unit_same_dimension(&first.unit, &second.unit))
-        return refuse(context, list, v->name, NULL, "the two ends have units that do not agree");
+        return refuse(context, list, v->name, NULL,
+                      "the two ends have units of different dimensions");
     if (strcmp(second.text, v->unit) != 0)
         v->b = ff_unit_from_si(&first.unit, ff_unit_to_si(&second.unit, v->b));
-    return v->a <= v->b || refuse(context, list, v->name, NULL, "the first end is the lower one");
+    return v->a <= v->b ||
+           refuse(context, list, v->name, NULL, "the first end must be the lower one");
 }
 
 typedef struct sample {
@@ -132,7 +134,7 @@ static const char *take_column(study_context *context, study_csv *table, variate
             !strcmp(table->fields[column].text, v->name))
             break;
     if (table->fault || column == table->count)
-        return table->fault ? table->fault : "no column has the name of the input";
+        return table->fault ? table->fault : "no column is named after the input";
     unit = study_context_format(context, "%s", unit);
     while (study_csv_next(table)) {
         if (table->fault || table->count <= column || !*table->fields[column].text)
@@ -168,39 +170,40 @@ static bool read_samples(study_context *context, const ff_node *node, variate *v
     } else if (node->kind == FF_SEQUENCE && node->count > 0) {
         for (size_t i = 0; i < node->count; i++)
             if (!study_word(node->items[i]))
-                return refuse(context, node->items[i], v->name, NULL, "a sample is one value");
+                return refuse(context, node->items[i], v->name, NULL,
+                              "a sample must be a single value");
             else
                 add_sample(context, v, node->items[i]->text, "");
     } else {
-        return refuse(context, node, v->name, hint, "samples are a list or a table");
+        return refuse(context, node, v->name, hint, "samples must be a list or a table");
     }
     sort_samples(v);
     return true;
 }
 
-/* Paths that receive the value: the name itself, or those of `sets`. */
+/* Reads the paths that receive the value: the name itself, or those of `sets`. */
 static bool read_paths(study_context *context, const ff_node *sets, const ff_node *at, variate *v)
 {
     size_t count = sets ? sets->count : 1;
     v->paths = memory_arena_alloc(&context->arena, (count + 1) * sizeof *v->paths);
     if (sets && (sets->kind != FF_SEQUENCE || count == 0))
         return refuse(context, sets, v->name, "write sets: [oil.nu_40, oil.nu_100]",
-                      "\"sets\" is a list of the paths that share the value");
+                      "\"sets\" must be a list of the paths that share the value");
     if (!sets)
         v->paths[0] = v->name;
     for (size_t i = 0; i < count; i++) {
         if (sets && !(v->paths[i] = study_word(sets->items[i])))
-            return refuse(context, sets, v->name, NULL, "\"sets\" is a list of paths");
+            return refuse(context, sets, v->name, NULL, "\"sets\" must be a list of paths");
         if (!strchr(v->paths[i], '.'))
             return refuse(context, sets ? sets->items[i] : at, v->paths[i],
-                          "name a path, or say sets: [STAGE.PARAMETER, ...]",
-                          "it is no path of the pipeline");
+                          "name a path, or add sets: [STAGE.PARAMETER, ...]",
+                          "it is not a path of the pipeline");
     }
     v->path_count = count;
     return true;
 }
 
-/* Equal probability everywhere between the ends. */
+/* Reads a uniform distribution between two ends. */
 static void spread_evenly(study_context *context, const ff_tolerance *t, const char *text,
                           variate *v)
 {
@@ -211,7 +214,7 @@ static void spread_evenly(study_context *context, const ff_tolerance *t, const c
     v->text = study_context_format(context, "%.200s", text);
 }
 
-/* A value with the tolerance of a drawing. */
+/* Reads a value with a drawing tolerance. */
 static bool read_toleranced(study_context *context, const ff_node *node, variate *v)
 {
     ff_tolerance t;
@@ -225,7 +228,7 @@ static bool read_toleranced(study_context *context, const ff_node *node, variate
     return read_paths(context, NULL, node, v);
 }
 
-/* The values of the pipeline that have a tolerance. */
+/* Makes inputs of the values with a tolerance in the pipeline. */
 static bool find_toleranced(variates *v, study_context *context)
 {
     size_t count;
@@ -303,7 +306,7 @@ static bool factorise(double *m, size_t n)
     return true;
 }
 
-/* Numbers the groups of inputs that no correlation joins. */
+/* Numbers the groups of inputs; inputs in different groups are not correlated. */
 static void number_groups(variates *v)
 {
     for (size_t i = 0; i < v->count; i++)
@@ -345,15 +348,17 @@ static bool read_correlations(variates *v, study_context *context, const ff_node
             return refuse(context, one, "correlations", NULL,
                           study_context_format(context,
                                                a == b && a < v->count
-                                                   ? "\"%.80s\" stands there twice"
+                                                   ? "\"%.80s\" is named twice"
                                                    : "there is no input \"%.80s\"",
                                                a == v->count ? name[0] : name[1]));
         v->root[a * VARIATE_MOST + b] = v->root[b * VARIATE_MOST + a] = r;
     }
     number_groups(v);
     return factorise(v->root, v->count) ||
-           refuse(context, list, "correlations", "of three inputs, no two may fully oppose a third",
-                  "no inputs can have these correlations: their matrix is not positive definite");
+           refuse(
+               context, list, "correlations",
+               "for example, two inputs fully opposed to a third cannot be opposed to each other",
+               "no inputs can have these correlations: their matrix is not positive definite");
 }
 
 static size_t count_setters(const variates *v, const char *path)

@@ -18,8 +18,8 @@ typedef struct variate {
     size_t path_count;
     const char *text; /* "normal: [250 N m, 10 %]" */
     variate_kind kind;
-    double a, b;          /* mean and deviation; or median and deviation of the logarithm; or
-                             both ends */
+    double a, b;          /* mean and deviation; or median and deviation of the logarithm; or lower
+                           * and upper end */
     const char *unit;     /* of these, or "" */
     const char **samples; /* sorted if all are numbers */
     bool words;           /* the samples are words, or numbers of different units */
@@ -43,7 +43,7 @@ bool variates_read(variates *v, study_context *context, const ff_node *inputs,
    longer list begins with the same numbers. To be freed. */
 double *variates_draw(const variates *v, uint64_t seed, size_t count);
 
-/* Value of input k in a file's notation, from such numbers; NULL stands for the medians. */
+/* Returns the value of input k in the notation of a file, from such numbers; NULL: its median. */
 const char *variates_value(const variates *v, study_context *context, size_t k,
                            const double *numbers);
 
