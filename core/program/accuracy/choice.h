@@ -15,12 +15,12 @@ typedef struct accuracy_tried {
                            NULL if it was accepted */
 } accuracy_tried;
 
-/* What an accepted model adds to the error of an output. */
+/* The error that an accepted model adds to an output. */
 typedef struct accuracy_change {
-    size_t stage;       /* whose model it is */
+    size_t stage;       /* stage of the model */
     size_t of;          /* the stage of the output */
     const char *output; /* "h_min" */
-    double error;       /* relative, or in SI if the goal is */
+    double error;       /* relative, or in SI if the goal is absolute */
 } accuracy_change;
 
 /* Starts zeroed. */

@@ -22,7 +22,7 @@
 #include <string.h>
 
 /* Share of a goal allowed to the reference model's own error while cheaper models are compared with
-   it: they may use half of the goal (choice.c), and this error is added to what they change. */
+ * it: they may use half of the goal (choice.c), and this error is added to theirs. */
 static const double reference_error = 0.25;
 /* Shares of a goal at which the repeat aims. They are below 1 because orders are observed, not
  * known; the second is for files that fix some settings, whose part of the error stays. */
@@ -35,26 +35,26 @@ enum { MOST_ATTEMPTS = 3 };
 
 typedef struct attempt {
     const accuracy_twin *run;
-    accuracy_record record; /* its errors; empty if the attempt failed */
+    accuracy_record record; /* the errors of the run; empty if the attempt failed */
     double at;              /* levels coarser than the presets */
 } attempt;
 
 typedef struct control {
     accuracy_scene scene;
-    ff_pipeline *asked;          /* with the accepted models, once there are any */
-    accuracy_choice *choice;     /* of models; NULL if it was not made yet or the file names all
-                                    models */
+    ff_pipeline *asked;          /* the file's pipeline, or the one with the accepted models */
+    accuracy_choice *choice;     /* the choice of models; NULL if it was not made yet, or if the
+                                  * file names all models */
     ff_run *chosen;              /* the run with the accepted models, not started; NULL while the
                                     file's models are used */
-    accuracy_open open;          /* at the levels of the next attempt */
+    accuracy_open open;          /* the open settings, at the levels of the next attempt */
     attempt kept[MOST_ATTEMPTS]; /* attempts with the current models */
     size_t kept_count;
     attempt *best; /* the last good attempt, else the last one; NULL before the first */
-    bool repeated; /* with the current models */
+    bool repeated; /* the repeat with the current models was made */
     size_t attempts;
     bool stopped; /* by the observer */
     const char *failure;
-    char *now; /* as in the record */
+    char *now; /* text for the progress line */
 } control;
 
 static bool leaves_models_open(const ff_pipeline *pipeline)
@@ -101,7 +101,8 @@ static size_t count_kept(const control *c, const attempt *a)
     return kept;
 }
 
-/* Says which attempt begins, what the one before has reached, and what is missing most. */
+/* Writes the progress text: which attempt begins, how many goals the previous one reached, and
+ * which output is farthest from its goal. */
 static void tell_attempt(const control *c)
 {
     const accuracy_error *worst = NULL;
@@ -163,10 +164,10 @@ static double order_of(const accuracy_error *e)
     return isnan(e->order) ? 1 : fmin(fmax(e->order, 0), 2);
 }
 
-/* Gives the number of levels after which an error above its goal should meet it. False if even the
- * finest level does not promise that, or if the stage estimates the error itself and the file fixes
- * all settings that could lower it. The order of an error that the stage estimates is not measured
- * and taken as 1. */
+/* Computes the number of levels after which an error above its goal is expected to meet it. False
+ * if even the finest level is not expected to suffice, or if the stage estimates the error itself
+ * and the file fixes all settings that could lower it. The order of an error that the stage
+ * estimates is not measured and taken as 1. */
 static bool predict(const control *c, const accuracy_error *e, double *finer)
 {
     const size_t stage = (size_t)(e->stage - c->best->run->pipeline->stages);

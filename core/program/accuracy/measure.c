@@ -26,7 +26,7 @@ static void *take(const accuracy_twins *t, size_t count, size_t size)
     return memory_arena_alloc(&t->record->arena, count * size + 1);
 }
 
-/* True for outputs that are asked for and are no error estimates themselves. */
+/* True for requested outputs that are not error estimates themselves. */
 static bool is_headline(const ff_stage *stage, const ff_result *result)
 {
     bool finite = result->data && result->requested && result->rank <= 1 && result->count > 0 &&
@@ -36,8 +36,8 @@ static bool is_headline(const ff_stage *stage, const ff_result *result)
     return finite && !accuracy_is_axis(result);
 }
 
-/* Value from which shares of an output are counted: for a temperature the oil's, as its row
-   says. */
+/* Zero point of an output's relative errors: for a temperature that of the oil, as its row states.
+ */
 static double zero_of(const ff_pipeline *answer, const ff_stage *stage, const ff_result *result)
 {
     const char *origin = result->row->origin;
@@ -46,7 +46,7 @@ static double zero_of(const ff_pipeline *answer, const ff_stage *stage, const ff
     return from && from->data && from->rank == 0 ? from->data[0] : 0;
 }
 
-/* Lists the outputs to be measured and asks the twins for them. */
+/* Lists the outputs to be measured, and requests them from the twins. */
 static void list_outputs(accuracy_twins *t)
 {
     const ff_pipeline *answer = t->answer;
@@ -113,7 +113,7 @@ static int by_error(const void *a, const void *b)
     return (one->error < other->error) - (one->error > other->error);
 }
 
-/* Splits the error by the settings. */
+/* Computes the contributions of the settings to the error. */
 static void add_parts(const accuracy_twins *t, const double *shares, accuracy_error *e)
 {
     size_t most = t->count + (t->record->choice ? t->record->choice->change_count : 0);
@@ -128,7 +128,7 @@ static void add_parts(const accuracy_twins *t, const double *shares, accuracy_er
     qsort(e->parts, e->part_count, sizeof *e->parts, by_error);
 }
 
-/* Adds the changes by the accepted models, which are stated as the goal is. */
+/* Adds the changes by the accepted models, in the form of the goal. */
 static void add_changes(const accuracy_twins *t, const accuracy_ladder *levels, accuracy_error *e)
 {
     const accuracy_choice *choice = t->record->choice;
@@ -139,7 +139,7 @@ static void add_changes(const accuracy_twins *t, const accuracy_ladder *levels, 
         if (c->of != (size_t)(e->stage - t->answer->stages) ||
             strcmp(c->output, result->row->name) != 0)
             continue;
-        for (size_t k = 0; k < result->count; k++) /* naN: the two could not be compared */
+        for (size_t k = 0; k < result->count; k++) /* NaN: the two could not be compared */
             e->bar[k] += c->error * levels->scale[k];
         e->reached += c->error;
         e->relative += share * c->error;
@@ -200,8 +200,8 @@ static void measure_output(const accuracy_twins *t, accuracy_error *e)
     add_changes(t, &levels, e);
 }
 
-/* Widens the bar of a number to the bar of the series from which it is picked; the settings keep
-   their shares, and the bar falls no faster than that of the series. */
+/* Widens the bar of a number to the bar of the series from which it is picked; the contributions of
+ * the settings keep their ratios, and the bar falls no faster than that of the series. */
 static void widen(accuracy_error *number, double bar, double order)
 {
     if (!(bar > number->bar[0] && isfinite(bar)) || number->result->data[0] == 0)
@@ -253,7 +253,7 @@ static void conclude(const accuracy_twins *t)
         hold_to_series(t, &record->errors[i]);
 }
 
-/* True if no error that a stage estimates comes near its goal. */
+/* True if all errors estimated by stages are far below their goals. */
 static bool are_far_below(const accuracy_record *record)
 {
     bool all = true;
@@ -276,7 +276,7 @@ static bool misses(const accuracy_record *record)
     return missed;
 }
 
-/* The twins of the answer that an attempt gave, or the file itself. */
+/* Returns the twins for the answer of an attempt, or of the file's own run. */
 static accuracy_twins twins_of(accuracy_record *record, const accuracy_scene *scene,
                                const accuracy_twin *attempt)
 {

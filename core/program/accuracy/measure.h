@@ -12,7 +12,7 @@
 typedef struct accuracy_part {
     const ff_stage *stage;
     const char *setting; /* "cells"; "use" for an accepted model */
-    double error;        /* relative, as the error of the output */
+    double error;        /* relative, like the error of the output */
 } accuracy_part;
 
 /* Suffix of an output's error bar in files and pages, as in "h_min_error_bar". */
@@ -25,18 +25,21 @@ enum { ACCURACY_NOW = 100 };
 typedef struct accuracy_error {
     const ff_stage *stage;
     const ff_result *result;
-    double goal;          /* the file's goal; NaN if it states none */
-    bool absolute;        /* the goal is in the unit of the output, SI, and no share of it */
-    double reached;       /* what is held against the goal: `relative`, or the same in SI */
-    double zero;          /* SI: the value from which shares are counted */
-    double *bar;          /* of each number, SI, at least 0; NULL if it is not known */
-    double relative;      /* relative to the number; for a series at 95 of 100 points; NaN if it
-                             is not known */
-    double largest;       /* largest along a series, relative to the number there */
-    double order;         /* observed order; NaN if none was seen */
-    double apart;         /* difference from a finer twin, as `reached`; NaN if not comparable */
-    bool by_stage;        /* the stage's own estimate, which is larger than what the twins show */
-    accuracy_part *parts; /* largest first; empty if no twin separates them */
+    double goal;     /* the file's goal; NaN if it states none */
+    bool absolute;   /* the goal is absolute, in SI, not relative */
+    double reached;  /* the error to be compared with the goal: `relative`, or absolute in SI
+                      */
+    double zero;     /* zero point of relative errors, SI */
+    double *bar;     /* error bar of each number, SI, at least 0; NULL if it is not known */
+    double relative; /* relative error; for a series, at 95 of 100 points; NaN if it is not
+                      * known */
+    double largest;  /* largest relative error along a series */
+    double order;    /* observed order; NaN if none was seen */
+    double apart;    /* difference from a finer twin, in the form of `reached`; NaN if not
+                      * comparable */
+    bool by_stage; /* the bar is the stage's own estimate, which is larger than that of the twins */
+    accuracy_part *parts; /* contributions of the settings, largest first; empty if no twin
+                           * separates them */
     size_t part_count;
 } accuracy_error;
 
@@ -44,7 +47,7 @@ typedef struct accuracy_error {
 typedef struct accuracy_record {
     accuracy_error *errors;
     size_t count;
-    accuracy_runs runs;  /* attempts and twins */
+    accuracy_runs runs;  /* all attempts and twins */
     bool two_levels;     /* the errors come from a single coarser twin */
     const char *failure; /* why a twin failed; NULL if none did */
     size_t attempts;     /* number of answers measured, the last one included; 0 if there are no
@@ -54,22 +57,24 @@ typedef struct accuracy_record {
     size_t chosen_count;
     const char *given;   /* "film.cells, film.steps": settings fixed by the file; "" if there are
                             none */
-    ff_pipeline *answer; /* the pipeline that was run, or that of `twin` */
+    ff_pipeline *answer; /* the pipeline with the answer, of the file's run or of `twin` */
     const accuracy_twin *twin; /* the attempt that is the answer; NULL if there were none */
     struct accuracy_choice
-        *choice;  /* Choice of models, whose errors count with the rest; NULL if none was made. */
-    bool checked; /* the file asks that a finer twin checks the errors */
+        *choice;           /* Choice of models, whose errors are included; NULL if none was made. */
+    bool checked;          /* the file asks that a finer twin checks the errors */
     bool told_by_finer;    /* the errors come from that same twin */
     const char *unchecked; /* why there is no such twin; NULL if there is one */
-    char *now; /* given: receives what is being run, ACCURACY_NOW characters at most; or NULL */
+    char *now; /* set by the caller: receives the progress text, at most ACCURACY_NOW characters; or
+                * NULL */
     memory_arena arena;
 } accuracy_record;
 
-/* How many twins measure an answer. */
+/* The number of twins that measure an answer. */
 enum accuracy_effort {
     ACCURACY_ENOUGH, /* a second one only if the first leaves an error above its goal */
     ACCURACY_ORDER,  /* two, which show the order */
-    ACCURACY_PARTS,  /* also those that split the errors by setting: more than all the rest */
+    ACCURACY_PARTS,  /* also those that separate the contributions of the settings, which are more
+                      * than all others */
 };
 
 /*
@@ -79,11 +84,9 @@ enum accuracy_effort {
  */
 bool accuracy_measure(accuracy_record *record, const accuracy_scene *scene,
                       const accuracy_twin *attempt, enum accuracy_effort effort);
-/*
- * Holds the answer of a measured record against a twin whose settings are all a level finer, as
+/* Compares the answer of a measured record with a twin whose settings are all a level finer, as
  * `accuracy: {check: twins}` asks. If it fails, the record says why. Returns false if the observer
- * stopped it.
- */
+ * stopped it. */
 bool accuracy_check_twin(accuracy_record *record, const accuracy_scene *scene);
 size_t accuracy_twin_count(const accuracy_record *record);
 /* CPU time of the twins and of the attempts that are not the answer, s. */

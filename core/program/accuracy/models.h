@@ -7,22 +7,22 @@
 
 #include <flankfilm/engine.h>
 
-/* Names the references and builds the pipeline as run_build does. NULL only if nothing can be
-   shown. */
+/* Names the references and builds the pipeline as run_build does. Returns NULL only if no pipeline
+ * can be shown. */
 ff_pipeline *accuracy_build_alone(ff_run *run, ff_engine *engine, bool everything);
-/* As accuracy_build_alone, and checks the file's accuracy request. */
+/* Does the same as accuracy_build_alone, and checks the file's accuracy request. */
 ff_pipeline *accuracy_build(ff_run *run, ff_engine *engine, bool everything);
 
-/* The text of such a stage, "ehl/auto"; NULL if it names its model. */
+/* Returns the value of `use` of such a stage, "ehl/auto"; NULL if the stage names its model. */
 const char *accuracy_open_use(const ff_stage *stage);
 bool accuracy_is_open_use(const char *use); /* true for KIND/auto */
 
-/* The models that may replace the reference, cheapest first, ended by NULL: those that state a cost
-   below the reference's. */
+/* Returns the models that may replace the reference, those with a lower stated cost, cheapest
+ * first, ended by NULL. */
 const char **accuracy_candidates(const ff_stage *stage, ff_engine *engine, memory_arena *arena);
 
-/* The part of a case's key that concerns accuracy: its goals and the models that may be chosen, "2
-   %; film: ehl/film-formula 1a2b"; "" if the file asks for none. To be freed. */
+/* Returns the part of a case's key that concerns accuracy: its goals and the models that may be
+ * chosen, "2 %; film: ehl/film-formula 1a2b"; "" if the file asks for none. To be freed. */
 char *accuracy_print_key(const ff_run *run, ff_engine *engine);
 
 #endif

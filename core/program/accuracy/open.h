@@ -8,16 +8,16 @@
 /* Finest level: eight times the cells and steps of the presets, 64 times the work. */
 static const double accuracy_finest = -3;
 
-/* Where a setting stands that the file leaves open. */
+/* The level of a setting that the file leaves open. */
 typedef struct accuracy_level {
     bool cheap;   /* belongs to a cheap stage */
-    bool idle;    /* changes nothing */
+    bool idle;    /* the setting has no effect */
     double level; /* levels coarser than the preset */
 } accuracy_level;
 
 /* Starts zeroed. */
 typedef struct accuracy_open {
-    const ff_pipeline *asked; /* has the presets */
+    const ff_pipeline *asked; /* pipeline with the presets */
     accuracy_knob *knobs;
     accuracy_level *levels; /* one for each knob */
     size_t count;
@@ -27,15 +27,15 @@ typedef struct accuracy_open {
     memory_arena arena;
 } accuracy_open;
 
-/* Lists the open settings of the stages that are needed, at their presets; those of cheap stages a
-   level finer. */
+/* Lists the open settings of the needed stages, at their presets, or one level finer for cheap
+ * stages. */
 void accuracy_open_list(accuracy_open *open, const ff_pipeline *asked);
-/* Freezes the settings that changed nothing in a run which set them at the place. */
+/* Freezes the settings that had no effect in a run, which had set them at the place. */
 void accuracy_open_leave_idle(accuracy_open *open, const ff_report *said, ff_place place);
-/* Sets the level, of each setting the nearest one within its limits. Returns true if a setting
-   changes. */
+/* Sets the level; each setting gets the nearest one within its limits. Returns true if a setting
+ * changes. */
 bool accuracy_open_move(accuracy_open *open, double to);
-/* The assignment of a setting, such as "film.cells=362". */
+/* Returns the assignment of a setting, such as "film.cells=362". */
 const char *accuracy_open_set(accuracy_open *open, size_t knob);
 /* True if a setting of the stage with that index is open. */
 bool accuracy_open_has(const accuracy_open *open, size_t stage);

@@ -21,8 +21,7 @@ typedef struct accuracy_scene {
     /* Stages that do not depend on the changes take their results from here; NULL if none do. */
     const ff_pipeline *donor;
     const ff_pipeline *start; /* same file; in a chain of cases the twin starts from its states */
-    const char *outputs;      /* "outputs=[film.h_min]"; NULL if the outputs are those of
-                                 `start` */
+    const char *outputs;      /* "outputs=[film.h_min]"; NULL if the outputs are unchanged */
     const ff_observer *watch; /* receives the progress; may be NULL */
 } accuracy_scene;
 
@@ -37,7 +36,7 @@ typedef struct accuracy_twin {
     ff_run *run;
     ff_report *report;     /* its messages */
     ff_pipeline *pipeline; /* its pipeline; may be NULL after errors */
-    bool good;             /* it ran, and its results can be trusted */
+    bool good;             /* it ran, and its results are usable */
     bool stopped;          /* the observer stopped it */
     double work;           /* CPU time of its stages, s */
     accuracy_note *notes;
@@ -45,22 +44,22 @@ typedef struct accuracy_twin {
     memory_arena arena;
 } accuracy_twin;
 
-/* Runs the file with the assignments, as if the file made them at `place`. `changed` marks the
-   stages whose settings differ from the donor's: these and all stages downstream are computed; of a
-   loop, all stages. */
+/* Runs the file with the assignments, as if they were in the file at `place`. `changed` marks the
+ * stages whose settings differ from the donor's: these and all stages downstream are computed; of a
+ * loop, all stages. */
 const accuracy_twin *accuracy_twin_run(const accuracy_scene *scene, const char *const *sets,
                                        size_t count, const ff_place *place, const bool *changed);
 /* In a chain of cases the answer started from its neighbour's state. Its twin starts from the
    answer's final state, so that both follow the same branch. */
 void accuracy_hand_states(const ff_pipeline *from, ff_pipeline *to);
-/* Why the twin is not good. */
+/* Returns why the twin is not usable. */
 const char *accuracy_twin_reason(const accuracy_twin *twin);
 /* True if a setting at that place changes nothing, such as a tolerance of steps that the file
    fixes. */
 bool accuracy_is_idle(const ff_report *report, ff_place place, const char *stage,
                       const char *setting);
-/* Passes on the run's messages, except those that the report has already and those about the
-   place. */
+/* Copies the run's messages to the report, except those that it already has and those about the
+ * place. */
 void accuracy_twin_hand_on(const accuracy_twin *run, ff_place chosen, const ff_observer *watch,
                            ff_report *report);
 void accuracy_runs_free(accuracy_runs *runs);

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Twins of one answer, a ladder of levels: all settings of all stages are one level coarser, or two
- * levels. If few are wanted, one of the two comes first, and the other only if it is needed. Else
- * each setting in turn is one level finer than in the coarser twin, which shows its part of the
- * error. These are cheap: all else is coarse, and stages upstream are known. If a coarser twin
- * fails because the answer itself is coarse, a finer one takes its place.
+/* Twins of one answer, a ladder of levels: all settings of all stages are one level coarser, or two
+ * levels. If few twins are wanted, one of the two is run first, and the other only if it is needed.
+ * Otherwise further twins have one setting each a level finer than in the coarser twin, which shows
+ * the contribution of that setting. These are cheap: all else is coarse, and stages upstream are
+ * known. If a coarser twin fails because the answer itself is coarse, a finer one takes its place.
  */
 #include "twins.h"
 
@@ -63,7 +62,7 @@ static bool list_sets(accuracy_twins *t, int at, size_t finer, const char **sets
     return true;
 }
 
-/* Says what is being run. */
+/* Writes the progress text. */
 static void tell_twin(const accuracy_twins *t, int at)
 {
     const accuracy_record *record = t->record;
@@ -134,7 +133,7 @@ static const accuracy_twin *find_twin(accuracy_twins *t, int at)
     return twin && twin->good ? twin : NULL;
 }
 
-/* Runs the twins that tell the settings apart. */
+/* Runs the twins that separate the contributions of the settings. */
 static void run_refined(accuracy_twins *t)
 {
     for (size_t i = 0; t->count > 1 && t->quarter && i < t->count && !t->stopped; i++)

@@ -12,23 +12,24 @@ typedef struct accuracy_twins {
     accuracy_record *record;
     accuracy_scene scene;
     const ff_pipeline *answer;
-    const ff_report *said; /* the answer's messages; NULL if no setting was chosen */
-    ff_place asked;        /* where the file asks for the accuracy; chosen settings stand there */
-    bool few;              /* one twin at a time, and none that separates the settings */
-    bool far;              /* the first of few is two levels coarser */
+    const ff_report *said; /* messages of the answer; NULL if no setting was chosen */
+    ff_place asked;        /* place of the accuracy request in the file; chosen settings have this
+                            * place */
+    bool few;              /* find one twin at a time, and none that separates the settings */
+    bool far;              /* if `few`: the first twin is two levels coarser */
     accuracy_knob *knobs;  /* the settings of all stages on which a measured output depends */
     size_t count;
     const accuracy_twin *half, *quarter, *twice; /* all settings 1 and 2 levels coarser, and 1 level
                                                     finer; NULL: there is none, or it failed */
     const accuracy_twin **refined; /* one for each knob, which alone is one level finer than in
                                       `quarter`; NULL if it was not run */
-    bool checking;                 /* the twin checks the errors that others have told */
+    bool checking;                 /* a finer twin checks errors that other twins have measured */
     bool stopped;
 } accuracy_twins;
 
 /* Finds or runs twins. The first four members are given; the outputs to be measured are in the
- * record. If only few are wanted, the first call finds one twin and the second call another. False
- * if there are no more. */
+ * record. With `few`, the first call finds one twin and the second call another. False if there are
+ * no more. */
 bool accuracy_twins_find(accuracy_twins *twins);
 /* Returns a twin whose settings are all a level finer: an earlier run, or one with the outputs of
    the answer. NULL if no setting can be finer. The first three members are given. */

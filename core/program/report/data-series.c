@@ -111,7 +111,7 @@ static size_t choose_points(const double *x, const double *y, size_t count, size
 double report_magnitude(const ff_array *array)
 {
     const report_extremes found = report_find_extremes(array);
-    return fmax(0, fmax(fabs(found.low), fabs(found.high))); /* 0: nothing is known */
+    return fmax(0, fmax(fabs(found.low), fabs(found.high))); /* 0 if no number is known */
 }
 
 /* For a share such as a friction coefficient, adds its extremes among the points with load. */

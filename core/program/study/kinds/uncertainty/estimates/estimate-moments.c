@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Means, squares and products of pairs of values, and what they are correlated by. */
+/* Means, squares and products of pairs of values, and their correlation. */
 #include "estimate.h"
 
 #include <math.h>

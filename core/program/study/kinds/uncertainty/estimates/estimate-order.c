@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Probabilities and percentiles. The values of a cheap level are first put on the scale of level 0,
+/* Probabilities and percentiles. The values of a cheap level are first put on the scale of level 0,
  * by the line through the samples on both. Then P(y <= t) = P(z <= t) + P(y <= t < z) - P(z <= t <
- * y): the first term comes from the many samples of the cheap level, the others from the few
- * samples on both. The interval is that of a sum of proportions: Wilson's for each, joined as in
- * Newcombe 1998 (Stat. Med. 17, 873; MOVER). A percentile is bounded by the points where the
- * interval of its probability meets its share (Woodruff 1952).
- */
+ * y): the first term uses the many samples of the cheap level, the others the few samples on both.
+ * The interval is that of a sum of proportions: Wilson's for each, joined as in Newcombe 1998
+ * (Stat. Med. 17, 873; MOVER). The interval of a percentile ends where the interval of the
+ * probability contains the percentile's share (Woodruff 1952). */
 #include "estimate.h"
 
 #include "../../../../memory/memory.h"
@@ -18,11 +16,12 @@ static const double z95 = 1.959963984540054;
 
 enum { PRIOR = 10 };
 
-/* The cheap values beside those of level 0, and the rest of the cheap ones. */
+/* The cheap values that have a partner on level 0, and the other cheap values. */
 typedef struct pairs {
     double *y, *z, *all; /* all: the cheap values of all samples */
     size_t both, count;
-    double apart; /* how often y and z lie on different sides of the median, by their correlation */
+    double apart; /* share of pairs with y and z on different sides of the median, from their
+                   * correlation */
 } pairs;
 
 /* The level for which the estimate of a probability near 1/2 has the smallest variance: two normal
@@ -80,7 +79,7 @@ static void pairs_free(pairs *p)
     free(p->all);
 }
 
-/* Wilson 1927. */
+/* Wilson's interval of a proportion (1927). */
 static void wilson(double hits, double n, double *low, double *high)
 {
     double p = hits / n, shrink = 1 + z95 * z95 / n, middle = (p + z95 * z95 / (2 * n)) / shrink;
@@ -90,9 +89,9 @@ static void wilson(double hits, double n, double *low, double *high)
 }
 
 /* Lengths by which the interval of a probability reaches down and up, from the number of cheap
-   values of at most t and the number of pairs on different sides of t. A few pairs tell little
-   about this number, so PRIOR pairs are added that lie apart as often as normal variates of that
-   correlation. */
+ * values of at most t and the number of pairs on different sides of t. Few pairs determine this
+ * number poorly, so PRIOR pairs are added, which lie on different sides as often as normal variates
+ * of that correlation. */
 static void interval_of(const pairs *p, double below, size_t apart, double value, double *down,
                         double *up)
 {
@@ -140,7 +139,7 @@ size_t estimate_values(const estimate_samples *s, double *values)
     return count;
 }
 
-/* A value that t passes as it rises. */
+/* A value at which the probability changes as t rises. */
 typedef struct event {
     double at;
     size_t pair; /* SIZE_MAX for a cheap value without a pair */
@@ -167,12 +166,12 @@ static event *events_of(const pairs *p, size_t *count)
     return events;
 }
 
-/* The place where the probability crosses a share: half-way between its first value at or above the
-   share and its last value below. The probability may fall a little where t passes a cheap value
-   whose partner lies above. */
+/* Returns the value at which the probability crosses a share: half-way between the first place with
+ * a probability at or above the share and the last place below it. The probability may fall
+ * slightly where t passes a cheap value whose partner is larger. */
 typedef struct crossing {
     double share, first, last;
-    size_t only_y, only_z; /* of the pairs there */
+    size_t only_y, only_z; /* of the pairs at this value */
 } crossing;
 
 static void pass(crossing *c, double value, size_t only_y, size_t only_z, double at, double next)
@@ -230,7 +229,7 @@ estimate estimate_percentile(const estimate_samples *s, double share)
     walk(&p, events, count, ends, 2);
     if (p.both > 0)
         e = (estimate){place_of(&middle), place_of(&ends[0]), place_of(&ends[1]), (double)NAN};
-    /* n values do not bound the share beyond the outermost value */
+    /* n values give no bound beyond the outermost one */
     double outside = z95 * z95 / (n + z95 * z95);
     if (share < outside || ends[0].share <= 0)
         e.low = -INFINITY;

@@ -3,13 +3,14 @@
  * Shares of the inputs in a variance, from a surface through samples. The surface is a sum of
  * products of polynomials, each orthonormal for the distribution of its input (polynomial chaos:
  * Sudret 2008, Reliab. Eng. Syst. Saf. 93, 964). Its variance is the sum of its squared
- * coefficients, and a coefficient belongs to the inputs of its product. Regression finds the
- * coefficients; the surface with the least error at left-out samples is taken. A term that the
- * surface lacks is orthogonal to those it has, so that a share lies at most by the variance that is
- * left above what the surface says.
+ * coefficients, and a coefficient belongs to the inputs of its product. Regression determines the
+ * coefficients; the surface with the least error at left-out samples is used. Missing terms are
+ * orthogonal to those of the surface, so a share exceeds that of the surface at most by the
+ * remaining variance.
  *
- * The terms have mean 0, so that what they explain of a mean can be taken away at no cost. The part
- * of a value is what a surface through the other values says, so that the mean stays unbiased.
+ * The terms have mean 0, so their part can be subtracted from values without changing the mean. The
+ * part of each value comes from a surface through the other values, so that the mean stays
+ * unbiased.
  */
 #include "estimate.h"
 
@@ -21,11 +22,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* More samples than MOST_ROWS would be taken for terms that the surface lacks. */
+/* With more samples than MOST_ROWS, further terms would be needed. */
 enum { MOST_ROWS = 1024, MOST_TERMS = 160, MOST_DEGREE = 8, SPARE = 4 };
 
-/* What a surface may be: the degree of its polynomials, and samples for each of its terms. For a
-   mean a higher degree is so large at the rarest samples that these decide. */
+/* Limits of a surface: the degree of its polynomials, and the number of samples for each term. For
+ * a mean a higher degree is not used, since it is so large at the rarest samples that these would
+ * dominate. */
 typedef struct limits {
     size_t degree;
     double samples_each;
@@ -36,19 +38,21 @@ static const size_t no_input = SIZE_MAX;
 
 /* A polynomial of one input, or a product of two. */
 typedef struct term {
-    size_t a, b; /* inputs; b is no_input without a second one */
+    size_t a, b; /* inputs; b is no_input if there is only one */
     size_t a_degree, b_degree;
 } term;
 
 typedef struct surface {
     size_t count;
     term terms[MOST_TERMS];
-    double coefficient[MOST_TERMS], variance[MOST_TERMS]; /* with the error of each, squared */
-    double rest;    /* mean square of what is left, for the degrees of freedom that are left */
-    double missing; /* mean square of what is left of a sample that is not fitted */
+    double coefficient[MOST_TERMS], variance[MOST_TERMS]; /* coefficients, and their squared errors
+                                                           */
+    double rest;    /* mean square of the residuals, for the remaining degrees of freedom */
+    double missing; /* mean square of the residual at a sample that was left out of the fit */
     double freedom;
     double growth;
-    double error; /* mean square over the distribution: what is missing, and the coefficients' */
+    double error; /* mean squares over the distribution: of the missing terms, and of the errors of
+                   * the coefficients */
 } surface;
 
 /* Recurrence of orthonormal polynomials: step[j + 1] p[j + 1] = (x - middle[j]) p[j] - step[j]
@@ -58,8 +62,8 @@ typedef struct recurrence {
     double middle[MOST_DEGREE + 1], step[MOST_DEGREE + 1];
 } recurrence;
 
-/* Discrete values, each step as likely as another: Stieltjes' procedure (Gautschi 2004, Orthogonal
-   Polynomials, 2.2). */
+/* Recurrence for discrete values of equal probability: Stieltjes' procedure (Gautschi 2004,
+ * Orthogonal Polynomials, 2.2). */
 static recurrence recurrence_of_steps(const estimate_input *input)
 {
     recurrence r = {0};
@@ -91,7 +95,8 @@ static recurrence recurrence_of_steps(const estimate_input *input)
     return r;
 }
 
-/* Hermite's polynomials for a normal number, Legendre's for one that lies evenly from -1 to 1. */
+/* Recurrence of Hermite's polynomials for a normal number, or of Legendre's for one uniform from -1
+ * to 1. */
 static recurrence recurrence_of(const estimate_input *input)
 {
     recurrence r = {.degree = MOST_DEGREE};
@@ -104,7 +109,7 @@ static recurrence recurrence_of(const estimate_input *input)
     return r;
 }
 
-/* The number of an input at a standard normal number. */
+/* Returns the variable of an input's polynomials at a standard normal number. */
 static double coordinate(const estimate_input *input, double z)
 {
     double share = gsl_cdf_ugaussian_P(z);
@@ -114,14 +119,13 @@ static double coordinate(const estimate_input *input, double z)
     return input->shape == ESTIMATE_EVEN ? 2 * share - 1 : z;
 }
 
-/* Samples to which surfaces are fitted: values that are known, and the polynomials of the inputs.
- */
+/* Samples to which surfaces are fitted: the known values, and the polynomials of the inputs. */
 typedef struct rows {
     size_t count, inputs, width; /* width: polynomials of a row */
     recurrence of[ESTIMATE_MOST_INPUTS];
     const estimate_input *input;
     double *value, *polynomial;
-    size_t *sample; /* the number of each */
+    size_t *sample; /* index of each sample */
 } rows;
 
 /* Fills the polynomials of all inputs at the numbers of a sample. */
@@ -137,7 +141,7 @@ static void evaluate(const rows *of, const double *numbers, double *polynomial)
     }
 }
 
-/* Leaves out samples whose value is not known. */
+/* Leaves out samples with unknown values. */
 static rows rows_open(const double *values, const double *numbers, size_t count,
                       const estimate_input *inputs, size_t input_count)
 {
@@ -185,7 +189,8 @@ static bool factorise(double *m, size_t n)
     for (size_t j = 0; j < n; j++)
         whole[j] = m[j * n + j];
     gsl_matrix_view view = gsl_matrix_view_array(m, n, n);
-    gsl_error_handler_t *before = gsl_set_error_handler_off(); /* it would end the process */
+    gsl_error_handler_t *before = gsl_set_error_handler_off(); /* GSL's handler would end the
+                                                                * process */
     bool good = gsl_linalg_cholesky_decomp1(&view.matrix) == GSL_SUCCESS;
     gsl_set_error_handler(before);
     for (size_t j = 0; good && j < n; j++)
@@ -208,7 +213,8 @@ static double product(const double *a, const double *b, size_t n)
     return sum;
 }
 
-/* How much larger the variance of the constant is than that of a mean of independent rests. */
+/* Returns the variance of the constant term, relative to that of a mean of independent residuals.
+ */
 static double growth_of(const rows *of, size_t n, const double *gain, const double *ahead)
 {
     double constant = 0, mean = 0;
@@ -219,11 +225,12 @@ static double growth_of(const rows *of, size_t n, const double *gain, const doub
     return mean > 0 ? fmax(1, constant / mean) : 1;
 }
 
-/* Errors of the coefficients from what is left at each sample if it is left out (HC3: MacKinnon &
-   White 1985, J. Econometrics 29, 305): it holds for terms that are lacking as for noise. `x` and
-   `gain` have a row for each sample; a coefficient is the sum of gain and value. `part`, unless it
-   is NULL, becomes what the terms explain of each value by a fit to all others: beta_(-i) = beta -
-   A^-1 x_i e_i / (1 - h_i) (Sherman & Morrison 1950). */
+/* Computes the errors of the coefficients from the residual at each sample if it is left out of the
+ * fit (HC3: MacKinnon & White 1985, J. Econometrics 29, 305). This is valid for missing terms as
+ * well as for noise. `x` and `gain` have a row for each sample; a coefficient is the sum of gain
+ * and value. `part`, unless it is NULL, receives the part of each value that the terms explain in a
+ * fit to all other values: beta_(-i) = beta - A^-1 x_i e_i / (1 - h_i) (Sherman & Morrison 1950).
+ */
 static bool judge(const rows *of, surface *s, const double *x, const double *gain, double *part)
 {
     size_t n = s->count + 1;
@@ -255,7 +262,7 @@ static bool judge(const rows *of, surface *s, const double *x, const double *gai
     return true;
 }
 
-/* False if the samples are too few for the terms. */
+/* Returns false if there are too few samples for the terms. */
 static bool fit(const rows *of, surface *s, double samples_each, double *part)
 {
     size_t n = s->count + 1;
@@ -291,7 +298,8 @@ static bool add(surface *s, term one)
     return true;
 }
 
-/* Every input alone up to a degree, and products up to a degree of the first inputs of `ranks`. */
+/* Lists the terms: powers of every single input up to a degree, and products of the first inputs of
+ * `ranks` up to a degree. */
 static bool list_terms(const rows *of, surface *s, size_t degree, size_t joint, size_t first,
                        const size_t *ranks)
 {
@@ -309,7 +317,7 @@ static bool list_terms(const rows *of, surface *s, size_t degree, size_t joint, 
     return true;
 }
 
-/* Ranks the inputs by what they do alone. */
+/* Ranks the inputs by their effect alone. */
 static void rank(const rows *of, const surface *s, size_t *ranks)
 {
     double part[ESTIMATE_MOST_INPUTS] = {0};
@@ -324,8 +332,8 @@ static void rank(const rows *of, const surface *s, size_t *ranks)
     }
 }
 
-/* Takes a surface with more terms if its error is a tenth less. False if there is none that says
-   more than the mean of the samples. */
+/* Chooses a surface with more terms if its error is at least a tenth smaller. Returns false if no
+ * surface is better than the mean of the samples. */
 static bool find_surface(const rows *of, const limits *most, surface *best)
 {
     static const size_t degrees[] = {1, 2, 3, 4, 6, MOST_DEGREE},
@@ -356,8 +364,8 @@ static bool find_surface(const rows *of, const limits *most, surface *best)
     return best->count > 0;
 }
 
-/* What belongs to a share, or to all others: squared coefficients, less what chance adds to them,
-   and the two ends of what they can be. */
+/* The sum of squared coefficients for a share, or for all others: without the contribution of
+ * chance, and with both ends of its interval. */
 typedef struct portion {
     double squares, errors, value;
 } portion;
@@ -374,8 +382,8 @@ static double end_of(const portion *p, double reach)
     return pow(fmax(0, sqrt(p->squares) + reach * sqrt(p->errors)), 2);
 }
 
-/* The ends of both, one at a time, are joined as in MOVER (Newcombe 1998, Stat. Med. 17, 873). What
-   is missing may belong to the share. */
+/* Computes a share and its interval. The ends of both sums are combined as in MOVER (Newcombe 1998,
+ * Stat. Med. 17, 873). The missing variance may belong to the share. */
 static estimate share_of(const surface *s, const portion *own, const portion *others)
 {
     const double nothing = 1e-12;

@@ -10,9 +10,9 @@
 #include <stdlib.h>
 
 /* Numbers of samples m_i = N sqrt(d_i / w_i) sum sqrt(d_j w_j), which give the variance sum d_i /
-   m_i = 1 / N at the least cost sum w_i m_i (Peherstorfer et al. 2016, theorem 3.4). If level 0
-   needs more samples for its variance to be known, or if the pilot has more, the other levels are
-   allotted the variance that remains. False if there would be too many. */
+ * m_i = 1 / N at the least cost sum w_i m_i (Peherstorfer et al. 2016, theorem 3.4). If level 0
+ * needs more samples for its variance to be known, or if the pilot has more, the other levels get
+ * the remaining variance. False if there would be too many. */
 static bool count_samples(const double *d, const double *cost, size_t levels, double plain,
                           double least, double block, double *count)
 {
@@ -38,8 +38,8 @@ static double cost_of(const double *count, const double *cost, size_t levels)
     return sum;
 }
 
-/* The share of the variance of a level, less its line through the next one, that the inputs do not
-   explain. */
+/* Returns the share of a level's variance, after subtracting its regression on the next level, that
+ * the inputs do not explain. */
 static double unexplained(const estimate_pilot *pilot, size_t level, size_t next)
 {
     double *rest = memory_alloc(2 * (pilot->count + 1) * sizeof *rest);
@@ -72,14 +72,14 @@ static void share_variance(const estimate_pilot *pilot, const size_t *used, cons
     }
 }
 
-/* Tries the levels that the bits of `set` name. */
+/* Plans with the levels given by the bits of `set`. */
 static void try_levels(estimate_plan *best, unsigned set, const estimate_pilot *pilot,
                        const double *cost, double plain, estimate_aim aim)
 {
     double rho2[ESTIMATE_MOST_LEVELS] = {1}, w[ESTIMATE_MOST_LEVELS] = {1};
     double count[ESTIMATE_MOST_LEVELS], d[ESTIMATE_MOST_LEVELS] = {0};
     size_t used[ESTIMATE_MOST_LEVELS] = {0}, n = 1;
-    /* samples that are on fewer levels have a surface of their own */
+    /* samples on fewer levels have a separate surface */
     double block =
         fmax(ESTIMATE_LEAST,
              aim == ESTIMATE_MEAN ? ESTIMATE_SAMPLES_EACH * (double)(pilot->inputs + 1) : 0);
@@ -137,19 +137,17 @@ static size_t begin_of(const estimate_samples *s, size_t block)
     return block ? s->count[block - 1] : 0;
 }
 
-/* Parts of which the estimate of a mean is made. */
+/* Parts of the estimate of a mean. */
 typedef struct parts {
-    double weight[ESTIMATE_MOST_LEVELS]; /* of all samples but the first */
+    double weight[ESTIMATE_MOST_LEVELS]; /* for all samples except the first */
     double *own;                         /* weights of the first samples, level by level */
-    double *value;                       /* what each sample contributes */
+    double *value;                       /* contribution of each sample */
 } parts;
 
-/*
- * Weights of the control variates, cov(g_0, g_k) / var(g_k), from the samples on all levels. Each
- * of these samples takes the weight that the others give, and the rest take the mean weight: no
- * sample meets a weight that it influenced. The weights of each level sum to zero, so the estimate
- * is unbiased for given counts.
- */
+/* Weights of the control variates, cov(g_0, g_k) / var(g_k), from the samples on all levels. Each
+ * of these samples uses the weight computed from the others, and all other samples use the mean
+ * weight, so no sample influences its own weight. The weights of each level sum to zero, so the
+ * estimate is unbiased for given counts. */
 static void find_weights(const estimate_samples *s, double (*g)(double, double), double about,
                          parts *p)
 {
@@ -179,8 +177,9 @@ static parts find_parts(const estimate_samples *s, double (*g)(double, double), 
     return p;
 }
 
-/* Degrees of freedom with which n samples tell their variance: 2 sigma^4 / var(s^2), with var(s^2)
-   = sigma^4 (2 / (n - 1) + excess / n) for their kurtosis. The terms of a surface take theirs. */
+/* Degrees of freedom of the variance of n samples: 2 sigma^4 / var(s^2), with var(s^2) = sigma^4 (2
+ * / (n - 1) + excess / n) for their kurtosis. Those used by the terms of a surface are subtracted.
+ */
 static double freedom_of(double n, double terms, double squares, double fourths)
 {
     double excess = squares > 0 ? n * fourths / (squares * squares) - 3 : 0;
@@ -201,7 +200,7 @@ static double block_sum(const double *of, size_t count, size_t terms, double *va
     return m.count * m.mean_a;
 }
 
-/* Fills each sample's contribution; NaN where a level of it failed. */
+/* Computes each sample's contribution; NaN if one of its levels failed. */
 static void contribute(const estimate_samples *s, double (*g)(double, double), double about,
                        parts *p, const double *m)
 {
@@ -218,12 +217,12 @@ static void contribute(const estimate_samples *s, double (*g)(double, double), d
 }
 
 /* Samples of a single level, below which a surface would choose its terms by these few samples and
-   make the interval of the mean too narrow. With several levels the first block holds differences,
-   which bend less. */
+ * make the interval of the mean too narrow. With several levels the first block contains
+ * differences, which are closer to linear. */
 enum { LEAST_FOR_SURFACE = 32 };
 
-/* Takes away what a surface over the inputs explains of a block's contributions, whose mean is 0.
- */
+/* Subtracts from a block's contributions the part that a surface over the inputs explains; its mean
+ * is 0. */
 static estimate_explanation explain(const estimate_samples *s, double *value, size_t begin,
                                     size_t count)
 {
@@ -238,11 +237,11 @@ static estimate_explanation explain(const estimate_samples *s, double *value, si
 }
 
 /*
- * Estimates the mean of g. It is a sum over samples, each of which contributes what it has of
+ * Estimates the mean of g. It is a sum over the contributions of the samples to
  *   mean_0(m_0) + sum_k weight_k (mean_k(m_k) - mean_k(m_(k-1))).
- * Samples of a block, which are on the same levels, contribute alike and independently, so that
- * the variance of the sum is found from the spread within the blocks, with the degrees of freedom
- * of Welch and Satterthwaite.
+ * Samples of a block are on the same levels, so their contributions are independent with equal
+ * distributions. The variance of the sum follows from the spread within the blocks, with the
+ * degrees of freedom of Welch and Satterthwaite.
  */
 static estimate mean_of(const estimate_samples *s, double (*g)(double, double), double about)
 {
@@ -261,7 +260,7 @@ static estimate mean_of(const estimate_samples *s, double (*g)(double, double), 
         double own, freedom;
         sum += block_sum(p.value + begin, count, by.terms, &own, &freedom);
         if (!isfinite(own))
-            continue; /* a single sample tells no spread */
+            continue; /* a single sample has no spread */
         variance += own * by.growth;
         fourth += pow(own * by.growth, 2) / freedom;
     }
@@ -292,10 +291,10 @@ estimate estimate_mean(const estimate_samples *s)
 static const double rounding = 1e-12;
 
 /* var = E (y - c)^2 - (mean - c)^2 for any c. With c near the mean the second term is as small as
-   its correction by the variance of the mean. The interval is that of the logarithm. With the
-   inputs as control variates it held in 87 of 100 repeats of 60 samples, which is too few, so they
-   are not used. Squares that are all equal, as those of two samples, tell nothing about their
-   spread. */
+ * its correction by the variance of the mean. The interval is that of the logarithm. With the
+ * inputs as control variates it held in 87 of 100 repeats of 60 samples, which is too few, so they
+ * are not used. Squares that are all equal, as for two samples, contain no information about the
+ * spread. */
 estimate estimate_deviation(const estimate_samples *s)
 {
     estimate_samples alone = *s;

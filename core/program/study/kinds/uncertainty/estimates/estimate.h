@@ -17,16 +17,15 @@ enum {
     ESTIMATE_MOST_INPUTS = 32,
     ESTIMATE_SAMPLES_EACH = 3, /* for each term of a surface: with fewer, the errors of the terms
                                   outweigh their gain */
-    ESTIMATE_LEAST = 8         /* samples that a variance is taken from */
+    ESTIMATE_LEAST = 8         /* least number of samples for a variance */
 };
 
 typedef struct estimate {
-    double value, low, high; /* an infinite end is not bounded by the samples; NaN: not known */
+    double value, low, high; /* infinite: the samples give no bound; NaN: not known */
     double error;            /* standard error of a mean */
 } estimate;
 
-/* What a standard normal number becomes in an input: normal or nearly so, evenly spread, or one of
-   a few values. */
+/* Distribution of an input: normal or nearly normal, uniform, or one of a few values. */
 typedef enum { ESTIMATE_NORMAL, ESTIMATE_EVEN, ESTIMATE_STEPS } estimate_shape;
 
 /* An input for a surface. Groups of inputs are independent of each other. */
@@ -34,7 +33,7 @@ typedef struct estimate_input {
     size_t group;
     estimate_shape shape;
     size_t steps;       /* equal shares of probability, each with one value */
-    const size_t *step; /* the number of that value; unused by other shapes */
+    const size_t *step; /* number of the value at each of these shares; unused by other shapes */
 } estimate_input;
 
 /* Answers of each level for the same inputs. Level k has samples 0 to count[k] - 1, and the counts
@@ -43,14 +42,15 @@ typedef struct estimate_samples {
     size_t levels;
     size_t count[ESTIMATE_MOST_LEVELS];
     const double *values[ESTIMATE_MOST_LEVELS];
-    /* Independent standard normal numbers from which the samples of the last level were made: this
-       many for each sample. The mean uses them as control variates; 0: it does not. */
+    /* Independent standard normal numbers from which the samples of the last level were made, and
+     * their number for each sample. The mean uses them as control variates; if the number is 0, it
+     * does not. */
     size_t inputs;
     const estimate_input *input;
     const double *numbers;
 } estimate_samples;
 
-/* Answers of a pilot: the first samples, on all levels. */
+/* Answers of a pilot: the first samples on all levels. */
 typedef struct estimate_pilot {
     size_t levels, count;
     const double *values[ESTIMATE_MOST_LEVELS];
@@ -82,8 +82,8 @@ estimate_moments estimate_pairs(const double *a, const double *b, size_t count,
    line; 0 if no correlation is seen. */
 double estimate_correlation(const double *a, const double *b, size_t count);
 
-/* The statistics to be known as well as from plain samples: the mean alone, which takes the fewest
-   samples, or percentiles and probabilities as well. */
+/* The statistics that must be as accurate as from plain samples: only the mean, which needs the
+ * fewest samples, or also percentiles and probabilities. */
 typedef enum { ESTIMATE_MEAN, ESTIMATE_DISTRIBUTION } estimate_aim;
 
 /* Plans samples for the standard error that `plain` samples of level 0 alone would have; the
@@ -92,12 +92,12 @@ typedef enum { ESTIMATE_MEAN, ESTIMATE_DISTRIBUTION } estimate_aim;
 estimate_plan estimate_allocate(const estimate_pilot *pilot, const double *cost, size_t plain,
                                 estimate_aim aim);
 
-/* What a surface does for a mean of values from which their parts are taken away. */
+/* The effect of a surface on a mean of values from which their explained parts are subtracted. */
 typedef struct estimate_explanation {
-    double left; /* share of the variance of the mean that is left */
-    double
-        growth; /* variance of the mean over that of independent rests, as the surface errs, too */
-    size_t terms; /* degrees of freedom that it takes; 0: there is none */
+    double left;   /* remaining share of the variance of the mean */
+    double growth; /* variance of the mean relative to that of independent residuals; it includes
+                    * the errors of the surface */
+    size_t terms;  /* degrees of freedom that the surface uses; 0: there is no surface */
 } estimate_explanation;
 
 /* estimate-surface.c: writes to `part` the part of each value that a surface over the numbers from
@@ -109,18 +109,18 @@ estimate_explanation estimate_explained(const double *values, const double *numb
 
 estimate estimate_mean(const estimate_samples *s);
 estimate estimate_deviation(const estimate_samples *s); /* the standard deviation */
-/* The probability of a value of at most `limit`. */
+/* Returns the probability of a value of at most `limit`. */
 estimate estimate_probability(const estimate_samples *s, double limit);
 /* Writes the values from which the two are computed, on the scale of level 0: at most as many as
    the level has samples. Returns their number. */
 size_t estimate_values(const estimate_samples *s, double *values);
-/* The value that a given share (0 to 1) of the values does not exceed. */
+/* Returns the value that a given share (0 to 1) of the values does not exceed. */
 estimate estimate_percentile(const estimate_samples *s, double share);
 
-/* First and total index of each group of inputs (Sobol), from a surface through
-   values and the standard normal numbers from which they were made, `input_count` for each. Their
-   intervals hold what the surface lacks. All are NaN if the samples tell no surface. Returns the
-   number of samples used. */
+/* First and total index of each group of inputs (Sobol), from a surface through values and the
+ * standard normal numbers from which they were made, `input_count` for each. Their intervals
+ * include the missing terms of the surface. All are NaN if no surface can be fitted. Returns the
+ * number of samples used. */
 size_t estimate_shares(const double *values, const double *numbers, size_t count,
                        const estimate_input *inputs, size_t input_count, size_t groups,
                        estimate *first, estimate *total);
