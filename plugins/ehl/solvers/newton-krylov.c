@@ -62,7 +62,10 @@ static void measure_step(const ehl_solver *s, const ehl_film *film, double dh00,
             w->linear.v_step[i] + dh00 + (yields ? r->give * w->linear.p_step[i] : 0);
         double a = yields ? 0 : fabs(w->linear.p_step[i]), b = fabs(change) / r->thick[i];
         if (ehl_is_cavitated(r, film, i)) {
-            b = a * r->unit / (r->oil.density * r->thick[i]);
+            double oil = r->unit * w->linear.p_step[i];
+            if (i + 2 == r->nodes) /* from the end no oil leaves that is not there (take_step) */
+                oil = fmax(oil, -film->content[i]);
+            b = fabs(oil) / (r->oil.density * r->thick[i]);
             a = 0;
         }
         *dp = a > *dp ? a : *dp;
