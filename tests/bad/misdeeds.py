@@ -189,7 +189,7 @@ def values(table):
 def is_told(role, place, what, command, done, directory):
     said = sentence(role, place, what)
     unclear = "one that serves it" in said and "crashed" in TOLD[what] and what != "trap"
-    tried = f"; viscosity: the plugin {FILES['law']} fails flankfilm verify --only guards" if role == "law" else "; flankfilm verify tells of each whether"
+    tried = f"; viscosity: the plugin {FILES['law']} fails flankfilm verify --only guards" if role == "law" else "; flankfilm verify shows for each whether"
     words = [said] + [tried] * unclear
     if command == "json":
         message = (answer(done).get("errors") or [{"message": ""}])[0]["message"]
@@ -288,7 +288,7 @@ def refuses_places():
     done = run("law constructor folder", "run", "case.yaml", "--plugin-path", "near")
     hold("a folder, by a relative path", done.returncode == 0 and "changed the working directory" in done.stderr, done.stderr)
     done = run("", "run", "case.yaml", "--plugin-path", "nowhere")
-    hold("no such folder", done.returncode == 2 and "there is no directory nowhere" in done.stderr, done.stderr)
+    hold("no such folder", done.returncode == 2 and "no directory nowhere" in done.stderr, done.stderr)
     done = run("", "run", "case.yaml", "--set", "viscosity.use=viscosity/quixotic-zz")
     hold("no such model", done.returncode == 2 and all_in(['no model "viscosity/quixotic-zz"', "viscosity/misdeed"], done.stderr), done.stderr)
 

@@ -140,7 +140,7 @@ def test_written_over():
     wait_for("over", 2)
     with paused(run):
         (own / "wave.so").write_bytes((own / "walk.so").read_bytes())
-    expect("written over", run, 3, "wave.so was written over while the study ran")
+    expect("written over", run, 3, "wave.so was overwritten while the study ran")
     if not 2 <= rows("over") < cases:
         raise SystemExit(f"FAIL {rows('over')} rows of a plugin that was written over")
     (own / "wave.so").write_bytes((plugins / "wave.so").read_bytes())
@@ -153,7 +153,7 @@ def test_written_over():
     wait_for("swap", cases // 2 + 2)
     with paused(run):
         (own / "brief.so").write_bytes((own / "walk.so").read_bytes())
-    expect("a model of a later case", run, 3, "brief.so was written over while the study ran")
+    expect("a model of a later case", run, 3, "brief.so was overwritten while the study ran")
     done = rows("swap")
     if not cases // 2 + 2 <= done < cases:
         raise SystemExit(f"FAIL {done} rows beside a model that was written over")
