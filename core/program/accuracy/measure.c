@@ -268,11 +268,14 @@ static bool are_far_below(const accuracy_record *record)
     return all;
 }
 
+/* Whether an error is above its goal or unknown: another twin may tell it. */
 static bool misses(const accuracy_record *record)
 {
     bool missed = false;
-    for (size_t i = 0; i < record->count; i++)
-        missed = missed || record->errors[i].reached > record->errors[i].goal;
+    for (size_t i = 0; i < record->count; i++) {
+        const accuracy_error *e = &record->errors[i];
+        missed = missed || isnan(e->reached) || e->reached > e->goal;
+    }
     return missed;
 }
 

@@ -119,7 +119,7 @@ static bool write_all(const cli_options *options, const char *folder, ff_report 
     if (good)
         printf("%s was written to %s; its README.md lists the next three commands\n", id, folder);
     if (good && !own[0])
-        printf("the kind has no template \"%s\": it is a stage without a place in a "
+        printf("the kind \"%s\" has no template: it is a stage without a place in a "
                "pipeline yet\n",
                kind);
     free(c);

@@ -174,25 +174,16 @@ static double largest_share(const ehl_results *r, const ehl_passage *p, int kind
     return share > 0 ? share : 1;
 }
 
-/* Whether what was measured elsewhere tells of this row: of all bounds, and of transported errors
- * that are not small. */
-static int takes_share(const ehl_results *r, size_t row, int kind)
-{
-    return !is_signed(r, row, kind) ||
-           (!is_measured(r, row, kind) &&
-            fabs(*part_of(r, row, kind)) > EHL_FILM_LIMIT / 2 * film_of(r, row, kind));
-}
-
-/* Replaces what is known of the errors by measured errors, and multiplies that of rows that were
- * not measured by the largest ratio found. A film without load has no bound; its error counts only
- * if the lowest film alone is wanted. */
+/* Replaces what is known of the errors by measured errors, and multiplies the bounds of rows that
+ * were not measured by the largest ratio found; transported errors stand. A film without load has
+ * no bound; its error counts only if the lowest film alone is wanted. */
 static void put_errors(ehl_results *r, const ehl_passage *p, int kind)
 {
     double share = largest_share(r, p, kind);
     for (size_t i = 0; i < r->series.count; i++) {
         double *part = part_of(r, i, kind);
         if (i < p->first || i > p->last) {
-            *part *= takes_share(r, i, kind) ? share : 1;
+            *part *= is_signed(r, i, kind) ? 1 : share;
         } else if ((has_bound(r, i, kind) || is_extreme(r, kind)) &&
                    !isnan(p->error[i - p->first][kind])) {
             *part = p->error[i - p->first][kind] * film_of(r, i, kind);

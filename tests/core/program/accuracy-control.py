@@ -177,6 +177,14 @@ class Control(lab.Lab):
             self.assertGreaterEqual(self.error(answer), error_of(answer["accuracy"]["settings"]) / 2)
             self.assertLessEqual(self.error(answer), goal / 100)
 
+    def test_an_output_that_a_twin_does_not_tell_takes_another(self):
+        """16 cells find two peaks of three, 32 find all."""
+        text = FILE.replace("[last.value, last.wave]", "[last.peaks]")
+        for goals in ("accuracy=5 %", "accuracy={first.value: 5 %}"):
+            answer = self.ask(goals, "outputs=[first.value, last.peaks]", "last.few=20", text=text)
+            self.assertEqual({run["settings"]["last.cells"] for run in answer["accuracy"]["runs"]}, {"64", "16", "32"})
+            self.assertLess(self.error(answer, "last.peaks"), 0.05)
+
     def test_the_bar_of_an_extreme_falls_as_that_of_its_series(self):
         """Around its least value the wave moves from level to level by as much; the value itself is of order 2."""
         answer = self.ask("accuracy={last.value: 5 %}", "last.drift=0.05")

@@ -9,7 +9,7 @@
 
 typedef struct order {
     const ff_host *host;
-    int64_t cells, steps, least, most, sure, shown;
+    int64_t cells, steps, least, most, sure, shown, few;
     int32_t exact, steady;
     double tolerance, order, strength, gain, heat, guess, loosest, blunt, seen, scatter, drift,
         work;
@@ -48,6 +48,7 @@ static const ff_param params[] = {
     FF_COUNT("most", order, most, 0, "1000000", NULL, 1, 1e6, 0, 0, "with more cells it fails"),
     FF_COUNT("shown", order, shown, 0, "1000000", NULL, 1, 1e6, 0, 0,
              "from so many cells on the value is 5 % higher"),
+    FF_COUNT("few", order, few, 0, "0", NULL, 0, 1e6, 0, 0, "with fewer cells it misses a peak"),
     FF_COUNT("sure", order, sure, 0, "0", NULL, 0, 1e6, 0, 0, "with fewer cells it has doubts"),
 };
 
@@ -66,6 +67,7 @@ static const ff_port outputs[] = {
     {.name = "wave", .unit = "m", .dims = "t", .doc = "2 + sin(2 pi t), times the value"},
     {.name = "wave_error", .unit = "m", .dims = "t", .doc = "by `seen` and `scatter`"},
     {.name = "pairs", .unit = "m", .dims = "pair? t", .doc = "the value, of two pairs of points"},
+    {.name = "peaks", .unit = "m", .dims = "peak", .doc = "the value, three times"},
 };
 
 static ff_status ready(void *self)
@@ -127,6 +129,12 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         double *pairs = o->host->output(o->host->ctx, 4, 2, shape);
         for (size_t i = 0; pairs && i < 4; i++)
             pairs[i] = value;
+    }
+    if (wanted & FF_BIT(5)) {
+        const size_t count = o->cells < o->few ? 2 : 3;
+        double *peaks = ff_put_series(o->host, 5, count);
+        for (size_t i = 0; peaks && i < count; i++)
+            peaks[i] = value;
     }
     const double guess = o->guess / (double)o->cells;
     o->host->quality(o->host->ctx, "value_guess_error", guess, 0.001, FF_DOUBTFUL, "a guess");
