@@ -7,12 +7,11 @@
 
 #include <flankfilm/engine.h>
 
-/*
- * Finds the axis of dimension `dim` (length `count`) of a stage. Candidates are the stage's own
+/* Finds the axis of dimension `dim` (length `count`) of a stage. Candidates are the stage's own
  * series, then with a pipeline its inputs: first the one named like the dimension, then the first
- * rising one in rad, in s, then the stage's first rising one; with `named` that one alone. `self`
- * is the series that asks, or NULL. Returns NULL if there is none: the axis is the index.
- */
+ * rising one in rad, in s, then the stage's first rising one; if `named`, only the one named like
+ * the dimension. `self` is the series that asks, or NULL. Returns NULL if there is none: the axis
+ * is the index. */
 const ff_result *accuracy_axis(const ff_pipeline *pipeline, const ff_stage *stage, const char *dim,
                                size_t count, const ff_result *self, const char *named);
 
@@ -39,12 +38,12 @@ double accuracy_distance(const ff_pipeline *pipeline, const ff_stage *stage,
                          const ff_result *result, double zero, bool absolute,
                          const ff_pipeline *other, memory_arena *arena);
 
-/* Makes the pipeline compute the points on angles, such as those where a second pair of teeth comes
-   in, if a series is asked for. Before it runs. */
+/* If a series is requested, makes the pipeline also compute its points on angles, such as those
+ * where a second pair of teeth enters. Called before the run. */
 void accuracy_want_points(const ff_pipeline *pipeline);
 
-/* Marks, before the run, two kinds of outputs to be computed as well: the axes of series, and, of
-   an answer, the errors that stages estimate for their outputs. */
+/* Marks, before the run, two kinds of outputs to be computed as well: the axes of series and, for
+ * an answer, the stages' error estimates of its outputs. */
 void accuracy_want_beside(const ff_pipeline *pipeline, bool estimates);
 
 #endif

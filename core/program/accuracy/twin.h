@@ -45,8 +45,8 @@ typedef struct accuracy_twin {
 } accuracy_twin;
 
 /* Runs the file with the assignments, as if they were in the file at `place`. `changed` marks the
- * stages whose settings differ from the donor's: these and all stages downstream are computed; of a
- * loop, all stages. */
+ * stages whose settings differ from the donor's: these and all stages downstream are computed, and
+ * in a loop all of its stages. */
 const accuracy_twin *accuracy_twin_run(const accuracy_scene *scene, const char *const *sets,
                                        size_t count, const ff_place *place, const bool *changed);
 /* In a chain of cases the answer started from its neighbour's state. Its twin starts from the
