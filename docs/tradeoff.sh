@@ -126,9 +126,10 @@ machine at the beginning and at the end: $load and $(cut -d' ' -f1 /proc/loadavg
 
 Cost is the processor time of the stages that the candidates change, the median of the repeats.
 *Error* is the relative difference from the reference that
-95 % of the mesh cycle stays below, **bold** on the front: nothing cheaper is as good. The files of all
-candidates have the spread of the cost, too, from the least to the most. What a step along a front costs the run prints;
-how to measure a trade-off of your own stands in the [guide](guide/accuracy.md#speed-against-accuracy).
+is not exceeded on 95 % of the mesh cycle. It is **bold** if the candidate is on the front: no cheaper candidate has as
+small an error. The files of all
+candidates also have the spread of the cost over the repeats. The run prints what a step along a front costs. The
+[guide](guide/accuracy.md#speed-against-accuracy) says how to measure a trade-off of your own.
 
 ## Film: models, cells and steps
 
@@ -140,16 +141,16 @@ TEXT
     echo "- Costs span $(decades) decades."
     echo "- A second run of the study: costs differ by at most $(repeats);"
     echo "  errors by at most $(changes)."
-    echo "- Cost over that of the cheapest candidate as good, by h_min and by friction:"
-    echo "  the presets (\`film.use: ehl/finite-volume\` and no more): $(over_front 'finite-volume');"
-    echo "  cells 512, steps 1000: $(over_front 'finite-volume; cells 512; steps 1000')."
+    echo "- Cost of a candidate, divided by the cost of the cheapest candidate with no larger error in h_min, and in friction:"
+    echo "  $(over_front 'finite-volume') for the presets (\`film.use: ehl/finite-volume\` alone);"
+    echo "  $(over_front 'finite-volume; cells 512; steps 1000') for cells 512, steps 1000."
     echo
     table film
     cat <<TEXT
 
 ## Mesh stiffness
 
-\`configs/studies/tradeoff-stiffness.yaml\`: sources of the stiffness, and what they make of the motion.
+\`configs/studies/tradeoff-stiffness.yaml\`: sources of the stiffness, and the errors of the motion that follow from them.
 TEXT
     reference stiffness
     table stiffness
@@ -174,7 +175,7 @@ TEXT
 ## What the scene requires
 
 \`configs/studies/tradeoff-scene.yaml\`: static tooth force (load mesh) or dynamic (load motion),
-Newtonian oil or one that thins under shear, quick film or full. The cost of the motion counts.
+Newtonian or shear-thinning oil, quick or full film. The cost includes that of the motion.
 TEXT
     reference scene
     table scene
@@ -182,7 +183,7 @@ TEXT
 
 ## Smooth or rough flanks
 
-\`configs/studies/tradeoff-rough.yaml\`: ground flanks. Asperities pass in some steps of the time.
+\`configs/studies/tradeoff-rough.yaml\`: ground flanks. An asperity passes within a few time steps.
 TEXT
     reference rough
     table rough

@@ -149,7 +149,7 @@ Agreement within 15 % is claimed for M from 2 on. Our loss includes the part of 
 
 `mesh-loss.yaml`: Petry-Johnson, Kahraman, Anderson & Chase 2007/2008, 413 N m. The measured values are intervals because of
 rounded percentages. They assume the loss of one mesh; for the two meshes of a back-to-back rig each would have half. Gears,
-oil, laws and the rule for the temperature were written down before the first run; all are shown.
+oil, laws and the rule for the temperature were written down before the first run; every run is shown.
 
 TEXT
     losses

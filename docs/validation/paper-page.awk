@@ -164,7 +164,7 @@ function figure2(  i, e) {
         if (abs(v["law.p", i] - e * 1e8) < 1e6) ratio[e] = v["law.doolittle-tait", i] / v["law.doolittle-tait", 1]
     row("eq. (11) with V_occ = 0.6132 and K0' = 10.076 goes through the points that Bair et al. measured", \
         F("eta/eta0 = %.3g, %.3g, %.3g, %.3g at 0.2, 0.4, 0.6, 1 GPa", ratio[2], ratio[4], ratio[6], ratio[10]), \
-        "their points were known", -1)
+        "(the points are not known)", -1)
     say("In the available text eta0, B, K0 and the points are not legible. `configs/lubricants/mil-l-23699.yaml` " \
         "says where its values come from. The other laws of the card share eta0 and the film-forming coefficient.")
 }
@@ -188,9 +188,9 @@ function figure3(  k0, n, low, i, h, fmass, a, b, least) {
     table()
     k0 = s["k.stiffness_mean"]
     for (n = 1; n <= 8; n++) h[n] = v["kh.stiffness_harmonics", n]
-    row("mean of k: 3 and more digits that are lost, 1e8 N/m", F("%.3f 1e8 N/m; the models of this program span 3.1 to 4.4", k0 / 1e8), "more than one digit were known", -1)
+    row("mean of k: 3 and more digits that are lost, 1e8 N/m", F("%.3f 1e8 N/m; the models of this program span 3.1 to 4.4", k0 / 1e8), "(only one digit is known)", -1)
     row("no profile deviations, hence e(t) = 0", F("largest |e| %.2g um", 1e6 * max(highest("k", "transmission_error"), 0 - lowest("k", "transmission_error")) + 0), "no deviations are given", -2)
-    row("the first three harmonics of k excite the pair; their digits are lost", F("k1, k2, k3, k4 = %.3f, %.3f, %.3f, %.3f 1e8 N/m", h[1] / 1e8, h[2] / 1e8, h[3] / 1e8, h[4] / 1e8), "they were known", -1)
+    row("the first three harmonics of k excite the pair; their digits are lost", F("k1, k2, k3, k4 = %.3f, %.3f, %.3f, %.3f 1e8 N/m", h[1] / 1e8, h[2] / 1e8, h[3] / 1e8, h[4] / 1e8), "(the digits are not known)", -1)
     fmass = sqrt(k0 / s["g.equivalent_mass"]) / (2 * pi)
     row("f_n = 3242 Hz", F("imposed; this k and solid discs of steel would give %.0f Hz", fmass), "`natural_frequency` is given", -2)
     resonance(1, "one primary resonance peak at f_n, 3240 Hz")
@@ -204,19 +204,19 @@ function figure3(  k0, n, low, i, h, fmass, a, b, least) {
     softening("a", 1)
     row("the upper motion loses contact (III) and softens", F("%.3g of the time apart; rms %.1f um; from %.0f Hz to lower speeds", s["IIIm.contact_loss"], 1e6 * s["IIIm.dte_rms"], begins), \
         "> 0; ends below f_n", s["IIIm.contact_loss"] > 0 && ends < 3242)
-    row("agrees well with the measured response of the same pair (their refs. 7 to 9)", "-", "the measured curves were at hand as numbers", -1)
+    row("agrees well with the measured response of the same pair (their refs. 7 to 9)", "-", "(the measured curves are not available as numbers)", -1)
     h["begins"] = begins
     least = face * over("Is", "load_per_width", lpstc - 1) / (0.13 * over("Ifs", "h_central", lpstc - 1))
     row("the lubricant is several orders stiffer than the mesh, by the Hamrock-Dowson formula", F("W/(0.13 h_central), as h falls with the load to the power -0.13 (Dowson & Higginson), is %.0f times the mean of k", least / k0), "over 100 times", least > 100 * k0)
     softening("aslope", 1)
     say("This section uses the chord F/(e_l - e) for k, as the paper does (`definition: secant`). For a small vibration, k is the slope dF/d(e_l), the preset of the model, " \
-        F("whose mean is %.1f %% higher. f_n is given, so the mass changes in proportion; with the slope the rms of s at I, II and III is %.3f, %.3f and %.2f um for %.3f, %.3f and %.2f with the chord, and the upper motion starts at %.0f Hz for %.0f.", \
+        F("whose mean is %.1f %% higher. f_n is given, so the mass changes in proportion; with the slope the rms of s at I, II and III is %.3f, %.3f and %.2f um (%.3f, %.3f and %.2f um with the chord), and the upper motion starts at %.0f Hz (%.0f Hz with the chord).", \
           100 * (s["kslope.stiffness_mean"] / k0 - 1), 1e6 * s["Islope.dte_rms"], 1e6 * s["IIslope.dte_rms"], 1e6 * s["IIIslope.dte_rms"], 1e6 * s["Im.dte_rms"], 1e6 * s["IIm.dte_rms"], 1e6 * s["IIIm.dte_rms"], begins, h["begins"]))
     say("The linear amplitudes are proportional to the harmonics of k and cannot be confirmed until those of the paper are known; " \
         "the upper branch hardly depends on k. Beyond the figure there are resonances at f_n/4 and below, due to harmonics 5 to 7 " \
         "of a k(t) with jumps, and from about 2100 to 2200 Hz the lower motion is unstable. All branches: [dynamics](dynamics.md); k by other models: [stiffness](stiffness.md).")
     say("Which k(t) would give the figure? At f_n/n the linear motion swings by k_n/(2 zeta k) of the static deflection, so that contact is lost from k_n = 2 zeta k up: " \
-        F("%.3f 1e8 N/m. With the first three harmonics of this k alone, in parts of their size, the second motion spans, with its rms at the lower end:", 2 * 0.01 * k0 / 1e8))
+        F("%.3f 1e8 N/m. If k has only the first three of these harmonics, each times the same factor, the second motion exists in the following ranges of speed; the rms is that at the lower end:", 2 * 0.01 * k0 / 1e8))
     over_sizes()
     say("Separate peaks with III on the upper branch require a k1 of about a third of this one, and k2 and k3 slightly above the threshold. The measured response of the pair would decide.")
 }
@@ -355,7 +355,7 @@ function figure7(  pA, hA, r, rA) { # in7 and out7 are for figure 8, too
     row("the jump of W_s at LPSTC is evident", F("p at G departs from that at H, where the film has settled under the same load, by %.1f %% of p_H (rms), E from F by %.1f %%; h varies by %.0f %% within the contact, by %.1f %% at F", \
         100 * rG, 100 * rA, 100 * (unevenness("7", "G", "Is") - 1), 100 * (unevenness("7", "F", "Is") - 1)), "over twice as much at G", rG > 2 * rA)
     in7 = after_step("7", "Is", -1.2, -0.6); out7 = after_step("7", "Is", 0.6, 1.2); r = after_step("7", "Is", -0.3, 0.3)
-    row("with ripples of p at the inlet and at the outlet (said of G with Fig. 8)", F("of a load that jumps at once, %.2f deg after LPSTC: departure %.0f %% of p_H from -1.2 a to -0.6 a, %.0f %% from 0.6 a to 1.2 a, %.1f %% from -0.3 a to 0.3 a", soon, 100 * in7, 100 * out7, 100 * r), \
+    row("with ripples of p at the inlet and at the outlet (the paper says so of G with Fig. 8)", F("if the load jumps at once, p %.2f deg after LPSTC departs from that at H by %.0f %% of p_H from -1.2 a to -0.6 a, %.0f %% from 0.6 a to 1.2 a, %.1f %% from -0.3 a to 0.3 a", soon, 100 * in7, 100 * out7, 100 * r), \
         "both above the middle", 0.5 * (in7 > r) + 0.5 * (out7 > r))
     pA = over("Ifs", "p_max", pitch) / over("Ifs", "p_max", sap) / sqrt(over("Is", "load_per_width", pitch) / over("Is", "load_per_width", sap))
     r = over("Is", "equivalent_radius", pitch) / over("Is", "equivalent_radius", sap)
@@ -408,7 +408,7 @@ function figure8(  wA, wB, wC, hA, hB, hC, pA, pB, r, d) {
     row("B to C, as W_d rises: wider and thicker", F("width (p above a tenth of its largest) %.0f to %.0f um, h_central %.3f to %.3f um", 1e6 * wB, 1e6 * wC, 1e6 * hB, 1e6 * hC), "both", 0.5 * (wC > wB) + 0.5 * (hC > hB))
     r = ripple("8", "G", "H", "Id", -1.2, 0.8)
     hA = after_step("8", "Id", -1.2, -0.6); hB = after_step("8", "Id", 0.6, 1.2)
-    row("the ripples of p at G under W_s are absent", F("p at G departs from that at H by %.1f %% of p_H, under W_s by %.1f %%; of loads that jump at once by %.0f %% at the inlet and %.0f %% at the outlet, under W_s by %.0f and", 100 * r, 100 * rG, 100 * hA, 100 * hB, 100 * in7) F(" %.0f %%", 100 * out7), \
+    row("the ripples of p at G under W_s are absent", F("p at G departs from that at H by %.1f %% of p_H, under W_s by %.1f %%; if the loads jump at once, the departure is %.0f %% at the inlet and %.0f %% at the outlet, under W_s %.0f and", 100 * r, 100 * rG, 100 * hA, 100 * hB, 100 * in7) F(" %.0f %%", 100 * out7), \
         "at most half", 0.5 * (r < 0.5 * rG) + 0.5 * (hA < 0.5 * in7 && hB < 0.5 * out7))
     say(F("Why: A is a peak of W_d, but which of the four is the highest depends on the phases of the harmonics of k. At LPSTC the remaining jump of W_d, %.3f times, leaves a smaller mark on G.", v["Iw.dynamic", count_to_lpstc() + 1] / v["Iw.dynamic", count_to_lpstc()]))
 }

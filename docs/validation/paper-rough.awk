@@ -110,7 +110,7 @@ function figure10() {
     head("Fig. 10: roughness of the flanks", 10)
     table()
     row("R_q of 0.54 and 0.53 um", F("%.4f and %.4f um", 1e6 * s["r.rq_1"], 1e6 * s["r.rq_2"]), "`rq` is given", -2)
-    row("the traces measured on ground flanks", "made by `surface/synthetic`: waves from 20 to 400 um, power falling with the square of the wave number", "the traces were known", -1)
+    row("the traces measured on ground flanks", "made by `surface/synthetic`: waves from 20 to 400 um, power falling with the square of the wave number", "(the traces are not known)", -1)
     say("The paper's surfaces are measured and not published. What follows holds for " seed_count " surfaces of the same Rq (`seed` " surface[1] \
         " to " surface[seed_count] "); the first one is drawn.")
 }
@@ -123,10 +123,10 @@ function figure11(  set, first, i, fine_touch, cells, why) {
     table()
     spread(set, "over_1")
     row("local pressures easily exceed 1 GPa", F("at %s of 10 positions; %s GPa at the most", of_ten(set, "over_1"), shown(set, "p_max", 1, 1e-9)), "at 5 or more", spread(set, "over_1") >= 5 ? 1 : mean_ > 0 ? 0.5 : 0)
-    row("contacts of asperities with h = 0 and spikes of p", F("more than 1 GPa where h is below 10 nm, no wider than the line that draws it, at %s of 10 positions; contact, h = 1 nm, at %s, over %s %% of the time", \
+    row("contacts of asperities with h = 0 and spikes of p", F("p above 1 GPa where h is below 10 nm, which a drawing cannot tell from 0, at %s of 10 positions; contact (h = 1 nm) at %s of them, and for %s %% of the time", \
         of_ten(set, "thin"), of_ten(set, "touch"), shown(set, "touch_time", 1, 100)), "contact at 5 or more; partly: such spikes at 5 or more", spread(set, "touch") >= 5 ? 1 : spread(set, "thin") >= 5 ? 0.5 : 0)
     row("valleys with much larger films", F("up to %s times the smooth film at the same place", shown(set, "valley", 1, 1)), "over 3", spread(set, "valley") > 3)
-    row("the contact zone varies as with smooth flanks", F("zone above 0.1 GPa: correlation with the smooth one %s, of the mean over the surfaces %.2f; mean %s um, smooth %.0f um", shown(set, "zone", 2, 1), mean_zone(set, "I"), shown(set, "width", 0, 1e6), 1e6 * M[set, "smooth_width", first]), \
+    row("the contact zone varies as with smooth flanks", F("zone above 0.1 GPa: its width has a correlation of %s with that of smooth flanks, the mean width over the surfaces one of %.2f; it is %s um on average, smooth %.0f um", shown(set, "zone", 2, 1), mean_zone(set, "I"), shown(set, "width", 0, 1e6), 1e6 * M[set, "smooth_width", first]), \
         "above 0.8; partly above 0.5", spread(set, "zone") > 0.8 ? 1 : mean_ > 0.5 ? 0.5 : 0)
     row("neither p nor h is smooth", F("%s peaks of p at a position, smooth %.1f; film over the roughness of both flanks %s on average", shown(set, "peaks", 1, 1), M[set, "smooth_peaks", first], shown(set, "lambda", 2, 1)), \
         "over twice the peaks", spread(set, "peaks") > 2 * M[set, "smooth_peaks", first])
@@ -148,7 +148,7 @@ function link(P, L, rough) { return "[" (rough ? "rough" : "smooth") "](paper-" 
 function overview(  q, P) {
     if (quick) { text = text "\n"; return } # as before the heading
     head("Beyond the paper: all points and loads", "")
-    say("p and h at ten positions, smooth and with the drawn surface. At II, B, D and F are turning points of W_d and J its last low.\n")
+    say("p and h at ten positions, smooth and with the drawn surface. For point II, the positions B, D and F are turning points of W_d, and J is its last minimum.\n")
     text = text "| point | W_s | W_d |\n|---|---|---|\n"
     for (q = 1; q <= 3; q++) {
         P = points[q]

@@ -76,11 +76,11 @@ def terms(program, config, cells):
     stored = [elastic(p[i], dx, modulus) - energy[i] for i in (0, -1)]
     oil = [compressed(p[i], h[i], dx) for i in (0, -1)]
     given = run['motion.squeeze_loss'] - run['motion.film_power']
-    parts = [('given by the motion, at the stations in place of all along', given + power * work(load, way)),
-             ('force of the oil in flight, the film\'s in place of the motion\'s', power * (work(force, way) - work(load, way))),
+    parts = [('given by the motion: its own sum less that over the stations', given + power * work(load, way)),
+             ('work of the oil force in flight: in the motion less in the film', power * (work(force, way) - work(load, way))),
              ('elastic energy with which the film begins, short of Hertz\' contact', power * (stored[1] - stored[0])),
-             ('the oil that is compressed then', power * (oil[1] - oil[0])),
-             ('flanks that turn flatter under a wider pressure than Hertz\'', power * work((p * x**2 / 2).sum(1) * dx - moment, 1 / radius))]
+             ('energy of the compressed oil with which the film begins', power * (oil[1] - oil[0])),
+             ('work of the pressure as the flanks become flatter, beyond that of Hertz\' pressure', power * work((p * x**2 / 2).sum(1) * dx - moment, 1 / radius))]
     whole = given - run['loss.squeeze_loss_mean']
     parts += [('cells and steps: what is left', whole - sum(value for _, value in parts)), ('all', whole)]
     return [(name, value / run['loss.power_loss_mean']) for name, value in parts]

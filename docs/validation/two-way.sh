@@ -154,7 +154,7 @@ last()
 # The small-step model and its repetition, a test: speeds at which the sweep loses the branch.
 small()
 {
-    echo '| oil between parted flanks | film at hand-over | in series | noted | side by side | noted |'
+    echo '| oil between parted flanks | film at hand-over | in series | original | side by side | original |'
     echo '|---|---|---|---|---|---|'
     "$build/tests/plugins/dynamics/test-dynamics-branch-ends" 400 2000 | awk '/lost at/ {
             key = $2 " mPa s | " ($0 ~ /side by side/ ? $9 : $8) " um"
@@ -214,8 +214,8 @@ TEXT
 
 If contact is kept, the balance closes to less than 5e-4 of the loss, which is the film's own error (its `energy_balance`
 and `power_loss_space_error`). If flanks separate, a motion without a film during contact loss supplies less power than the film takes;
-the line `power_balance` shows this. With `squeeze: series` film and motion land together: the same force squeezes both, and
-the squeeze that is part of the motion is not counted twice. The remaining difference there is above 1e-3. Most of it has two causes: the domain of the film
+the line `power_balance` shows this. With `squeeze: series` the flanks land at the same time in the film and in the motion, since both squeeze the oil with the same force;
+the squeeze loss that the motion already contains is not counted twice. The remaining difference there is above 1e-3. Most of it has two causes: the domain of the film
 is fitted to loaded flanks and too short to squeeze all the oil in a gap of some micrometres; and during contact loss the film includes the wedge of the rolling
 flanks, which `squeeze` includes only with `squeeze_rolling`:
 

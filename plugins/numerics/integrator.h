@@ -23,9 +23,10 @@ static inline void numerics_integrator_free(numerics_integrator *i)
     *i = (numerics_integrator){0};
 }
 
-/* Creates an integrator for this many components; the error of a step is limited to relative +
-   absolute. Returns 0 if memory is short. Memory is checked first, since GSL's default handler
-   would end the process, and gsl_odeiv2_control_standard_new would dereference NULL. */
+/* Creates an integrator for this many components; the error of a step is limited to the sum of the
+   relative and the absolute tolerance. Returns 0 if memory is short. Memory is checked first, since
+   GSL's default handler would end the process, and gsl_odeiv2_control_standard_new would
+   dereference NULL. */
 static inline int numerics_integrator_make(numerics_integrator *i, size_t components,
                                            double absolute, double relative)
 {

@@ -9,15 +9,16 @@
    For the final answer only, not for attempts whose results others reuse. */
 void accuracy_tell(const accuracy_record *record, const ff_pipeline *answer);
 
-/* Prints "0.54 %", as the goal does "0.31 K", or "not known" if no twin can tell the error; to be
-   freed. */
+/* Prints the measured error in the form of its goal, "0.54 %" or "0.31 K", or "not known" if no
+   twin could determine it. The text must be freed. */
 char *accuracy_print_reached(const accuracy_error *error);
-/* Prints the goal; "" if there is none; to be freed. */
+/* Prints the goal, or "" if there is none. The text must be freed. */
 char *accuracy_print_goal(const accuracy_error *error);
-/* Prints "at few points up to 3 %; film.cells 0.3 %, tooth.points 0.1 %; order 2.1", or the parts
-   of it that exist; to be freed. */
+/* Prints "at few points up to 3 %; film.cells 0.3 %, tooth.points 0.1 %; order 2.1", or those
+   parts of this text that apply. The text must be freed. */
 char *accuracy_describe(const accuracy_error *error);
-/* Prints how far the answer is from a finer twin, or why that is not known; to be freed. */
+/* Prints how far the answer is from a finer twin, or why this distance is not known. The text must
+   be freed. */
 char *accuracy_print_check(const accuracy_record *record, const accuracy_error *error);
 /* Largest relative error that the stage's lines state for the output, or for an output in the same
    unit whose name begins the output's name, such as "h_min" for "h_min_lowest". NaN if there is
@@ -32,9 +33,9 @@ bool accuracy_is_least(const ff_stage *stage, const ff_result *result);
 bool accuracy_may_estimate(const ff_port *row, const ff_port *of);
 /* True if the result is an error estimate of an output that is asked for. */
 bool accuracy_is_estimate(const ff_stage *stage, const ff_result *result);
-/* The stage's own error estimate of the output, number by number: an output of its own, accompanied
-   by quality lines. Without such lines it is an error of the model, such as the scatter of a
-   formula, and does not count. NULL if there is none. */
+/* Returns the output in which the stage itself estimates the error of the given output, number by
+   number; NULL if there is none. Such an estimate counts only if the stage also has a quality line
+   for the error. Otherwise it is an error of the model, such as the scatter of a formula. */
 const ff_result *accuracy_estimate_of(const ff_stage *stage, const ff_result *result);
 
 #endif

@@ -7,8 +7,8 @@
 
 #include <flankfilm/engine.h>
 
-/* Names the references and builds the pipeline as run_build does. Returns NULL only if no pipeline
- * can be shown. */
+/* Gives each stage that says KIND/auto its reference model, and then builds the pipeline as
+ * run_build does. Returns NULL only if no pipeline can be shown. */
 ff_pipeline *accuracy_build_alone(ff_run *run, ff_engine *engine, bool everything);
 /* Does the same as accuracy_build_alone, and checks the file's accuracy request. */
 ff_pipeline *accuracy_build(ff_run *run, ff_engine *engine, bool everything);

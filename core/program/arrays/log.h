@@ -3,11 +3,11 @@
  * A log of arrays, to which one process appends. It begins with 64 bytes of text; then come
  * records, each of a multiple of 8 bytes, all numbers little-endian:
  *      0  length of the record, 8 bytes
- *      8  key of the case, 24 bytes, the rest of which are zeros
+ *      8  key of the case, filled with zeros to 24 bytes
  *     32  offset of the array in the record, 8 bytes
  *     40  name of the output, which ends with one to eight zeros
  *         the array in the format of a .npy file
- *         CRC-32 of all before it in the record, 8 bytes of which the last four are zeros
+ *         CRC-32 of the record up to here, and four zeros
  * A process that continues a log first cuts off an incomplete record, which a killed process may
  * have left. The file system must support appending by one process and fdatasync. Locks and shared
  * mappings are not needed.

@@ -47,7 +47,7 @@ enum {
     RESULTS_VIEW_AT_LEAST = 2 /* only a lower bound is known, so it has no error */
 };
 
-/* An output of a stage. A case may lack it, or its first dimension. */
+/* An output of a stage. In a case the output may be missing, or only its first dimension. */
 typedef struct results_view_variable {
     const char *name;   /* "film.h_min" */
     const char *output; /* "h_min" */
@@ -141,8 +141,9 @@ bool results_view_full_shape(const results_view *view, size_t variable, size_t i
  * it. Numbers that are not finite become NaN. Returns false after an error. */
 bool results_view_load(const results_view *view, size_t variable, size_t index, ff_array *array);
 void results_view_release(ff_array *array); /* data may be NULL */
-/* Whether dimension `dim` of another variable is plotted against this series: its `against` names
- * the series, or the series runs along the dimension and has its name, or is a time or an angle. */
+/* Returns whether dimension `dim` of another variable is plotted against this series: if `against`
+ * of the other variable names the series, or if the series belongs to the same stage, runs along
+ * this dimension, and either has the name of the dimension or is a time or an angle. */
 bool results_view_is_coordinate(const results_view_variable *series,
                                 const results_view_variable *other, uint32_t dim);
 

@@ -14,7 +14,8 @@ enum {
     DYNAMICS_COUPLED_SIZE
 };
 
-/* A stretch of the mesh cycle between nodes of the excitation or of the mounted pair. */
+/* A stretch of the mesh cycle. It ends at a node of the excitation, or at the phase where a tooth
+   pair of the mounted gears leaves the mesh. */
 typedef struct dynamics_stretch {
     const dynamics_piece *piece;
     double start, length; /* mesh cycles */
@@ -24,8 +25,9 @@ typedef struct dynamics_stretch {
 
 enum { DYNAMICS_DRIVING, DYNAMICS_BACK, DYNAMICS_FLANKS };
 
-/* A regime in which the equations are smooth. A flank may touch without being pressed: with a
-   clipped damper it then lags behind the teeth, since the damper would have to pull it. */
+/* A regime in which the equations are smooth. A flank may touch without being pressed: a clipped
+   damper does not pull, so the flank carries no force where spring and damper together would
+   pull. */
 typedef struct dynamics_regime {
     int touches[DYNAMICS_FLANKS], pressed[DYNAMICS_FLANKS];
     int band[DYNAMICS_FLANKS]; /* band of the spring (spring.h) */
@@ -44,8 +46,8 @@ typedef struct dynamics_push {
     double force; /* generalised force on q, positive on the driving flank */
     double on[DYNAMICS_COORDINATES];
     dynamics_overlap overlap[DYNAMICS_FLANKS];
-    double normal[DYNAMICS_FLANKS]; /* force of a flank that touches, as if it were pressed; 0 if
-                                       it does not touch */
+    double normal[DYNAMICS_FLANKS]; /* force on a touching flank, computed as if the flank were
+                                       pressed; 0 if the flank does not touch */
 } dynamics_push;
 
 /* Evaluates the mesh force. t is the time since the start of the stretch. */
@@ -95,8 +97,9 @@ void dynamics_field_gates(const dynamics_field *field, double t, const double *y
 /* Changes the regime to the one after the gate that closed. */
 void dynamics_field_pass_gate(dynamics_field *field, int gate);
 /* Computes the derivatives of a gate, at which flanks touch or a tooth pair enters or leaves: with
-   respect to coordinates and rates, and with respect to time at fixed coordinates. The sign for a
-   flank's gate may differ from that of its value above. */
+   respect to coordinates and rates, and with respect to time at fixed coordinates. For a gate
+   at which flanks touch, these are the derivatives of the overlap; the gate's own value may have
+   the opposite sign. */
 double dynamics_field_gate_slope(const dynamics_field *field, int gate, double t, const double *y,
                                  double slope[DYNAMICS_TAKEN]);
 

@@ -50,8 +50,8 @@ enum {
     DYNAMICS_COUPLED_INPUT_COUNT
 };
 
-/* Inputs after those of all models. Models with feedback between motion and film read them, and
- * models with an oil film between separated flanks. */
+/* Inputs that follow those of all models. They are read by models with feedback between motion and
+ * film, and by models with an oil film between separated flanks. */
 enum {
     DYNAMICS_IN_RADIUS_1 = DYNAMICS_INPUT_COUNT,
     DYNAMICS_IN_RADIUS_2,
@@ -110,8 +110,8 @@ typedef struct dynamics_inputs {
     dynamics_fluctuation fluctuation;
     size_t span;           /* mesh cycles after which the excitation repeats; these form one
                               cycle with phases 0 to 1 */
-    double unit_frequency; /* mesh frequency (Hz) at which a mesh cycle takes 2 pi rad
-                              of the natural frequency */
+    double unit_frequency; /* mesh frequency (Hz) at which `span` mesh cycles take as long as one
+                              period of the natural frequency */
     size_t stations;
     const double *roll_angle, *tooth_force, *load_share; /* load_share may be NULL */
     dynamics_mesh_curves curves;

@@ -365,8 +365,8 @@ int dynamics_landing_solve(const dynamics_radau *r, dynamics_landing *step)
     return isfinite(step->delta[S]);
 }
 
-/* Derivatives at the stages with respect to a start value, or to T. T scales the duration of the
-   step by `stretch`. */
+/* Derivatives at the stages with respect to a start value or to T. `stretch` is the derivative of
+   the step's duration: with respect to T it is not 0, with respect to a start value it is 0. */
 typedef struct variation {
     double stretch;
     double rate[S], delta[S]; /* at fixed films */

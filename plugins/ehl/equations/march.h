@@ -56,12 +56,13 @@ typedef struct ehl_march {
     double moved;          /* `moved` at the current instant */
     double last_good_step; /* last step length that rough flanks allowed, s */
     int good_steps;        /* number of such steps since */
-    double exactness;      /* error allowed to the solver and the rounds of heat, relative to the
-                            * usual one */
-    double steps_cut, steps_refused; /* steps_refused: repeated for their truncation error */
+    double exactness;      /* factor on the usual tolerances of the solver and of the iteration
+                            * between film and temperature */
+    double steps_cut, steps_refused; /* steps_refused: steps that were repeated because of
+                                      * their truncation error */
     double pressureless_steps;       /* steps in which the film was carried on without pressure */
     double worst_truncation, worst_truncation_at; /* largest `local`, and its time */
-    double distance, renewed; /* way of the film so far, m; time when it reached 2 a, s */
+    double distance, renewed; /* way of the film, m; time when this way reached 2 a, s */
     int start_unloaded;       /* 1: the history begins without load */
     char why[256];            /* reason of a failure */
 } ehl_march;

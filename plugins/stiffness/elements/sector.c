@@ -100,8 +100,8 @@ static int number_nodes(stiffness_sector *s, const counts *c)
     return 1;
 }
 
-/* Returns the outer end of a column of the body: on the land or lower fillet, or on the chord
- * between the fillets. */
+/* Returns the outer end of a column of the body. Beside the tooth it is on the contour (the root
+ * land or the lower part of a fillet), below the tooth on the chord between the two fillets. */
 static stiffness_point body_end(const stiffness_sector *s, const arc_table *root, size_t column)
 {
     size_t last = s->columns - 1, from = s->tooth_from;

@@ -6,7 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Least number of samples for a mean with its spread, by the number of levels. */
+/* Least number of samples with a word that give a mean and its spread. If one level of the estimate
+ * has fewer, only the first level is used. */
 enum { LEAST = 3 };
 
 size_t study_uncertainty_words(const variate *v, const char *words[UNCERTAINTY_MOST_WORDS])
