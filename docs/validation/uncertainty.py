@@ -59,32 +59,32 @@ GEARS = (
 FEW = 10  # samples by each other model
 INTRODUCTION = """# What limits me, against brute force
 
-The sentence that ends a study of [uncertain inputs](../guide/studies.md#what-limits-me), on three gear pairs, each bar against what it stands for:
+A study of [uncertain inputs](../guide/studies.md#what-limits-me) ends with a sentence. For three gear pairs this page compares each bar in it with brute force:
 
-- *numerical*: all cells, steps, stations and points of the case doubled, and doubled twice (elements of teeth once, four times as many);
-- *model*: the change by each model with the film's cells doubled, and over the first 10 of the plain samples;
+- *numerical*: the change when all cells, steps, stations and points of the case are doubled, and when they are multiplied by 4 (the elements of teeth are multiplied by 4 in both);
+- *model*: the change due to each other model, with the film's cells doubled and as the mean over the first 10 plain samples;
 - *inputs*: plain samples of the whole case, drawn by another seed than the study's. Numbers behind ± are their standard errors.
 
 ```sh
 python3 docs/validation/uncertainty.py build/flankfilm . DIRECTORY SAMPLES > docs/validation/uncertainty.md
 ```
 
-An interrupted run is continued. A numerical bar *holds* if it is not below the change; a model's bar if it agrees with that on the finer cells
-to a tenth of itself or to the numerical bar; a 95 % interval if it overlaps that of the plain samples (of some 25 such lines one or two may miss).
+An interrupted run is continued. A numerical bar *holds* if it is not below the change. The bar of a model holds if it differs from the change on doubled
+cells by at most a tenth of the bar or the numerical bar. A 95 % interval holds if it overlaps that of the plain samples (of some 25 intervals one or two may miss).
 For a share, brute force gives a range from linear regression: T_i >= S_i >= r_i^2, and T_i <= 1 - sum r_k^2 over the other inputs."""
 
 DIFFERS = """
 ## What differs
 
-At 32c6103b (the end of the sentence at ae63269), SAMPLES samples: all lines hold but two, shares of torque and speed of own. Shares are those of the cheap level (`film.use:
-ehl/inlet-analysis` on 30 points of the mesh), which vibrates otherwise than the file's model: the roots of the two may differ by
-sqrt(1 - r^2), 0.08 of pair and 0.26 of own ([theory](../theory.md#15-uncertain-inputs)). The input that the sentence names has the largest share in all three.
+At 32c6103b (the last clause of each sentence: at ae63269), with SAMPLES samples, all lines hold except the shares of torque and speed of `own`. Shares are those of the cheap model (`film.use:
+ehl/inlet-analysis` on 30 points of the mesh), whose vibration differs from that of the file's model. The square roots of the shares of the two models may differ by
+sqrt(1 - r^2), which is 0.08 for `pair` and 0.26 for `own` ([theory](../theory.md#15-uncertain-inputs)). The input that the sentence names has the largest share in all three.
 
-The bar of the inputs is known from the 16 samples of the pilot alone, since the mean needs no more, and is 10 to 11 % too small here, within its
-interval. Of pair and own that interval holds the bar of the model, 9.9 and 9.6 %, and so the sentence does not choose; by SAMPLES samples the
-inputs are the larger, 11.1 and 10 %.
+The bar of the inputs comes from the 16 samples of the pilot alone, since the mean needs no further samples. Here it is 10 to 11 % too small, which is
+within its interval. For `pair` and `own` that interval contains the bar of the model, 9.9 and 9.6 %, so the sentence does not say which is larger. By SAMPLES samples
+the bar of the inputs is larger, 11.1 and 10 %.
 
-Bars of grids are 3 to 9 times what grids doubled twice move: they are bounds."""
+Numerical bars are 3 to 9 times the change on grids doubled twice: they are bounds."""
 
 
 class Gear:

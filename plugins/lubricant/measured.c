@@ -35,7 +35,8 @@ static const ff_param params[] = {
     LUBRICANT_ROWS,
 };
 
-/* Columns of the file; from DENSITY on, in the order of the properties. */
+/* Columns of the file. DENSITY and the columns after it have the order of the properties of a
+   liquid from FF_LIQUID_RHO0 on. */
 enum { TEMPERATURE, VISCOSITY, KINEMATIC, DENSITY };
 
 static const ff_param columns[] = {

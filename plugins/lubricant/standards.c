@@ -10,8 +10,8 @@ static const double CST = 1e-6; /* m2/s */
 
 /* ISO 3448 mid-points at 40 degC, and the viscosity at 100 degC that gives the viscosity index of
    the base oil by ASTM D2270, all in cSt. The indices are typical values, not those of a particular
-   product: 95 for mineral oil, 150 for PAO and ester (esters: 140 to 160), 200 for PAG. An example
-   of a PAG, an ethylene-propylene oxide copolymer, has 204, 62.5 and 22.5 mPa s at 30, 60 and 100
+   product: 95 for mineral oil, 150 for PAO and ester (esters: 140 to 160), 200 for PAG. One PAG, an
+   ethylene-propylene oxide copolymer, has a viscosity of 204, 62.5 and 22.5 mPa s at 30, 60 and 100
    degC (Stachowiak and Batchelor, Engineering Tribology, table 2.3). */
 static const struct {
     double nu_40, mineral, synthetic, glycol;

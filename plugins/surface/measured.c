@@ -14,8 +14,8 @@
 enum { NO_DETREND = -1, MEAN = 0, LINEAR = 1 };
 enum { PERIODIC, MIRROR, FLAT };
 
-/* In spacings. For larger cut-offs, the filter passes half of a wave as long as the cut-off, to
-   within 1e-4. */
+/* The least cut-off, in spacings. From there on, a wave as long as the cut-off passes the filter
+   with half of its amplitude, to within 1e-4. */
 static const double least_cutoff = 5;
 
 typedef struct measured {
@@ -74,7 +74,8 @@ typedef struct flank {
     double *height;
 } flank;
 
-/* Sets `detrend`, which `place` cannot represent, since its words have different meanings. */
+/* Sets `detrend`. The engine cannot store its value by itself (ff_param.place), since the value is
+   a word or an order. */
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
     measured *s = self;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Bode's law: ln(eta/eta0) = p/(A + B p), A = a1 + a2 T, B = b1 + b2 T (T in K), fitted to gear
-   oils by Gold et al. 2001. For a base oil, A and B are those of its ISO VG 100 oil. For another
-   oil of the same base, A is multiplied by the ratio of the pressure coefficients, VG 100 oil over
-   this oil, so that the slope at ambient pressure is right. */
+   oils by Gold et al. 2001. For each base, A and B were measured on one ISO VG 100 oil. For
+   another oil of that base, A is multiplied by the ratio of the pressure coefficients, VG 100 oil
+   over this oil, so that the slope at ambient pressure is right. */
 #include "law.h"
 #include "references.h"
 

@@ -57,7 +57,7 @@ static bool same_source(const ff_source *a, const ff_source *b)
                       !memcmp(a->text, b->text, a->length));
 }
 
-/* Returns the report's copy copy of a temporary source. */
+/* Returns the report's copy of a temporary source. */
 static const ff_source *keep_source(ff_report *report, const ff_source *source)
 {
     for (size_t i = 0; i < report->source_count; i++) {

@@ -8,10 +8,10 @@
 #include <flankfilm/engine.h>
 
 /* Finds the axis of dimension `dim` (length `count`) of a stage. Candidates are the stage's own
- * series, then with a pipeline its inputs: first the one named like the dimension, then the first
- * rising one in rad, in s, then the stage's first rising one; if `named`, only the one named like
- * the dimension. `self` is the series that asks, or NULL. Returns NULL if there is none: the axis
- * is the index. */
+ * series, then with a pipeline its inputs: first the series named like the dimension, then the
+ * first rising series in rad, then in s, then the first rising one of the stage. If `named` is not
+ * NULL, only the series with that name is a candidate. `self` is the series that asks, or NULL.
+ * Returns NULL if there is none: the axis is the index. */
 const ff_result *accuracy_axis(const ff_pipeline *pipeline, const ff_stage *stage, const char *dim,
                                size_t count, const ff_result *self, const char *named);
 

@@ -7,9 +7,9 @@
 
 /*
  * Runs and measures the file, coarse first, and refines the open settings that cause the errors
- * until all goals are met or refinement helps no more. The record holds the answer, which may come
- * from another run; its messages go to the observer and the report. Returns false after an error,
- * or if the observer stopped it.
+ * until all goals are met or refinement helps no more. The record holds the answer and refers to
+ * the run that gave it. The messages of that run go to the observer and the report. Returns false
+ * after an error, or if the observer stopped it.
  */
 bool accuracy_control(accuracy_record *record, const accuracy_scene *scene, ff_report *report);
 

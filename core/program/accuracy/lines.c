@@ -131,8 +131,8 @@ static void drop_estimates(const accuracy_record *record, const ff_pipeline *ans
                 feeds[stage->wires[k].stage] = true;
         for (size_t k = stage->quality_count; k-- > 0;)
             if (estimated(stage, stage->quality[k].name) &&
-                !isinf(stage->quality[k].value)) /* an infinite estimate means a value known only
-                                                    from below, which no twin can tell */
+                !isinf(stage->quality[k].value)) /* an infinite estimate says that the value is a
+                                                    lower bound, which no twin can show */
                 ff_drop_quality(stage, k);
     }
     free(feeds);

@@ -15,7 +15,7 @@ typedef struct accuracy_knob {
     bool open;    /* the file leaves it to the model's preset */
 } accuracy_knob;
 
-/* Factor of a tolerance per level. */
+/* One level coarser multiplies a tolerance by this factor. */
 static const double accuracy_tolerance_factor = 4;
 
 /* Prints the assignment that makes a setting `levels` levels coarser (finer if below 0). NULL if
@@ -24,9 +24,9 @@ const char *accuracy_setting_at(const ff_stage *stage, size_t param, double leve
                                 memory_arena *arena);
 
 /* Lists the settings of the stages that are needed, in the order in which these run. One level
-   halves a count of points, cells or steps. Any other number is a tolerance or a distance of points
-   and is quadrupled, which is one level if the error is of second order. Words such as "auto" are
-   left to the model. */
+   halves a count of points, cells or steps. Any other number is a tolerance or a distance of
+   points. One level multiplies it by 4, since halving a count multiplies an error of second order
+   by 4, too. Words such as "auto" are left to the model. */
 accuracy_knob *accuracy_knobs(const ff_pipeline *pipeline, size_t *count, memory_arena *arena);
 
 /* Prints the assignments of all these settings, "film.cells=362". */

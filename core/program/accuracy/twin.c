@@ -11,7 +11,7 @@
 /* Marks all stages downstream of the marked ones. */
 static void spread(const ff_pipeline *pipeline, bool *marks)
 {
-    for (bool again = true; again;) { /* a loop needs another pass */
+    for (bool again = true; again;) { /* stages wired in a loop need several passes */
         again = false;
         for (size_t i = 0; i < pipeline->count; i++) {
             const ff_stage *stage = &pipeline->stages[i];
@@ -44,7 +44,8 @@ static void copy_results(const ff_stage *from, ff_stage *to)
     to->seconds = from->seconds;
 }
 
-/* True if the donor computed everything needed; a replaced model may want more inputs. */
+/* True if the stage of the donor (twin.h) has computed every output that the twin needs. The twin
+   may have another model that needs more outputs. */
 static bool has_all(const ff_stage *from, const ff_stage *to)
 {
     bool all = from->ran;
@@ -130,7 +131,7 @@ const accuracy_twin *accuracy_twin_run(const accuracy_scene *scene, const char *
     twin->pipeline = run_build(twin->run, false);
     twin->report = ff_run_report(twin->run);
     if (twin->pipeline && !run_has_errors(twin->run)) {
-        spread(twin->pipeline, affected); /* a replaced model may have other wires */
+        spread(twin->pipeline, affected); /* the new model of a stage may have other wires */
         accuracy_want_beside(twin->pipeline, !scene->outputs);
         accuracy_hand_states(like, twin->pipeline);
         if (!scene->outputs)
@@ -159,8 +160,8 @@ static bool is_known(const ff_report *report, const char *text)
     return false;
 }
 
-/* True if the message is a warning about a setting at that place, which the file does not
-   contain. */
+/* True if the message is a warning about an assignment of the program. All such assignments have
+   the same place, since the file does not contain them. */
 static bool is_about(const ff_message *m, ff_place place)
 {
     return m->severity == FF_WARNING && m->place.source == place.source &&
@@ -186,7 +187,7 @@ void accuracy_twin_hand_on(const accuracy_twin *run, ff_place chosen, const ff_o
         const ff_message *m = ff_report_at(run->report, i);
         ff_source source = m->place.source ? *m->place.source : (ff_source){0};
         ff_place place = m->place;
-        source.temporary = true; /* freed with the answer */
+        source.temporary = true; /* the report copies the source, which is freed with the run */
         place.source = place.source ? &source : NULL;
         if (is_known(report, m->text) || is_about(m, chosen))
             continue;

@@ -15,14 +15,14 @@ typedef struct accuracy_twins {
     const ff_report *said; /* messages of the answer; NULL if no setting was chosen */
     ff_place asked;        /* place of the accuracy request in the file; chosen settings have this
                             * place */
-    bool few;              /* find one twin at a time, and none that separates the settings */
-    bool far;              /* if `few`: the first twin is two levels coarser */
-    accuracy_knob *knobs;  /* the settings of all stages on which a measured output depends */
+    bool few; /* find one twin at a time, and none that separates the effects of settings */
+    bool far; /* if `few`: the first twin is two levels coarser */
+    accuracy_knob *knobs; /* the settings of all stages on which a measured output depends */
     size_t count;
     const accuracy_twin *half, *quarter, *twice; /* all settings 1 and 2 levels coarser, and 1 level
                                                     finer; NULL: there is none, or it failed */
-    const accuracy_twin **refined; /* one for each knob, which alone is one level finer than in
-                                      `quarter`; NULL if it was not run */
+    const accuracy_twin **refined; /* one for each knob: this knob is one level finer than in
+                                      `quarter`, the others as there; NULL if it was not run */
     bool checking;                 /* a finer twin checks errors that other twins have measured */
     bool stopped;
 } accuracy_twins;

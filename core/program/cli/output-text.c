@@ -99,7 +99,7 @@ static void print_error(const accuracy_record *errors, const ff_result *result, 
         snprintf(out + length, size - length, " +- ?");
 }
 
-/* Whether the error of an output was measured, or is itself an output. */
+/* False if the result is the error estimate of an output whose error is not known. */
 static bool known_error(const ff_stage *stage, const ff_result *result)
 {
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {

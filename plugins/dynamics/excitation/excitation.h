@@ -5,10 +5,10 @@
  *   s'' + 2 zeta (s' - e') + k g(s - e) = load - drag
  * The unit of length is `length`, the unit of stiffness is the mean mesh stiffness, and the unit of
  * time is 1/omega with omega^2 = mean stiffness / equivalent mass. g is the dead zone of half width
- * `half_gap`. The spring force k g may be replaced by a piecewise linear force (spring.h): if k is
- * the slope of the mesh at the mean load, or if the mesh force is given at several loads. k and e
- * are polynomials between the nodes of a mesh cycle and may jump at the nodes. drag has the same
- * form. It is 0 unless a film is wired back or the torque or speed fluctuates.
+ * `half_gap`. A piecewise linear force (spring.h) replaces the spring force k g if k is the slope
+ * of the mesh force at the mean load, or if the mesh force is given at several loads. k and e are
+ * polynomials between the nodes of a mesh cycle and may jump at the nodes. drag has the same form.
+ * It is 0 unless a film is wired back or the torque or speed fluctuates.
  */
 #ifndef DYNAMICS_EXCITATION_H
 #define DYNAMICS_EXCITATION_H
@@ -63,18 +63,19 @@ typedef struct dynamics_excitation {
                                   * those above */
     double back_room;    /* least amount by which e of the driving flanks exceeds that of the back
                           * flanks */
-    double flight_share; /* share of the error of the back flanks in that of free flight */
+    double flight_share; /* weight of e of the back flanks in e of free flight */
     int both_flanks;     /* whether the model uses separate curves for the back flanks */
     double k_max;        /* the largest k */
     double zeta, load, half_gap;
     int damping;
     int on_chord; /* whether k is replaced by the chord F/(e_l - e) (spring.h) */
     int shared;   /* whether the spring follows the mesh force at all loads (spring.h) */
-    int drags;    /* whether the pieces have a drag, and then all have the full degree: a film is
-                     wired back, or the force fluctuates */
+    int drags;    /* whether the pieces have a drag, because a film is wired back or the force
+                     fluctuates; all pieces then have the full degree */
     double span;  /* mesh cycles in one period of the excitation; 0: one */
-    double length, stiffness, omega; /* units: m, the deflection under the load or what excites the
-                                        motion if that is larger; N/m; rad/s */
+    double length, stiffness, omega; /* units: length, m (the static deflection, or the range of the
+                                        transmission error if that is larger); stiffness, N/m;
+                                        omega, rad/s */
     dynamics_representation represented;
     const struct dynamics_film *film; /* the oil film between separated flanks; NULL: none */
 } dynamics_excitation;

@@ -3,11 +3,12 @@
  * A track is a set of pieces of the mesh cycle that a motion follows. Driving flanks touch at s - e
  * = half_gap. Back flanks touch at s - e = -half_gap, with their own k, e (the negative of their
  * transmission error) and nodes. In free flight, a damper that also acts in the gap uses the e of
- * the driving flanks. If the force presses both flanks in turn, it uses a mean of both, which is
- * the middle of the gap if neither flank prevails. On every track s = delta + e, and s and s' are
- * continuous when the motion changes to another track.
+ * the driving flanks. If the force presses both flanks in turn, the damper uses a weighted mean of
+ * the e of both flanks, which is the middle of the gap if neither flank prevails. On every track s
+ * = delta + e, and s and s' are continuous when the motion changes to another track.
  *
- * Without a track of the back flanks these mirror the driving ones in the middle of the gap.
+ * If the back flanks have no track of their own, they are the mirror image of the driving flanks in
+ * the middle of the gap.
  */
 #ifndef DYNAMICS_TRACKS_H
 #define DYNAMICS_TRACKS_H
@@ -54,8 +55,8 @@ int dynamics_tracks_add_back(dynamics_excitation *x, const dynamics_mesh_curves 
 /* The least transmission error of the back flanks, at the nodes of their track. */
 double dynamics_back_lowest(const dynamics_excitation *x);
 
-/* Adds the track of free flight. Its error contains this share of that of the back flanks; 0.5 is
- * the middle of the gap. Returns 0 if out of memory. */
+/* Adds the track of free flight. Its e is the mean of the e of both flanks, with the weight `share`
+ * for the back flanks; 0.5 is the middle of the gap. Returns 0 if out of memory. */
 int dynamics_tracks_add_flight(dynamics_excitation *x, double share);
 
 #endif

@@ -179,8 +179,8 @@ static void force_and_gap_at(const void *self, double phase, int left, double *f
 }
 
 /* Returns the mean force of back flanks with curves of their own, by the trapezoidal rule. The
-   force of the damper jumps where they meet or separate, so that steps with a change of contact are
-   divided. */
+   force of the damper jumps when these flanks meet or separate, so steps with a change of contact
+   are divided. */
 static double mean_behind(const dynamics_motion *motion)
 {
     enum { PARTS = 64 };
@@ -238,9 +238,10 @@ static int is_repeated(const dynamics_inputs *inputs, size_t i)
     return inputs->roll_angle[i] - inputs->roll_angle[i - 1] < 1e-12 * inputs->pitch;
 }
 
-/* Gives the forces and gaps of the pairs of back flanks. A pair is at the age a, counted along
-   gear 1, at the phase back_offset - a and whole mesh cycles (theory, eq. 4.5c). Where two stations
-   coincide, the second is the earlier one. */
+/* Gives the forces and gaps of the pairs of back flanks. A pair of age a, in mesh cycles along
+   gear 1, is at its station at the phases back_offset - a + n with any integer n (theory,
+   eq. 4.5c). The phase decreases along the stations: the second of two coincident stations is the
+   earlier one. */
 static ff_status put_back_forces(const dynamics_motion *motion, const dynamics_inputs *inputs,
                                  const ff_host *host)
 {
@@ -393,7 +394,7 @@ ff_status dynamics_motion_put_powers(const dynamics_motion *motion,
     const dynamics_excitation *x = motion->excitation;
     double unit =
         x->stiffness * x->length * x->length * x->omega / ((double)motion->cycles * motion->T);
-    /* the drag is then that of the fluctuating torque */
+    /* without a film, the drag is that of the fluctuation */
     const int swings = x->drags && isnan(film->loss);
     const double power[DYNAMICS_POWER_OUTPUT_COUNT] = {
         [DYNAMICS_OUT_DAMPER_LOSS] = unit * (motion->loss - motion->squeeze),

@@ -13,7 +13,7 @@ typedef struct ehl_grid {
     double half_width;    /* m, largest Hertz half-width a */
     double pressure;      /* Pa, largest Hertz pressure */
     double inlet, outlet; /* m, distances of both ends from x = 0 */
-    double drawn;         /* m, length of outlet needed where it draws in oil; 0: it never does */
+    double drawn;         /* m, least outlet for contacts that draw in oil there; 0: none does */
     int fed;              /* 1: the domain begins with the pressure of a longer inlet */
 } ehl_grid;
 

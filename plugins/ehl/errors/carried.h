@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Errors due to the cells that a film accumulates on its way through the contact. */
+/* Errors due to the cells. A film accumulates them on its way through the contact. */
 #ifndef EHL_CARRIED_H
 #define EHL_CARRIED_H
 
@@ -20,8 +20,9 @@ int ehl_carrying_order(const ehl_reynolds *eq);
 typedef struct ehl_carried {
     double *error, time; /* error: relative, at the nodes; time: instant of the errors */
     double *room;        /* workspace of the same length */
-    double part;         /* fraction of a cell by which the oil is ahead of the errors */
-    size_t first, end;   /* nodes of the stretch; upstream of it the error is 0 */
+    double part; /* fraction of a cell that the oil is ahead of the errors, which move by whole
+                    cells */
+    size_t first, end; /* nodes of the stretch; upstream of it the error is 0 */
     int mirrored;
 } ehl_carried;
 

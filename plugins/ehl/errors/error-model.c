@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Estimates the errors of a film by the cells, by the time steps and by the ends of the domain. */
+/* Estimates the errors of a film due to the cells, the time steps and the ends of the domain. */
 #include "../contact/lanes.h"
 #include "../estimates/inlet.h"
 #include "../time/error-transport.h"
@@ -31,13 +31,13 @@ static contact contact_at(const ehl_reynolds *eq, const ehl_instant *at, double 
                      .L = oil->alpha * modulus * sqrt(sqrt(2 * U))};
 }
 
-/* Errors as shares: by the cells and by the time steps. */
+/* Relative errors due to the cells and due to the time steps. */
 typedef struct errors {
     double space, time;
 } errors;
 
 /*
- * Error of a film by the cells, relative, with n of them over the build-up length l:
+ * Relative error of a film due to the cells, with n cells over the build-up length l:
  *   [base + light + (1 - g) (by_L L + by_square L^2 + wide L (l/a)^2)]/n^2 + (1 - g) spike L^2/n
  * or [base + light + (1 - g) by_L L]/n with the first-order wedge.
  * - g goes from 0 to 1 as the film becomes that of a rigid cylinder.
@@ -205,9 +205,10 @@ static double smooth_pressure_error(const ehl_reynolds *eq, const contact *c, do
     return error * part * part;
 }
 
-/* Error of p_max by the cells: how much the spike may exceed p_max. If the outlet has no maximum,
- * the hidden spike is taken as 0.9 of the outlet's pressure, as much as the coarsest cells show of
- * it. */
+/* Error of p_max due to the cells: how much the spike may exceed p_max. If the outlet has no
+ * maximum, the hidden spike is taken as 0.9 of the pressure at the outlet, as the coarsest cells
+ * show it.
+ */
 static ehl_spike spike_at(const ehl_reynolds *eq, const contact *c, const ehl_crest *of)
 {
     const double caution = 1.2; /* the tip may lie between two nodes */
@@ -302,12 +303,13 @@ typedef struct narrow_peak {
     int climbs; /* 1: the peak climbs with each halving of the cells, and has no bound */
 } narrow_peak;
 
-/* Returns how much the pressure may exceed p_max if the film is far from a steady one, for which
- * alone the other bounds hold. A maximum above p_max/2 may be higher by half of its fall within two
- * nodes, which is about twice its fall within one cell. If the film is squeezed, so that it changes
- * by more than three times itself, a maximum upstream of the outlet that falls by more than 4 % is
- * not resolved: under a sudden load on Barus' oil it climbs with each halving of the cells, and has
- * no known limit. A spike of the outlet has a limit (spike_share_cut_off). */
+/* Returns how much the pressure may exceed p_max if the film is far from a steady one; the other
+ * bounds hold only for films that are nearly steady. A maximum above p_max/2 may be higher by half
+ * of its fall within two nodes, which is about twice its fall within one cell. If the film is
+ * squeezed, so that it changes by more than three times itself, a maximum upstream of the outlet
+ * that falls by more than 4 % is not resolved: under a sudden load on Barus' oil it climbs with
+ * each halving of the cells, and has no known limit. A spike of the outlet has a limit
+ * (spike_share_cut_off). */
 static narrow_peak narrow_peak_of(const ehl_march *m, const contact *c, const ehl_crest *of)
 {
     const double steady = 0.3, squeezed = 3, broad = 0.04, *p = of->p;
@@ -360,9 +362,9 @@ static void record_bounds(ehl_results *r, const ehl_march *m, double h_central, 
     }
 }
 
-/* Replaces the bounds of the errors by the cells with the computed errors. The film of a rigid
- * cylinder feels its end move from node to node, which the linear equation of the errors does not
- * show: there the bound stays if it is larger. */
+/* Replaces the bounds of the errors due to the cells with the computed errors. The end of the film
+ * of a rigid cylinder moves from node to node, which the linear equation of the errors does not
+ * show: for such a film the bound stays if it is larger. */
 static void put_transported(ehl_results *r, const ehl_transported *e, const contact *c)
 {
     const double film[] = {r->row[EHL_H_MIN], r->row[EHL_H_CENTRAL]};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Estimates the error of a loss by the time steps, from its series. */
+/* Estimates the error of a loss due to the time steps, from its series. */
 #include "../contact/lanes.h"
 #include "results.h"
 

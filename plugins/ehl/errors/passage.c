@@ -126,8 +126,8 @@ static int joins(const ehl_results *r, const ehl_passage *p, double way)
     return 0;
 }
 
-/* Marches to the last row, and keeps the films of the rows from p->first on that a step ends at. If
- * `at_last` is not NULL it also keeps how the last film changes. */
+/* Marches to the last row, and keeps the films of the rows from p->first on at which a step ends.
+ * If `at_last` is not NULL it also keeps how the last film changes. */
 static ff_status pass(const ehl_results *r, const ehl_march *run, const ehl_passage *p, double way,
                       ehl_grid_level *l, films film, ehl_instant_film *at_last)
 {
@@ -203,8 +203,8 @@ static void take_larger(films all, size_t count, films error)
         }
 }
 
-/* Finds the errors from the films up to the level `finest`. The error that is left on that level
- * follows from the order of the cells. */
+/* Finds the errors from the films up to the level `finest`. The error that remains on that level
+ * follows from the order of convergence. */
 static void find_errors(const ehl_results *r, const ehl_march *m, const ehl_passage *p, films all,
                         int finest, films error)
 {
@@ -232,7 +232,7 @@ static void find_errors(const ehl_results *r, const ehl_march *m, const ehl_pass
     take_larger(all, count, error);
 }
 
-/* Returns how many rows count whose film differs from that of the run. */
+/* Returns the number of rows that count and whose film differs from that of the run. */
 static size_t differing(const ehl_results *r, const ehl_passage *p, ehl_row_counts *counts,
                         int kind, films error)
 {

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Errors by the cells, measured: instants of a run, and the passage of the contact before the first
- * of them, are computed again on the cells of the run, on twice and on four times as many. The
- * errors include those of the inlet, of the way through the contact and of the outlet.
+ * Measures errors due to the cells. Instants of a run, and the passage of the contact before the
+ * first of them, are computed again on the cells of the run, on twice and on four times as many.
+ * The errors include those of the inlet, of the way through the contact and of the outlet.
  */
 #ifndef EHL_PASSAGE_H
 #define EHL_PASSAGE_H
 
 #include "results.h"
 
-/* Columns of a film on more cells: those of EHL_BOUNDS, and what bounds the error of its peak. */
+/* Columns of a film on more cells: those of EHL_BOUNDS, and a bound of the error of its peak. */
 enum { EHL_PEAK_BOUND = EHL_BOUNDS, EHL_PASSED };
 
 typedef struct ehl_passage {
@@ -17,10 +17,10 @@ typedef struct ehl_passage {
     int equal;                 /* the lengths of the steps were given */
     size_t begin, first, last; /* rows of one engagement; errors are found from `first` on */
     double way;                /* m, least distance that the oil moves in a step */
-    /* h_min and h_central of these rows on 1, 2, 4 times the cells, and their errors by the cells,
-       relative, positive where the film is too thick. NaN where the film on the cells of the run
-       is not that of the run within a quarter of the error or of its limit, or, with heat, ten
-       times of these: where it remembers more than a passage. */
+    /* h_min and h_central of these rows on 1, 2, 4 times the cells, and their relative errors due
+       to the cells, positive if the film is too thick. NaN if the film on the cells of the run
+       differs from that of the run by more than a quarter of the larger of the error and its limit
+       (with heat: ten times it), since the film then remembers more than a passage. */
     double (*film)[EHL_PASSED], (*error)[EHL_PASSED];
 } ehl_passage;
 
@@ -36,13 +36,13 @@ void ehl_passage_about(ehl_passage *p, const ehl_results *r, const ehl_march *m,
    since the film of the row has come from a tenth of its half-width upstream. */
 int ehl_outlet_moves(const ehl_passage *p, const ehl_results *r, size_t row);
 
-/* Finds the errors by twice the cells; kind: what the rows are looked at for. FF_OK, or a failure
- * after which there are no errors. */
+/* Finds the errors from films on the cells of the run and on twice as many. `kind` is the output
+ * for which `counts` selects rows. Returns FF_OK, or a failure after which there are no errors. */
 ff_status ehl_passage_errors(const ehl_results *r, const ehl_march *m, ehl_passage *p,
                              ehl_row_counts *counts, int kind);
 
-/* Finds these errors on four times the cells. FF_OK, or a failure after which the earlier errors
- * remain. */
+/* Finds these errors anew with films on four times the cells. Returns FF_OK, or a failure after
+ * which the earlier errors remain. */
 ff_status ehl_passage_refine(const ehl_results *r, const ehl_march *m, ehl_passage *p);
 
 /* Marches to a row from a passage before it, on `times` the cells of the run, and keeps the film of

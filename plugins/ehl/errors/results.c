@@ -57,9 +57,9 @@ int ehl_wants_highest_alone(uint64_t wanted)
     return ehl_wants_p_max(wanted & highest) && !ehl_wants_p_max(wanted & ~highest);
 }
 
-/* Returns the least value of the parabola through the lowest node and its neighbours. Where the
-   parabola falls below half the node's value the minimum is not resolved, and the node's value is
-   returned; so it is with rough flanks. Sets *at to the lowest node. */
+/* Returns the least value of the parabola through the lowest node and its neighbours. With
+   rough flanks, or if the parabola falls below half the value of the lowest node, the minimum is
+   not resolved: returns the value of the node. Sets *at to the lowest node. */
 double ehl_least_film(const ehl_reynolds *eq, size_t *at)
 {
     const double *h = eq->h;

@@ -9,14 +9,14 @@
 #include "carried.h"
 #include "space-error.h"
 
-/* Where an error by the cells comes from: a bound, the transport of errors, or more cells. */
+/* Where an error due to the cells comes from: a bound, the transport of errors, or more cells. */
 enum { EHL_BOUNDED, EHL_TRANSPORTED, EHL_FINER };
 
-/* Columns of the errors by the cells, m and Pa: those of EHL_BOUNDS, and where each one comes from.
- * If that is not EHL_BOUNDED the error of a film has a sign, and is negative if the film is too
- * thin. EHL_NARROW, for p_max: infinite if the cells do not resolve a peak; the remaining error if
- * more cells did; else 0. EHL_TIP, for p_max, Pa: a lower bound of its error if the film is not
- * computed on more cells. */
+/* Columns of the errors due to the cells, m and Pa: those of EHL_BOUNDS, and where each one comes
+ * from. Unless it comes from EHL_BOUNDED, the error of a film has a sign: it is negative if the
+ * film is too thin. EHL_NARROW, for p_max: infinite if the cells do not resolve a peak; the
+ * remaining error if more cells did; else 0. EHL_TIP, for p_max, Pa: a lower bound of its error if
+ * the film is not computed on more cells. */
 enum { EHL_ORIGIN = EHL_BOUNDS, EHL_NARROW = EHL_ORIGIN + EHL_BOUNDS, EHL_TIP, EHL_SPACE };
 
 /* A table of rows of equal width, which grows, since their number is only known at the end. */
@@ -27,8 +27,8 @@ typedef struct ehl_rows {
 
 /* A row whose p_max was computed on more cells. */
 typedef struct ehl_look {
-    size_t row, begin; /* begin: of the passage before it */
-    double tip;        /* Pa, what p_max is without the error of the cells */
+    size_t row, begin; /* begin: first row of the passage before it */
+    double tip;        /* Pa, p_max without the error due to the cells */
 } ehl_look;
 
 enum { EHL_LOOKS = 4 };
@@ -40,7 +40,8 @@ typedef struct ehl_results {
     size_t nodes;
     double boundary_friction;
     double roughness; /* m, combined rms of both flanks; 0: unknown */
-    double cutoff;    /* m, longest waves of it, of statistical flanks; 0: those of the contact */
+    double cutoff;    /* m, longest wavelength of a roughness given by statistics; 0: that of
+                         the contact */
     ehl_rows series, field[EHL_FIELDS]; /* width 0: not wanted */
     double *row;                        /* row of the series that is being filled in */
     double *tau, *ln_eta, *memory;
@@ -53,8 +54,8 @@ typedef struct ehl_results {
     double starvation, worst_starvation; /* share of the film: mean over a passage, its largest */
     int fed; /* the domain begins with the pressure that a longer one has there */
     double outlet_load, worst_outlet; /* share of the load: mean over a passage, its largest */
-    double worst_in_time[2];          /* errors of h_min and h_central by the steps, relative */
-    double least_in_time;             /* m, the lowest that h_min may be with that error */
+    double worst_in_time[2];          /* relative errors of h_min and h_central due to the steps */
+    double least_in_time;             /* m, lowest value of h_min minus that error */
     double worst_peak_in_time,
         highest_in_time; /* p_max: relative; Pa, the highest that it may be */
     /* relative bound of h_min where the film is made: of the last instant (0: none yet); of all */
@@ -63,14 +64,14 @@ typedef struct ehl_results {
     double share;     /* share of the bound of p_max that remains at rows without a look; 1: all */
     ehl_look look[EHL_LOOKS]; /* in the order of their rows */
     size_t looks;
-    double known_error[2];  /* largest recent errors by the cells and by the steps, relative */
+    double known_error[2];  /* largest recent relative errors due to cells and steps */
     int transported;        /* errors of h_min and h_central come from their transport equation */
     int measured[EHL_PEAK]; /* 1: h_min, h_central were measured at some rows */
-    int finest;             /* most cells used for that, over those of the run */
-    size_t narrow;  /* most cells used for narrow peaks, over those of the run; 0: there are none */
-    ehl_rows space; /* what the cells add to h_min, h_central, p_max */
-    double *row_in_space;                /* the row of `space` that is being filled in */
-    double worst_gap_excess, widest_gap; /* while the contact is lost, m */
+    int finest;             /* largest number of cells used for that, divided by that of the run */
+    size_t narrow;          /* the same for narrow peaks; 0: there are none */
+    ehl_rows space;         /* what the cells add to h_min, h_central, p_max */
+    double *row_in_space;   /* the row of `space` that is being filled in */
+    double worst_gap_excess, widest_gap;                    /* while the contact is lost, m */
     double share_sum, ratio_sum, trapped_sum, worst_supply; /* sums over rough, loaded instants */
     double least_gap;                                       /* of statistical flanks, over sigma */
     double yield_sum, deepest_yield, worst_yield; /* the same; deepest_yield: plastic part, m */
@@ -87,35 +88,36 @@ typedef struct ehl_results {
 /* Fills in the losses of the film. */
 void ehl_results_loss(ehl_results *r, const ehl_march *m);
 
-/* Estimates the error by the time steps of rolling and squeeze in power_loss, W/m, the largest of
- * all instants; negative if there is no estimate. */
+/* Estimates the error, W/m, that the time steps cause in the rolling and squeeze parts of
+ * power_loss: the largest of all instants; negative if there is no estimate. */
 double ehl_results_loss_in_time(const ehl_results *r, const ehl_march *m);
 
 /* Estimates the errors of the row that is being filled in; h_min is at `node`. */
 void ehl_results_errors(ehl_results *r, const ehl_march *m, size_t node, double h_central,
                         double p_max);
 
-/* Errors of h_min and h_central of the newest film by the cells and by the steps, from their
- * transport equation: bars in m, negative if the film is too thin. */
+/* Errors of h_min and h_central of the newest film due to the cells and due to the steps, from the
+ * transport equation of the errors: bars in m, negative if the film is too thin. */
 typedef struct ehl_transported {
     double by_cells[EHL_PEAK], by_steps[EHL_PEAK];
 } ehl_transported;
 
 ehl_transported ehl_results_transported(ehl_results *r, const ehl_march *m);
 
-/* Returns a bound of the error of p_max by the cells in the newest film of the march, Pa; infinite
- * if the cells do not resolve its peak. The reynolds must have the gap of that film. */
+/* Returns a bound of the error of p_max due to the cells in the newest film of the march, Pa;
+ * infinite if the cells do not resolve its peak. The reynolds must have the gap of that film. */
 double ehl_peak_bound(const ehl_march *m);
 
 /* Keeps the newest film of the march; f->change has room for its nodes. */
 void ehl_space_keep(const ehl_march *m, ehl_instant_film *f);
 
-/* Measures the errors whose bounds are above their limits; those of a film unless it is the only
-   one. `whole` has all engagements; equal: the lengths of the steps were given. */
+/* Measures the errors whose bounds are above their limits. Errors of h_min and h_central are
+   measured only if the run has several films. `whole` has all engagements; equal: the lengths of
+   the steps were given. */
 ff_status ehl_results_measure(ehl_results *r, const ehl_march *m, const ehl_history *whole,
                               int equal);
 
-/* Returns the error by the cells of h_min, h_central or p_max of a row, m or Pa. */
+/* Returns the error of h_min, h_central or p_max of a row due to the cells, m or Pa. */
 double ehl_space_part(const ehl_results *r, size_t row, int kind);
 
 /* 1: only the extreme of h_min, or of p_max, over all instants is wanted. */
@@ -123,18 +125,19 @@ int ehl_wants_lowest_alone(uint64_t wanted);
 int ehl_wants_highest_alone(uint64_t wanted);
 
 /* Whether an output is wanted that depends on h_min, h_central or p_max. A friction depends on the
- * central film, and on the pressure as the viscosity does. */
+ * central film and, through the viscosity, on the pressure. */
 int ehl_wants_h_min(uint64_t wanted);
 int ehl_wants_h_central(uint64_t wanted);
 int ehl_wants_p_max(uint64_t wanted);
-int ehl_wants_p_max_itself(uint64_t wanted); /* not its distribution, nor a friction alone */
+int ehl_wants_p_max_itself(uint64_t wanted); /* p_max itself, not only friction or the
+                                                pressure distribution */
 
-/* Return the least film, by a parabola, with its node in *at, and the film at x = 0, of the gap
- * that r has. */
+/* The first function returns the least film of the gap of r, by a parabola, and sets *at to its
+ * node. The second function returns the film at x = 0. */
 double ehl_least_film(const ehl_reynolds *r, size_t *at);
 double ehl_central_film(const ehl_grid *g, const ehl_reynolds *r);
 
-/* Returns 1 if an error of a film by the cells is estimated. */
+/* Returns 1 if an error of a film due to the cells is estimated. */
 int ehl_results_estimate_cells(const ehl_results *r);
 /* Writes the quality lines of these errors. */
 void ehl_results_report_cells(const ehl_results *r, const ehl_march *m);

@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* film_of returns h_min, h_central or p_max of a row. part_of returns its error by the cells, m or
- * Pa: a bound, or the measured error, which is negative where the film is too thin. */
+/* film_of returns h_min, h_central or p_max of a row. part_of returns its error due to the cells, m
+ * or Pa: a bound, or the measured error, which is negative where the film is too thin. */
 static double film_of(const ehl_results *r, size_t row, int kind)
 {
     static const uint32_t of[] = {EHL_H_MIN, EHL_H_CENTRAL, EHL_P_MAX};
@@ -105,9 +105,9 @@ double ehl_space_part(const ehl_results *r, size_t row, int kind)
     return !(value > 0) ? 0 : (led || leads) && !none ? share * value : (double)INFINITY;
 }
 
-/* Returns what a row contributes to the error of the output by the cells: its own relative error,
- * or, if only the extreme of all rows is wanted, how much it may exceed that extreme. Infinite: not
- * known. A peak without a bound contributes 0. */
+/* Returns what a row contributes to the error of the output due to the cells: its own relative
+ * error, or, if only the extreme of all rows is wanted, how much it may exceed that extreme.
+ * Infinite: not known. A peak without a bound contributes 0. */
 static double error_of_row(const ehl_results *r, size_t row, int kind)
 {
     double value = film_of(r, row, kind), part = *part_of(r, row, kind), error = 0;
@@ -136,7 +136,7 @@ static size_t worst_row(const ehl_results *r, int kind)
     return worst;
 }
 
-/* Returns the error of an output by the cells, relative. The lowest film of all lies between the
+/* Returns the relative error of an output due to the cells. The lowest film of all lies between the
  * least lower end and the least upper end of the bars of all rows. */
 static double error_of(const ehl_results *r, int kind)
 {
@@ -160,8 +160,8 @@ static int is_low(const ehl_results *r, size_t row, int kind)
     return is_doubtful(r, row, kind) || film_of(r, row, kind) < 1.1 * r->lowest;
 }
 
-/* Returns the largest ratio of a measured error to its bound, at most 1. Small bounds are left out,
- * since they tell nothing of others; 1 if all are small. */
+/* Returns the largest ratio of a measured error to its bound, at most 1. Small bounds are left
+ * out, since their ratio says nothing about larger ones; 1 if all are small. */
 static double largest_share(const ehl_results *r, const ehl_passage *p, int kind)
 {
     double share = 0;
@@ -174,8 +174,8 @@ static double largest_share(const ehl_results *r, const ehl_passage *p, int kind
     return share > 0 ? share : 1;
 }
 
-/* Replaces what is known of the errors by measured errors, and multiplies the bounds of rows that
- * were not measured by the largest ratio found; transported errors stand. A film without load has
+/* Replaces bounds and transported errors by measured errors. At rows that were not measured, bounds
+ * are multiplied by the largest ratio found, and transported errors stay. A film without load has
  * no bound; its error counts only if the lowest film alone is wanted. */
 static void put_errors(ehl_results *r, const ehl_passage *p, int kind)
 {
@@ -207,16 +207,16 @@ static int is_looked_at(const ehl_passage *p, size_t row)
     return row >= p->first && row <= p->last;
 }
 
-/* Whether the row of the lowest film is measured: if its film is too thin by much, or if bounds,
- * which are those of steady films, stand where the outlet moves. */
+/* Whether the row of the lowest film is measured: if its error is large, or if it has a bound
+ * and the outlet moves, since bounds are those of steady films. */
 static int lowest_counts(const ehl_results *r, const ehl_passage *p, size_t row, double enough)
 {
     return is_signed(r, row, EHL_LEAST) ? error_of(r, EHL_LEAST) > enough
                                         : ehl_outlet_moves(p, r, row);
 }
 
-/* Returns the row to measure next; SIZE_MAX: none. It is the worst row if that is not measured yet;
- * else that of the lowest film, if that counts. */
+/* Returns the row to measure next; SIZE_MAX: none. It is the worst row if that row is not measured
+ * yet; else the row of the lowest film if lowest_counts says so. */
 static size_t find_row(const ehl_results *r, const ehl_passage *p, int kind, double enough)
 {
     size_t row = worst_row(r, kind);
@@ -330,7 +330,7 @@ static ff_status look_at_peak(ehl_results *r, const ehl_march *m, ehl_passage *p
         return status;
     if (status != FF_OK)
         error = bound;
-    /* a small bound tells nothing of large ones */
+    /* the ratio at a small bound says nothing about large ones */
     double share = bound > EHL_PEAK_LIMIT / 2 ? error / bound : 0;
     r->share = r->looks > 0 ? fmax(r->share, share) : share;
     keep_look(r, (ehl_look){row, p->begin, (1 + error) * value});
@@ -345,8 +345,9 @@ static size_t highest_row(const ehl_results *r)
     return row;
 }
 
-/* Returns the row to look at; SIZE_MAX: none. First the worst row and that of the highest p_max,
- * from half of the limit on; then rows that may exceed the limit, until one is known to. */
+/* Returns the row to look at; SIZE_MAX: none. First the worst row and the row of the highest p_max,
+ * if the error exceeds half of the limit; then rows whose error may exceed the limit, until one is
+ * known to exceed it. */
 static size_t find_peak(const ehl_results *r)
 {
     size_t worst = worst_row(r, EHL_PEAK), highest = highest_row(r);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Errors of a film by the cells, relative: bounds by what is known of similar films, and the error
- * of the peak at one instant, measured on more cells. passage.h has those of h_min and h_central.
- */
+/* Relative errors of a film due to the cells. Bounds follow from the known errors of similar films.
+ * The error of the pressure peak at one instant is measured on more cells; passage.h measures the
+ * errors of h_min and h_central. */
 #ifndef EHL_SPACE_ERROR_H
 #define EHL_SPACE_ERROR_H
 
@@ -13,8 +13,8 @@
 #define EHL_FILM_LIMIT 0.02
 #define EHL_PEAK_LIMIT 0.1
 
-/* An error of a film by the cells above this is not known, and infinite: neither the factors of the
- * bounds nor the order of the cells holds so far. */
+/* A larger error due to the cells is taken as infinite, that is, not known: on cells so coarse,
+ * neither the factors of the bounds nor the order of convergence holds. */
 #define EHL_KNOWN_ERROR 0.5
 
 static inline double ehl_known_error(double error)
@@ -58,12 +58,13 @@ typedef struct ehl_instant_film {
 int ehl_is_like(const ehl_instant_film *f, double h_central, double p_max);
 
 /* Solves the contact of an instant, whose load is > 0, on 1, 2, 4, 8, 16 times the cells of `s`,
- * until it is known whether the error of the peak exceeds `enough` > 0. If there is no such film on
- * 8 or 16 times the cells, the films before decide. Gives the relative error of run->p_max; *finest
- * is the most cells used, over those of `s`. On more cells than those of `run` the mass changes in
- * time as in `fine`, in the frame of the outlet's spike: in a fixed frame a moving spike is a
- * change in time at one place, which the cells have smoothed. FF_OK; FF_NOMEM; FF_NOCONV if there
- * is no such film, or another one than `run`. */
+ * until it is known whether the error of the peak exceeds `enough` > 0. If no film is found on 8 or
+ * 16 times the cells, the films on fewer cells decide. Gives the relative error of run->p_max;
+ * *finest is the largest number of cells used, divided by that of `s`. On more cells than those of
+ * `run`, `fine` gives the rate of change of the mass, in a frame that moves with the spike at the
+ * outlet: in a fixed frame the spike passes each place, and the cells of `run` have smoothed this
+ * change. Returns FF_OK; FF_NOMEM; FF_NOCONV if no film is found, or if the film on the cells of
+ * `s` is not that of `run`. */
 ff_status ehl_peak_error(const ehl_solver *s, const ehl_instant_film *run,
                          const ehl_instant_film *fine, double enough, double *error, int *finest);
 

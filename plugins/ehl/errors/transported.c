@@ -7,8 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-/* A bar is this many times the error, which is that of a linear equation, from tau as far as it is
- * known. */
+/* A bar is this many times the computed error. The equation of the errors is linear, and its source
+ * tau is only approximately known. */
 static const double CAUTION = 1.5;
 
 /* An output whose error crosses 0 is known no better than this share of the largest error of the

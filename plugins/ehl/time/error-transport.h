@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * The error transport equation: what the cells and the time steps have made of a film, at all nodes
- * of all instants, by one linear equation for each cause with the matrix of Newton's method,
- *   J e = -tau - what the errors of the films before it leave in the change in time,
+ * The error transport equation gives the error of a film, at all nodes of all instants, due to the
+ * cells and due to the time steps. Each cause has a linear equation with the matrix of Newton's
+ * method,
+ *   J e = -tau - contribution of the errors of earlier films to the change in time,
  * with tau the residual that the exact film would leave in the discrete equations (Skeel 1986,
  * Numer. Math. 48; Banks et al. 2012, Comput. Methods Appl. Mech. Eng. 213; docs/theory.md, 12.13).
  */
@@ -21,7 +22,7 @@ enum {
     EHL_TRANSPORT_ARRAYS = EHL_CAUSES * EHL_ERROR_ARRAYS + EHL_SHARED_ARRAYS
 };
 
-/* Errors of the newest film by one cause: the computed film minus the exact one. */
+/* Errors of the newest film due to one cause: the computed film minus the exact one. */
 typedef struct ehl_film_error {
     ehl_answer now, before;   /* before: of the film before it */
     double *h;                /* m */
