@@ -10,9 +10,7 @@
 double losses_standard_rise(const losses_mesh *m, double loss, int32_t supply, double relief)
 {
     static const double supplied[] = {1, 1.2, 0.2};
-    const size_t last = m->stations - 1;
-    const double base = (m->radius[0][last] - m->radius[0][0]) / (m->station[last] - m->station[0]);
-    const double bases = base * (1 + m->omega[0] / m->omega[1]);
+    const double bases = losses_base_radius(m) * (1 + m->omega[0] / m->omega[1]);
     const double centres = hypot(bases, m->radius[0][0] + m->radius[1][0]);
     const double density = 1e-3 * fmax(loss, 0) / (1e3 * centres * 1e3 * m->face_width);
     return 7400 * pow(density, 0.72) * supplied[supply] / (1.2 * relief);

@@ -7,6 +7,7 @@
 #include <flankfilm/author.h>
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 /* Longest engagement, in pitches; a limit keeps the sums over its pairs short. */
@@ -126,6 +127,12 @@ void losses_motion_at(const losses_mesh *m, double roll, double radius[2], doubl
     }
 }
 
+double losses_base_radius(const losses_mesh *m)
+{
+    const size_t last = m->stations - 1;
+    return (m->radius[0][last] - m->radius[0][0]) / (m->station[last] - m->station[0]);
+}
+
 /* Reads the roughness: from the surface if it gives an Rq for a flank, otherwise from the gear. Ra
    is Rq sqrt(2/pi), for Gaussian heights. */
 static ff_status read_roughness(const ff_host *host, const ff_array *in, losses_mesh *m)
@@ -177,15 +184,19 @@ static int direction_of(const ff_array *roll)
 /* Reads the losses of the other flanks. */
 static ff_status read_back(const ff_host *host, const ff_array *in, losses_mesh *m)
 {
-    const ff_array *roll = &in[IN_BACK_ROLL_ANGLE];
+    const ff_array *roll = &in[IN_BACK_ROLL_ANGLE], *mean = &in[IN_BACK_LOSS_MEAN];
     ff_status status = FF_OK;
-    if (!roll->data || !in[IN_BACK_LOSS_MEAN].data)
+    if (!roll->data && !mean->data)
         return FF_OK;
     if (m->other)
         return ff_failf(host, FF_INVALID, "back",
                         "these flanks are the ones that the mean load does not press: wire their "
                         "losses to the stage of the flanks that it presses");
-    if (direction_of(roll) >= 0) /* of the exchanged pair, whose driving flanks these are */
+    const int way = direction_of(roll);
+    if (!mean->data || way == 0)
+        return ff_failf(host, FF_INVALID, "back",
+                        "needs the losses of the other flanks: name a losses stage");
+    if (way > 0) /* of the exchanged pair, whose driving flanks these are */
         return ff_failf(
             host, FF_INVALID, "back",
             "is the loss of the same flanks: wire the losses of a film whose contact is "
@@ -235,6 +246,28 @@ ff_status losses_read(const ff_host *host, const ff_array *in, const ff_liquid *
     if (status == FF_OK)
         status = read_back(host, m->exchange.in, m);
     return status == FF_OK ? check_rising(host, IN_STATION, m->stations, m->station) : status;
+}
+
+void losses_report_flanks(const ff_host *host, const losses_mesh *m, double force, bool heated)
+{
+    const double share = 1 - m->torque / losses_base_radius(m) / force, limit = 0.01;
+    char text[240];
+    if (m->other) {
+        snprintf(text, sizeof text,
+                 "roll_angle of the film %s: these losses are of the flanks that the mean load "
+                 "does not press%s",
+                 m->exchange.back ? "falls" : "rises",
+                 heated ? ", and their bulk temperature lacks the heat of the other flanks: give "
+                          "bulk_temperature, as it is there"
+                        : "");
+        host->quality(host->ctx, "other_flank", 1, 0, heated ? FF_DOUBTFUL : FF_GOOD, text);
+    } else if (!m->back[0] && force > 0 && share > limit) {
+        host->quality(
+            host->ctx, "other_flank", share, limit, FF_RANGE,
+            "share of the mean force of these flanks beyond that of the torque: other flanks "
+            "bear, whose losses the means and the efficiency lack (add them as \"back\"), "
+            "or the damper of the motion pulls flanks that are apart (damping: clipped)");
+    }
 }
 
 void losses_close(losses_mesh *m)

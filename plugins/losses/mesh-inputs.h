@@ -45,6 +45,14 @@ void losses_close(losses_mesh *m);
    the roll angle. */
 void losses_motion_at(const losses_mesh *m, double roll, double radius[2], double speed[2]);
 
+/* Returns the base radius of the driving gear, m. */
+double losses_base_radius(const losses_mesh *m);
+
+/* Reports which flanks these are if the mean load does not press them, and what these losses lack
+   of the others. `force` is the mean mesh force of the film, N; `heated`: the bulk temperature
+   follows from the loss. */
+void losses_report_flanks(const ff_host *host, const losses_mesh *m, double force, bool heated);
+
 /* Returns the steps of engagement k with their loss. */
 losses_engagement losses_engagement_at(const losses_mesh *m, size_t k);
 

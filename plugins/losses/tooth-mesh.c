@@ -311,6 +311,9 @@ static void report(const tooth_mesh *s, const losses_mesh *m, const scatter *of,
         host->quality(host->ctx, "loss_share", 1 - efficiency, most_loss,
                       fabs(1 - efficiency) <= most_loss ? FF_GOOD : FF_RANGE,
                       "power loss over input power");
+    losses_report_flanks(host, m, m->face_width * mean_of(m, m->load),
+                         !(s->bulk_temperature > 0) &&
+                             (s->bulk_rule == LOSSES_STANDARD || s->thermal_conductance > 0));
     report_parts(s, m);
     report_engagements(s, m, of);
 }

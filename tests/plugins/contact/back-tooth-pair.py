@@ -36,7 +36,7 @@ def check(what, found, expected, limit):
     report(off <= limit, f"{what}: off by {off:.2g}, at most {limit:g}")
 
 
-def run(gears, duty, outputs, motion="shooting, damping_ratio: 0.15, damping: contact", film="film-formula", losses="ehl: film", mesh="load-distribution, compliance: analytical, points: 1500"):
+def run(gears, duty, outputs, motion="shooting, damping_ratio: 0.15, damping: contact", film="film-formula", losses="ehl: film", back="ehl: back_film", mesh="load-distribution, compliance: analytical, points: 1500"):
     text = f"""format: 2
 include: [{source}/configs/lubricants/mil-l-23699.yaml]
 pipeline:
@@ -49,7 +49,7 @@ pipeline:
   losses: {{use: losses/tooth-mesh, {losses}}}
   back_tooth: {{use: contact/back-tooth-pair, load: motion, load_ramp: 0 deg}}
   back_film: {{use: ehl/{film}, contact: back_tooth}}
-  back_losses: {{use: losses/tooth-mesh, ehl: back_film}}
+  back_losses: {{use: losses/tooth-mesh, {back}}}
 outputs: [{', '.join(outputs)}]
 """
     with tempfile.NamedTemporaryFile("w", suffix=".yaml") as file:
@@ -117,6 +117,15 @@ def sums():
     for stage in "tooth", "back_tooth":
         line = found["lines"][stage, "mesh_load"]
         report(line["verdict"] == "good" and "that of the motion" in line["text"], f"{stage}: the line mesh_load, {line['value']:.2g}")
+    back = found["motion.back_force_mean"]
+    said, there = (r["lines"].get(("losses", "other_flank")) for r in (alone, found))
+    report(said is not None and said["of"] == "range" and said["verdict"] == "doubtful" and '(add them as "back")' in said["text"] and there is None, "losses without back, and only these, say what they lack")
+    if said:
+        check("the share of the force that the other flanks balance", said["value"], back / (back + found["duty.line_force"]), 0.01)
+    for rule, verdict in (("", "good"), (", bulk_temperature: 110 degC", "good"), (", bulk_rule: standard", "doubtful"), (", thermal_conductance: 20 W/K", "doubtful")):
+        line = run(FIRST, duty, names[:2], back="ehl: back_film" + rule)["lines"].get(("back_losses", "other_flank"), {"verdict": "no line", "text": ""})
+        report(line["verdict"] == verdict and "does not press" in line["text"] and ("give bulk_temperature" in line["text"]) == (verdict != "good"),
+               f"of which flanks the losses are, {rule[2:] or 'teeth as warm as the oil'}: {line['verdict']}")
     for name in parts:
         check(f"{name} of both flanks", found[name], alone[name] + alone["back_" + name], 1e-11)
         report(found["back_" + name] == alone["back_" + name], f"back_{name} stays that of its flanks")
@@ -143,6 +152,7 @@ def unloaded():
         off = max(abs(h / g - 1) for h, g in zip(found["back_film.h_min"], found["back_tooth.gap"]))
         report(off < 1e-5 and min(found["back_film.h_min"]) > 50e-6, f"their film is the gap, off by {off:.2g}")
         report(all(found[name] == alone[name] for name in names), "and the losses of the others stay as they are, to the bit")
+        report(("losses", "other_flank") not in alone["lines"], "which lack nothing")
     found = run(FIRST, "torque: 0 N m, mesh_frequency: 1300 Hz", names)
     report(all(found[name] == 0 for name in both(["tooth.mesh_load_mean", "losses.power_loss_mean"])), "gears that float have no force and no loss on either flank")
 
@@ -158,6 +168,8 @@ def refusals():
             ("the loaded error", "does not offer", run(FIRST, duty, forces, "quasi-static")),
             ("the efficiency of back flanks", "does not press these flanks", run(FIRST, duty, ["back_losses.efficiency"])),
             ("the same flanks twice", "the loss of the same flanks", run(FIRST, duty, ["losses.power_loss_mean"], losses="ehl: film, back: again}\n  again: {use: losses/tooth-mesh, ehl: film")),
+            ("a film for its losses", "name a losses stage", run(FIRST, duty, ["losses.power_loss_mean"], losses="ehl: film, back: back_film")),
+            ("the tooth of the same flanks", "name a losses stage", run(FIRST, duty, ["losses.power_loss_mean"], losses="ehl: film, back: tooth")),
             ("back flanks of back flanks", "wire their losses", run(FIRST, duty, ["losses.power_loss_mean"], losses="ehl: back_film, back: again}\n  again: {use: losses/tooth-mesh, ehl: film"))):
         report(isinstance(text, str) and hint in text, f"{what}: {text if isinstance(text, str) else 'taken'}")
 

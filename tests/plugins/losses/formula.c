@@ -27,7 +27,9 @@ static void fill(double friction, double slope)
     const double *station = stage_get(m.gear, "roll_angle", &n);
     const double *radius[2] = {stage_get(m.gear, "radius_1", NULL),
                                stage_get(m.gear, "radius_2", NULL)};
-    const double omega = stage_scalar(m.duty, "speed"), load = 3e5;
+    const double omega = stage_scalar(m.duty, "speed");
+    const double load = stage_scalar(m.duty, "line_force") / stage_scalar(m.gear, "face_width") /
+                        stage_scalar(m.gear, "contact_ratio");
     const double first = station[0], last = station[n - 1];
     const double base = (radius[0][n - 1] - radius[0][0]) / (last - first);
     const double line = radius[0][0] + radius[1][0], pitch = 16. / 40 * line / base;
