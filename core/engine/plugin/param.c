@@ -4,8 +4,8 @@
 
 #include "../value/limits.h"
 #include "../value/memory.h"
-#include "../value/near-file.h"
 #include "../value/report.h"
+#include "../value/similar-file.h"
 #include "../value/tree.h"
 #include "../value/unit.h"
 

@@ -7,8 +7,8 @@
 #include <unistd.h>
 
 #include "home.h"
-#include "near-file.h"
 #include "node.h"
+#include "similar-file.h"
 #include "tree.h"
 
 /* The state of reading one file. */

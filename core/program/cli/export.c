@@ -4,9 +4,9 @@
 #include "command.h"
 
 #include "../report/report.h"
+#include "../results/derived-files.h"
 #include "../results/export-csv.h"
 #include "../results/json.h"
-#include "../results/made.h"
 #include "../results/target.h"
 #include "../results/view.h"
 #include "../study/kinds/kinds.h"

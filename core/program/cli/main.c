@@ -2,8 +2,8 @@
 /* flankfilm: how the vibration of a spur gear pair changes the oil film between its teeth. */
 #include "command.h"
 
+#include "../crash/alloc-watch.h"
 #include "../crash/crash.h"
-#include "../crash/hunger.h"
 #include "../crash/lead.h"
 #include "../memory/memory.h"
 #include "../results/json.h"

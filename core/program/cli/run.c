@@ -5,7 +5,7 @@
 #include "command.h"
 #include "progress.h"
 #include "summary.h"
-#include "swap.h"
+#include "swap-report.h"
 
 #include "../accuracy/accuracy.h"
 #include "../accuracy/axis.h"
@@ -14,7 +14,7 @@
 #include "../limits/accept.h"
 #include "../limits/limits.h"
 #include "../memory/memory.h"
-#include "../results/earlier.h"
+#include "../results/previous-results.h"
 #include "../results/write.h"
 #include "../run/run.h"
 

@@ -5,8 +5,8 @@
 #include "spectrum.h"
 
 #include "../memory/memory.h"
+#include "../results/derived-files.h"
 #include "../results/json.h"
-#include "../results/made.h"
 #include "../results/write.h"
 #include "../study/cases/case.h"
 #include "../study/cases/rows.h"

@@ -322,8 +322,8 @@ void results_write_run_json(const results_outcome *outcome, FILE *stream)
 {
     const ff_pipeline *pipeline = outcome->pipeline;
     json_t *all = json_pack("{s:i, s:o}", "format", RESULTS_FORMAT, "key",
-                            results_json_key(outcome->input->key)); /* earlier.c reads only this
-                                                                     * part */
+                            results_json_key(outcome->input->key)); /* previous-results.c reads only
+                                                                     * this part */
     json_t *head = describe_head(outcome);
     json_object_update(all, head);
     json_decref(head);

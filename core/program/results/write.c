@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "write.h"
-#include "made.h"
+#include "derived-files.h"
 
 bool results_write_run(const results_outcome *outcome, const char *directory,
                        results_folder *folder, char **removed)

@@ -6,8 +6,8 @@
 #include "../accuracy/accuracy.h"
 #include "../limits/limits.h"
 #include "../study/kinds/kinds.h"
-#include "earlier.h"
 #include "folder.h"
+#include "previous-results.h"
 
 #include <jansson.h>
 

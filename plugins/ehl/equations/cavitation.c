@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cavitation.h"
 
-#include "../contact/lanes.h"
+#include "../contact/simd-reductions.h"
 
 #include <flankfilm/simd.h>
 

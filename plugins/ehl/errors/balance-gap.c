@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Checks the gap of a film against the shape of its flanks and the deflection by its pressure. */
-#include "../contact/lanes.h"
-#include "../contact/traces.h"
+#include "../contact/roughness-check.h"
+#include "../contact/simd-reductions.h"
 #include "balance.h"
 
 #include <math.h>

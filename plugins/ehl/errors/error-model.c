@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Estimates the errors of a film due to the cells, the time steps and the ends of the domain. */
-#include "../contact/lanes.h"
+#include "../contact/simd-reductions.h"
 #include "../estimates/inlet.h"
 #include "../time/error-transport.h"
 #include "results.h"

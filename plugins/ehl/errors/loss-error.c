@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Estimates the error of a loss due to the time steps, from its series. */
-#include "../contact/lanes.h"
+#include "../contact/simd-reductions.h"
 #include "results.h"
 
 #include <math.h>

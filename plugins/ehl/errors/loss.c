@@ -2,7 +2,7 @@
 /* Losses of the film. */
 #include "results.h"
 
-#include "../contact/lanes.h"
+#include "../contact/simd-reductions.h"
 #include "../heat/thermal.h"
 
 #include <math.h>

@@ -3,7 +3,7 @@
 #ifndef EHL_NARROW_H
 #define EHL_NARROW_H
 
-#include "passage.h"
+#include "passage-refinement.h"
 
 /* Marches to narrow peaks again on 4 and 16 times the cells, and replaces p_max by the result: with
  * an error if these cells resolve the peak, else as a lower bound of p_max. */

@@ -5,8 +5,8 @@
 
 #include "../contact/history.h"
 #include "../contact/ports.h"
+#include "advected-error.h"
 #include "balance.h"
-#include "carried.h"
 #include "space-error.h"
 
 /* Where an error due to the cells comes from: a bound, the transport of errors, or more cells. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Relative errors of a film due to the cells. Bounds follow from the known errors of similar films.
- * The error of the pressure peak at one instant is measured on more cells; passage.h measures the
- * errors of h_min and h_central. */
+ * The error of the pressure peak at one instant is measured on more cells; passage-refinement.h
+ * measures the errors of h_min and h_central. */
 #ifndef EHL_SPACE_ERROR_H
 #define EHL_SPACE_ERROR_H
 

@@ -4,7 +4,7 @@
 #include "time-error.h"
 
 #include "../contact/grid.h"
-#include "../contact/lanes.h"
+#include "../contact/simd-reductions.h"
 
 #include <flankfilm/simd.h>
 

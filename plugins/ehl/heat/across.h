@@ -4,7 +4,7 @@
 #ifndef EHL_ACROSS_H
 #define EHL_ACROSS_H
 
-#include "../contact/lanes.h"
+#include "../contact/simd-reductions.h"
 
 #include <stddef.h>
 

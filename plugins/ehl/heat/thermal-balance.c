@@ -2,7 +2,7 @@
 /* Checks the heat balance of a film, and writes the quality lines of its temperatures. */
 #include "thermal.h"
 
-#include "../contact/lanes.h"
+#include "../contact/simd-reductions.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "band.h"
 
-#include "../contact/lanes.h"
+#include "../contact/simd-reductions.h"
 #include "../equations/reynolds.h"
 
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "gmres.h"
 
-#include "../contact/lanes.h"
+#include "../contact/simd-reductions.h"
 #include "../equations/asperities.h"
 #include "../equations/cavitation.h"
 

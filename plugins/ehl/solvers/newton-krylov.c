@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Newton's method for one instant. Cavitation, contact and yield are primal-dual active sets
    (Hintermueller, Ito & Kunisch 2002). gmres.h solves the linear systems. */
-#include "../contact/lanes.h"
+#include "../contact/simd-reductions.h"
 #include "../equations/asperities.h"
 #include "../equations/cavitation.h"
 #include "../equations/solver.h"

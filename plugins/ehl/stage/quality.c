@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Compares the outputs of each instant with the same quantities computed from its fields, and
    writes the quality record of a run. */
-#include "../contact/lanes.h"
+#include "../contact/simd-reductions.h"
 #include "../contact/surface.h"
 #include "../errors/balance.h"
 #include "../errors/time-error.h"

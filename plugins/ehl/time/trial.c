@@ -3,7 +3,7 @@
    newest state. */
 #include "trial.h"
 
-#include "../contact/lanes.h"
+#include "../contact/simd-reductions.h"
 #include "../equations/advection.h"
 #include "../equations/asperities.h"
 #include "../heat/heat.h"

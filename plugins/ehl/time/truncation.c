@@ -3,7 +3,7 @@
    contact. */
 #include "truncation.h"
 
-#include "../contact/lanes.h"
+#include "../contact/simd-reductions.h"
 
 #include <math.h>
 #include <string.h>

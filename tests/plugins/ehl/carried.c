@@ -3,7 +3,7 @@
    cell of that way. */
 #include "check.h"
 
-#include "../../../plugins/ehl/errors/carried.h"
+#include "../../../plugins/ehl/errors/advected-error.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,7 +3,7 @@
    waves that the cells do not resolve are taken off. */
 #include "check.h"
 
-#include "../../../plugins/ehl/contact/traces.h"
+#include "../../../plugins/ehl/contact/roughness-check.h"
 
 #include <flankfilm/plugin.h>
 

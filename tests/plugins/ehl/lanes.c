@@ -3,7 +3,7 @@
    which is no number has no least one. */
 #include "check.h"
 
-#include "../../../plugins/ehl/contact/lanes.h"
+#include "../../../plugins/ehl/contact/simd-reductions.h"
 
 #include <math.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Reads the map under `study:` into axes with their points. */
-#include "listed.h"
+#include "inline-cases.h"
 #include "rows.h"
 #include "spectrum.h"
 #include "yaml.h"

@@ -104,7 +104,7 @@ const char *study_case_assignment(const study_definition *study, size_t index,
 /* Returns whether an assignment includes a file. */
 bool study_names_file(const char *assignment);
 
-/* setup.c */
+/* stage-description.c */
 /* Returns {stage: {parameter: value}} for all stages if `seen` lacks one of their models, otherwise
    {}. */
 json_t *study_case_parameters(const study_case *c, json_t *seen);

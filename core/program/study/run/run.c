@@ -2,7 +2,7 @@
 /* Runs a study: distributes cases and writes their answers to the journal. */
 #include "run.h"
 
-#include "known.h"
+#include "finished-cases.h"
 #include "workers.h"
 
 #include "../../crash/lead.h"

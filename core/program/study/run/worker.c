@@ -6,7 +6,7 @@
 #include "workers.h"
 
 #include "../../arrays/log.h"
-#include "../../crash/hunger.h"
+#include "../../crash/alloc-watch.h"
 #include "../../crash/lead.h"
 #include "../../memory/file.h"
 #include "../cases/chain.h"

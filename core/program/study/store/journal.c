@@ -3,8 +3,8 @@
  * with its checksum. */
 #include "journal.h"
 
-#include "form.h"
 #include "hash.h"
+#include "record-schema.h"
 
 #include "../../arrays/log.h"
 #include "../../memory/file.h"

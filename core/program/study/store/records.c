@@ -2,9 +2,9 @@
 /* Indexes the journals of a study, and reads records from them. */
 #include "records.h"
 
-#include "form.h"
 #include "hash.h"
 #include "journal.h"
+#include "record-schema.h"
 
 #include "../../memory/memory.h"
 

@@ -4,8 +4,8 @@
  * space is limited. A timer of CPU time checks repeatedly whether the system has just refused
  * memory.
  */
-#ifndef CRASH_HUNGER_H
-#define CRASH_HUNGER_H
+#ifndef CRASH_ALLOC_WATCH_H
+#define CRASH_ALLOC_WATCH_H
 
 /* From now on, ends the process with a sentence when memory is refused repeatedly. Does nothing if
    the address space is not limited. Child processes must call it themselves. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Writes records without their forms, and restores them from their forms (form.h). */
-#include "form.h"
+/* Writes records without their forms, and restores them from their forms (record-schema.h). */
+#include "record-schema.h"
 
 #include "hash.h"
 

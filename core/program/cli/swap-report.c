@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "swap.h"
+#include "swap-report.h"
 
 #include "../terminal/terminal.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "hunger.h"
+#include "alloc-watch.h"
 
 #include "crash.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Errors due to the cells. A film accumulates them on its way through the contact. */
-#ifndef EHL_CARRIED_H
-#define EHL_CARRIED_H
+#ifndef EHL_ADVECTED_ERROR_H
+#define EHL_ADVECTED_ERROR_H
 
 #include "../equations/march.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "earlier.h"
+#include "previous-results.h"
 #include "json.h"
 
 #include "../accuracy/models.h"

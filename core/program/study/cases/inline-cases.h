@@ -6,8 +6,8 @@
  *       - {time: 60 %, duty.torque: 150 N m} If a row does not contain a path, the path keeps the
  * value of the file.
  */
-#ifndef STUDY_LISTED_H
-#define STUDY_LISTED_H
+#ifndef STUDY_INLINE_CASES_H
+#define STUDY_INLINE_CASES_H
 
 #include "study.h"
 

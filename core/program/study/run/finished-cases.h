@@ -2,8 +2,8 @@
 /* Finds the cases of a large study that an earlier run has finished. Building a case calls its
    plugins, so this is done in a separate process. If a case crashes that process, later cases are
    not found here; a worker then finds them. */
-#ifndef STUDY_KNOWN_H
-#define STUDY_KNOWN_H
+#ifndef STUDY_FINISHED_CASES_H
+#define STUDY_FINISHED_CASES_H
 
 #include "../cases/walk.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "listed.h"
+#include "inline-cases.h"
 
 #include "spectrum.h"
 #include "yaml.h"

@@ -2,8 +2,8 @@
 /* Files derived from the results in a directory, such as the page. ".flankfilm-made" lists them, so
  * that they are removed together with the results. A file that the user has changed since is kept.
  */
-#ifndef RESULTS_MADE_H
-#define RESULTS_MADE_H
+#ifndef RESULTS_DERIVED_FILES_H
+#define RESULTS_DERIVED_FILES_H
 
 /* Records that the existing file `written` will be renamed to `path`, if that is in the directory.
  */

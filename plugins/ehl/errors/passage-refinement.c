@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "passage.h"
+#include "passage-refinement.h"
 
 #include "../solvers/grid-level.h"
 #include "../time/start.h"

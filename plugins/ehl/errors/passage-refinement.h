@@ -4,8 +4,8 @@
  * first of them, are computed again on the cells of the run, on twice and on four times as many.
  * The errors include those of the inlet, of the way through the contact and of the outlet.
  */
-#ifndef EHL_PASSAGE_H
-#define EHL_PASSAGE_H
+#ifndef EHL_PASSAGE_REFINEMENT_H
+#define EHL_PASSAGE_REFINEMENT_H
 
 #include "results.h"
 

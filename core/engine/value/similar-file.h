@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Suggests a file name to replace a wrong one. */
-#ifndef FE_NEAR_FILE_H
-#define FE_NEAR_FILE_H
+#ifndef FE_SIMILAR_FILE_H
+#define FE_SIMILAR_FILE_H
 
 /* For a path that does not exist, returns 'did you mean "x"?', where x has the nearest name in the
    same directory. NULL: none is near. The caller frees it. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Finds the finished cases of a large study in a separate process. */
-#include "known.h"
+#include "finished-cases.h"
 
 #include "workers.h"
 

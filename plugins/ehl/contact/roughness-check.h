@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A second, independent computation of the heights of rough flanks, for the balances
    (balance.h). */
-#ifndef EHL_TRACES_H
-#define EHL_TRACES_H
+#ifndef EHL_ROUGHNESS_CHECK_H
+#define EHL_ROUGHNESS_CHECK_H
 
 #include "surface.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "near-file.h"
+#include "similar-file.h"
 
 #include "memory.h"
 

@@ -5,8 +5,8 @@
    256th after it, also contains the form itself:
    {"case":1,"key":"...","status":"ok","form":"HASH","is":{...},"values":[...],"sum":"..."} The
    members "log" and "parameters" are stored next to the form. */
-#ifndef STUDY_FORM_H
-#define STUDY_FORM_H
+#ifndef STUDY_RECORD_SCHEMA_H
+#define STUDY_RECORD_SCHEMA_H
 
 #include <jansson.h>
 #include <stddef.h>

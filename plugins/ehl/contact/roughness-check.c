@@ -2,7 +2,7 @@
 /* The solver computes heights as differences of the integral of the height, and the travel of a
    flank from sums over the rows of the history (surface.c). Here the samples in a cell are added
    one by one, and the travel is summed from the first row on. */
-#include "traces.h"
+#include "roughness-check.h"
 
 #include <math.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What changes when the command line swaps a model: "viscosity.use=viscosity/barus". */
-#ifndef CLI_SWAP_H
-#define CLI_SWAP_H
+#ifndef CLI_SWAP_REPORT_H
+#define CLI_SWAP_REPORT_H
 
 #include "session.h"
 

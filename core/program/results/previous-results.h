@@ -2,8 +2,8 @@
 /* Checks the earlier results in a directory before a run replaces them. Results of the same file
  * may be replaced, and the run prints how their inputs differ. Results of another file are kept
  * unless the user allows to replace them. */
-#ifndef RESULTS_EARLIER_H
-#define RESULTS_EARLIER_H
+#ifndef RESULTS_PREVIOUS_RESULTS_H
+#define RESULTS_PREVIOUS_RESULTS_H
 
 #include <flankfilm/engine.h>
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "made.h"
+#include "derived-files.h"
 #include "folder.h"
 
 #include "../memory/file.h"

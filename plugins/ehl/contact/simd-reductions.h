@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Sums and extremes with four numbers in one SIMD vector. Compilers must keep the order of an array
    and would take its numbers one by one. */
-#ifndef EHL_LANES_H
-#define EHL_LANES_H
+#ifndef EHL_SIMD_REDUCTIONS_H
+#define EHL_SIMD_REDUCTIONS_H
 
 #include <flankfilm/simd.h>
 
