@@ -23,7 +23,7 @@ YAML
 { cat loop.yaml; printf 'study: {sweep: {c.gain: [1, 2, 3, 4, 5, 6]}}\n'; } >shared.yaml
 "$flankfilm" run shared.yaml -j 1 -o shared >shared.out
 grep -q '^6 of 6 cases done' shared.out
-grep -q '^stages: 8 computed .*, 10 taken over' shared.out || { cat shared.out; exit 1; }
+grep -q '^stages: 8 computed .*, 10 reused' shared.out || { cat shared.out; exit 1; }
 
 # other rounds are another case
 "$flankfilm" run shared.yaml -j 1 -o shared --set feedback.rounds=50 >more.out

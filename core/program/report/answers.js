@@ -31,7 +31,7 @@ var answers = (function () {
       cells: of.cells.map(function (cell) { return cell[0]; }),
       reasons: of.cells.map(function (cell) {
         var value = cell[2] === null ? 'not known' : figures.text(cell[2] || 0);
-        return [of.classes[cell[0]].name, cell[1] && cell[1] + ' = ' + value + ', held to ' + figures.text(cell[3]), cell[4], cell[5]]
+        return [of.classes[cell[0]].name, cell[1] && cell[1] + ' = ' + value + ', limit ' + figures.text(cell[3]), cell[4], cell[5]]
           .filter(Boolean).join('; ');
       }),
       edges: of.boundaries.map(function (b) { /* across a cell, where the halvings found it */

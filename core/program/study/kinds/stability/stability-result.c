@@ -187,7 +187,7 @@ static void tell_cells(const study_map *map, size_t slice, study_answer *answer,
 {
     static const study_column why[] = {
         {.of = {"verdict"}, .head = "verdict"}, {.of = {"because"}, .head = "because of"},
-        {.of = {"value"}, .head = "value"},     {.of = {"limit"}, .head = "held to"},
+        {.of = {"value"}, .head = "value"},     {.of = {"limit"}, .head = "limit"},
         {.of = {"text"}, .head = "reason"},     {.of = {"note"}, .head = "note"}};
     const size_t sides = map->axis_count > 1 ? 2 : 1, more = sizeof why / sizeof *why;
     study_column *columns =
