@@ -143,14 +143,33 @@ static const char *load_of(const dynamics_inputs *inputs)
     return inputs->reference == inputs->line_force ? "mean" : "reference";
 }
 
+/* Returns the interpolation error of the force of back flanks with curves of their own, from 0 to
+   `force` (N). */
+static double error_of_back_levels(const dynamics_inputs *inputs, double force)
+{
+    dynamics_inputs back = *inputs;
+    back.levels = inputs->back_levels;
+    return dynamics_level_error(&back, 0, force);
+}
+
+static int reach(const dynamics_force_levels *l, double force)
+{
+    return force <= l->force[l->count - 1];
+}
+
 static void report_levels(const dynamics_inputs *inputs, double least, double largest,
                           const ff_host *host)
 {
     static const double limit = 0.05;
     const dynamics_force_levels *l = &inputs->levels;
     double mean = inputs->reference, error = dynamics_level_error(inputs, least, largest);
-    int known = largest <= l->force[l->count - 1];
+    int known = reach(l, largest);
     char text[400];
+    if (inputs->back_levels.count > 0 && least < 0) {
+        const double back = error_of_back_levels(inputs, -least);
+        error = error < 0 || back < 0 ? -1 : fmax(error, back);
+        known = known && reach(&inputs->back_levels, -least);
+    }
     snprintf(text, sizeof text,
              "change of mesh and tooth forces, over the %s load, if every second of the %zu "
              "forces of the stiffness is left out; the motion reaches %.3g to %.3g times that "
