@@ -106,7 +106,7 @@ static bool give(fe_request *q)
     fe_feed feed = {.from = NULL};
     size_t count = 1;
     if (input < 0 || ff_model_input(model, (size_t)input)->service)
-        return fe_refuse(i, q->name, "it has no input \"%.80s\" for an array", q->name);
+        return fe_refuse(i, q->name, "it has no input \"%.80s\" that takes an array", q->name);
     const ff_dims *dims = &i->stage.loaded->input_dims[input];
     if (!array || !array->data) {
         connect(i, (size_t)input, feed);
@@ -124,7 +124,7 @@ static bool give(fe_request *q)
         }
     }
     if (array->rank && count > PTRDIFF_MAX / sizeof *feed.array.data)
-        return fe_refuse(i, q->name, "the array for \"%s\" has more numbers than there can be",
+        return fe_refuse(i, q->name, "the array for \"%s\" has an impossible number of elements",
                          q->name);
     double *copy = ff_guarded_new(count);
     if (count)

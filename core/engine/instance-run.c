@@ -119,7 +119,7 @@ static bool gather(ff_instance *i, ff_array *in)
         if (!in[k].data)
             in[k] = (ff_array){.data = NULL};
         else if (!fe_rank_fits(dims, in[k].rank))
-            good = fe_refuse(i, row->name, "\"%s\" is fed with %u dimensions; it takes \"%s\"",
+            good = fe_refuse(i, row->name, "\"%s\" is given %u dimensions; it takes \"%s\"",
                              row->name, in[k].rank, row->dims);
         else if (!fe_enter_lengths(&all, loaded->model, row, dims, in[k].rank, in[k].shape, why,
                                    sizeof why))
@@ -198,10 +198,10 @@ static bool refuse_result(fe_request *q)
     ff_instance *i = q->instance;
     int row = find_output(i, q->name);
     return row >= 0 &&
-           fe_refuse(i, q->name, "the output \"%s\" is not there: %s", q->name,
+           fe_refuse(i, q->name, "the output \"%s\" is not available: %s", q->name,
                      !i->stage.ran                   ? why_not(i)
                      : i->stage.results[row].refused ? "the model refused it in the last run"
-                                                     : "the last run was not asked for it");
+                                                     : "the last run did not request it");
 }
 
 /* Explains why a call gives no result. It changes nothing in the instance except its messages. */
@@ -331,7 +331,7 @@ static bool carry(fe_request *q)
         return false;
     if (!state) {
         i->object.status = FF_UNSUPPORTED;
-        return fe_refuse(i, "", "%s hands on no state", from->stage.use);
+        return fe_refuse(i, "", "%s has no state to hand on", from->stage.use);
     }
     fe_free(i->stage.state);
     i->stage.state = state;

@@ -243,7 +243,7 @@ static bool settle(ff_instance *i)
         ff_bound *bound = &i->stage.params[k];
         bool required, given = is_settled(i, k, &required), replaced = is_replaced(i, row);
         if (replaced && i->given[k].size)
-            return fe_refuse(i, row->name, "\"%s\" is given, and by the wire \"%s\", too",
+            return fe_refuse(i, row->name, "\"%s\" is given, and the wire \"%s\" gives it, too",
                              row->name, row->instead);
         if (!given && required)
             return fe_refuse(i, row->name, "\"%s\"%s is missing: %s", row->name,

@@ -29,8 +29,8 @@ static const char *why_not(const ff_run *run, const ff_stage *stage, const ff_re
     if (result && result->refused)
         return "the model does not give it for these inputs";
     if (!result || !result->wanted)
-        return "`outputs` of the file does not ask for it";
-    return stage->status == FF_OK ? "what feeds its stage failed" : "its stage failed";
+        return "`outputs` in the file does not request it";
+    return stage->status == FF_OK ? "a stage that feeds its stage failed" : "its stage failed";
 }
 
 static void refuse_result(fe_run_request *call)

@@ -165,8 +165,9 @@ static bool refuse_many(const ff_node *root, ff_report *report)
     for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++) {
         const ff_node *node = ff_node_get(root, keys[i]);
         if (node && !(node->kind == FF_SCALAR && !*node->text))
-            ff_error(report, FF_FAULT_INPUT, node->place, "flankfilm run FILE does both",
-                     "%s: the library runs one case, whose models are known", keys[i]);
+            ff_error(
+                report, FF_FAULT_INPUT, node->place, "run it with the program: flankfilm run FILE",
+                "%s: the library runs a single case, with models that the file names", keys[i]);
     }
     return ff_report_errors(report) == 0;
 }

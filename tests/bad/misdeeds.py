@@ -334,7 +334,7 @@ if not watched:  # a sanitizer's heap lies elsewhere
     fails_film("past 4000", "inlet-analysis", 3, f"; viscosity: the plugin {FILES['law']} fails flankfilm verify --only guards")
 fails_film("slope 1e30", "finite-volume, cells: 96", 3, "ln_eta does not agree with its slope, which is 1.5e+31 1/GPa at 0.3")
 # a table that is none is its maker's fault, before who calls it runs
-for table, says in {"null": 'gave a table without its function 1 for its service "viscosity"', "short": "gave a table that says to have 8 bytes",
+for table, says in {"null": 'gave a table without its function 1 for its service "viscosity"', "short": "gave a table that claims to have 8 bytes",
                     "wild": "crashed during service: segmentation fault"}.items():
     done = run(f"law table {table}", "run", "case.yaml")
     hold("table", done.returncode == 3 and says in done.stderr and "misdeed.so" in done.stderr and

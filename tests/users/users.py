@@ -139,8 +139,8 @@ def write(lab, text, name='old.yaml'):
 
 OLD = ('format: 1\npipeline:\n  oil: {use: viscosity/barus, eta0: 5 mPa s, alpha: 11 1/GPa, temperature: 80 degC}\n'
        '  rho: {use: density/dowson-higginson, rho0: 870 kg/m3}\n')
-SAID = ('old.yaml:1:9: error: format: expected 2, the only one that this version reads, found "1"\n'
-        '    1 | format: 1\n      |         ^\nhint: lubricants.md of the guide has the table of names, under "From format 1"\n1 error;')
+SAID = ('old.yaml:1:9: error: format: expected 2, the only format that this version reads, found "1"\n'
+        '    1 | format: 1\n      |         ^\nhint: the new names are listed in docs/lubricants.md, "From format 1"\n1 error;')
 BROKEN = ['format: 1\n', 'format: 1\npipeline: 3\n', 'format: 1\npipeline: [a]\n', '{format: 1, pipeline: {oil: {use: [1]}}}\n',
           'format: 1\ninclude: old.yaml\npipeline:\n', 'format: 1\ninclude: [nowhere.yaml]\n', 'format: 1\nstudy: {sweep: {oil: [1]}}\n',
           'format: 1\npipeline:\n  oil: &o {use: viscosity/barus, grade: x}\n  rho: *o\nstudy: 3\n']

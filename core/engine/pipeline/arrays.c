@@ -163,7 +163,7 @@ void fe_drop_untouched(ff_stage *stage)
     }
 }
 
-/* Whether the output may be infinite: an unknown error estimate is. */
+/* Whether the output may be infinite, as an unknown error estimate is. */
 static bool may_be_infinite(const ff_port *row)
 {
     static const char ending[] = "_error";
@@ -191,7 +191,7 @@ static bool is_faulty(const ff_stage *stage, size_t output, fe_lengths *all, cha
         if (isfinite(result->data[k]) || (result->data[k] > 0 && may_be_infinite(result->row)))
             continue;
         snprintf(why, size, "gave %s at index %zu of the output \"%s\"",
-                 isnan(result->data[k]) ? "no number (NaN)" : "an infinite number", k, name);
+                 isnan(result->data[k]) ? "NaN" : "an infinite number", k, name);
         return true;
     }
     return false;

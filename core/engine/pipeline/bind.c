@@ -229,10 +229,9 @@ static void settle_replaced(binding *k, const ff_param *row, const fe_setting *s
     if (setting->node)
         ff_error(k->b->report, FF_FAULT_INPUT, setting->node->place,
                  fe_pipeline_print(k->b->pipeline,
-                                   "leave \"%s\" out, or leave the wire unconnected: %s: none",
+                                   "remove \"%s\", or leave the wire unconnected: %s: none",
                                    row->name, wire->name),
-                 "%s.%s: the stage \"%s\" gives this by the wire \"%s\" (%s), so that it stands "
-                 "in two places",
+                 "%s.%s: the stage \"%s\" gives this value, too, by the wire \"%s\" (%s)",
                  k->stage->name, row->name, from->name, wire->name,
                  fe_place_text(k->b->pipeline, wire->automatic ? from->place : wire->place));
 }
@@ -274,8 +273,8 @@ static void refuse_both(const binding *k, const fe_setting *one, const fe_settin
     ff_error(k->b->report, FF_FAULT_INPUT, last->node->place,
              first->priority == last->priority
                  ? NULL
-                 : fe_pipeline_print(
-                       pipeline, "an empty value takes away what an included file says: %s:", with),
+                 : fe_pipeline_print(pipeline,
+                                     "an empty value removes that of an included file: %s:", with),
              "%s: only one of \"%s\" (%s) and \"%s\" (%s) may be given", k->stage->name, with,
              fe_place_text(pipeline, first->node->place), name,
              fe_place_text(pipeline, last->node->place));

@@ -91,7 +91,7 @@ static meaning meaning_of(ff_status status)
         {FF_STOPPED, FF_FAULT_RUN, "it was stopped"},
         {FF_NOMEM, FF_FAULT_RUN, "it ran out of memory"},
         {FF_INVALID, FF_FAULT_INPUT, "it cannot use a parameter or an input, and gave no reason"},
-        {FF_UNSUPPORTED, FF_FAULT_INPUT, "it does not serve this request, and gave no reason"},
+        {FF_UNSUPPORTED, FF_FAULT_INPUT, "it does not support this request, and gave no reason"},
     };
     for (size_t i = 0; i < sizeof meanings / sizeof meanings[0]; i++)
         if (meanings[i].status == status)
@@ -182,12 +182,12 @@ static bool tell_fault(const fe_call *call, ff_status status, const char *text, 
     const ff_stage *stage = call->stage, *server = server_of(stage, stage->instance->item);
     char what[1400];
     if (status == FF_BUG && server) {
-        snprintf(what, sizeof what, "failed %s (%s), which it serves as %s: %s", stage->name,
-                 stage->use, stage->instance->item, text);
+        snprintf(what, sizeof what, "failed in the service that it gives to %s (%s) as \"%s\": %s",
+                 stage->name, stage->use, stage->instance->item, text);
         return fe_plugin_fault(server, report, what);
     }
     if (status == FF_BUG) {
-        snprintf(what, sizeof what, "found a fault of its own during %s: %s", call->action, text);
+        snprintf(what, sizeof what, "reported an internal error during %s: %s", call->action, text);
         return fe_plugin_fault(stage, report, what);
     }
     snprintf(what, sizeof what, "gave the unknown status %d during %s: %s", status, call->action,
@@ -222,7 +222,7 @@ static bool judge(const fe_call *call, ff_status status, ff_report *report)
     if (status != FF_DOMAIN)
         return ff_error(report, means.fault, place, NULL, "%s%s%s (%s): %s%s%s%s%s%s", stage->name,
                         known ? "." : "", known ? instance->item : "", stage->use, text, words,
-                        server ? "; it is served by " : "", server ? server->name : "",
+                        server ? "; that service is given by " : "", server ? server->name : "",
                         server ? ": the plugin " : "", server ? server->loaded->path : "");
     ff_warn(report, place, "%s: %s", stage->name, text);
     return true;
@@ -235,7 +235,7 @@ static void warn_of_change(const ff_stage *stage, const char *changed, const cha
 {
     char who[1500];
     fe_guard_name(&stage->instance->mark, who, sizeof who);
-    ff_warn(report, stage->use_place, "%s %s during %s; this was set back", who, changed, action);
+    ff_warn(report, stage->use_place, "%s %s during %s; this was undone", who, changed, action);
 }
 
 void fe_check_folder(const ff_pipeline *pipeline, const ff_stage *stage, const char *action,

@@ -138,7 +138,8 @@ static void check_member(fe_build *b, ff_stage *stage)
             given->required = true;
         if (wire->stage >= 0 && ff_model_input(stage->loaded->model, i)->service &&
             b->pipeline->stages[wire->stage].loop == stage->loop)
-            refuse(b, stage, wire->place, "so that no stage of the loop can be its law");
+            refuse(b, stage, wire->place,
+                   "so it cannot use a service of another stage in the loop");
     }
 }
 

@@ -154,7 +154,7 @@ static int32_t host_wanted(void *ctx, uint32_t output)
     fe_instance *instance = ctx;
     if (output < instance->stage->loaded->model->output_count)
         return instance->stage->results[output].wanted;
-    breach(instance, "asked whether output row %u is wanted, which it does not have", output);
+    breach(instance, "asked whether output row %u is wanted, but has no such row", output);
     return 0;
 }
 
@@ -163,7 +163,7 @@ static int32_t host_given(void *ctx, uint32_t param)
     fe_instance *instance = ctx;
     if (param < instance->stage->loaded->model->param_count)
         return instance->stage->params[param].present && instance->stage->params[param].value.given;
-    breach(instance, "asked whether parameter row %u was given, which it does not have", param);
+    breach(instance, "asked whether parameter row %u was given, but has no such row", param);
     return 0;
 }
 
@@ -235,12 +235,13 @@ static void host_serves(void *ctx, const char *item, const char *outputs, const 
     char word[96];
     const char *wrong = unknown_output(model, call.outputs, word, sizeof word);
     if (!has_item(model, call.item))
-        breach(instance, "said what \"%.60s\" serves, which it does not have", call.item);
+        breach(instance, "stated what \"%.60s\" serves, but has no such item", call.item);
     else if (by && !has_item(model, by))
-        breach(instance, "said that \"%.60s\" is replaced by \"%.60s\", which it does not have",
+        breach(instance, "stated that \"%.60s\" is replaced by \"%.60s\", but has no such item",
                call.item, by);
     else if (wrong)
-        breach(instance, "said that \"%.60s\" serves the output \"%.60s\", which it does not have",
+        breach(instance,
+               "stated that \"%.60s\" serves the output \"%.60s\", but has no such output",
                call.item, wrong);
     else
         protect(instance, keep_serving, &call);
@@ -284,14 +285,14 @@ static void host_needs(void *ctx, const char *items, const char *outputs, const 
     char word[96];
     const char *item = unknown_item(model, call.items, word, sizeof word);
     if (item) {
-        breach(instance, "said that it needs \"%.60s\", which it does not have", item);
+        breach(instance, "stated that it needs \"%.60s\", but has no such item", item);
         return;
     }
     const char *output = unknown_output(model, call.outputs, word, sizeof word);
     if (output)
-        breach(instance, "said what the output \"%.60s\" needs, which it does not have", output);
+        breach(instance, "stated what the output \"%.60s\" needs, but has no such output", output);
     else if (instance->need_count == MOST_NEEDS)
-        breach(instance, "said more than %d times what outputs need", MOST_NEEDS);
+        breach(instance, "stated more than %d times what outputs need", MOST_NEEDS);
     else
         protect(instance, keep_need, &call);
 }

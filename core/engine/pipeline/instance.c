@@ -85,9 +85,9 @@ static bool set(ff_stage *stage, ff_report *report)
     return good;
 }
 
-/* Describes what is wrong with a service table, to complete 'the plugin gave ...'; "": nothing. A
-   table of flankfilm's own interfaces begins with its size and `self`, followed by functions and
-   positive numbers. */
+/* Writes what is wrong with a service table, which completes 'the plugin gave ...'; "" if nothing
+   is. A table of flankfilm's own interfaces begins with its size and `self`, followed by functions
+   and positive numbers. */
 static void look_at_table(const void *table, const char *id, char *wrong, size_t wrong_size)
 {
     enum { LARGEST = 4096 };
@@ -99,7 +99,7 @@ static void look_at_table(const void *table, const char *id, char *wrong, size_t
         return;
     memcpy(&size, table, sizeof size);
     if (size < head + sizeof word || size > LARGEST)
-        snprintf(wrong, wrong_size, "a table that says to have %zu bytes", size);
+        snprintf(wrong, wrong_size, "a table that claims to have %zu bytes", size);
     for (size_t at = head; !wrong[0] && at + sizeof word <= size; at += sizeof word) {
         memcpy(&word, (const char *)table + at, sizeof word);
         if (!word)

@@ -78,8 +78,9 @@ static void report_cycle(fe_build *b, const ff_stage *first, ff_place place)
         stage = stage->instance->entering;
     } while (stage != first);
     ff_error(b->report, FF_FAULT_INPUT, place,
-             "each arrow reads \"needs\"; break the circle by another stage on one of the wires",
-             "pipeline: the stages wait for each other: %s%s", text, first->name);
+             "each arrow means \"needs\"; to break the circle, connect one of the wires to another "
+             "stage",
+             "pipeline: the stages need each other: %s%s", text, first->name);
 }
 
 /* Depth-first sort: a stage comes after the stages that feed it. Feedback wires are ignored. */

@@ -13,7 +13,7 @@ static void warn_of_feedback(const fe_build *b, const ff_node *feedback)
         loops = b->pipeline->stages[i].needed && b->pipeline->stages[i].loop;
     if (!loops)
         ff_warn(b->report, feedback->place,
-                "feedback: no stage that runs is in a loop, so that it changes nothing");
+                "feedback: this changes nothing, since no stage that runs is in a loop");
 }
 
 ff_pipeline *fe_pipeline_build(const fe_tree *tree, ff_engine *engine, bool everything,

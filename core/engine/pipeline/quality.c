@@ -113,7 +113,7 @@ static void print_bounds(const bounds *b, char *text, size_t size)
     else if (isinf(b->least))
         snprintf(text, size, "it cannot be above %g", b->most);
     else
-        snprintf(text, size, "it can only be from %g to %g", b->least, b->most);
+        snprintf(text, size, "it must be between %g and %g", b->least, b->most);
 }
 
 void fe_judge_bounds(ff_stage *stage)
@@ -182,7 +182,7 @@ static void add_agreement(ff_stage *stage, const ff_result *own, const pair *oth
     snprintf(name, sizeof name, "%.80s_agreement", own->row->name);
     print_number(own, here, sizeof here);
     print_number(other->result, there, sizeof there);
-    snprintf(text, sizeof text, "%.100s: %s here, %s by %.80s.%.80s; how far they lie apart, in %s",
+    snprintf(text, sizeof text, "%.100s: %s here, %s by %.80s.%.80s; their difference, in %s",
              own->row->quantity, here, there, other->stage->name, other->result->row->name,
              own->row->unit);
     for (size_t i = stage->quality_count; i-- > 0;)

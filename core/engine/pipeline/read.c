@@ -99,11 +99,11 @@ static bool check_name(fe_build *b, const char *name, ff_place place)
     const char *dot = strchr(name, '.'), *hint = NULL;
     if (dot)
         hint = fe_pipeline_print(b->pipeline,
-                                 "paths are for --set; in a file it is %.*s: {%.80s: ...}",
+                                 "a path is for --set; in a file, write %.*s: {%.80s: ...}",
                                  (int)(dot - name), name, dot + 1);
     return ff_error(
         b->report, FF_FAULT_INPUT, place, hint,
-        "\"%.80s\" is not a name for a stage: a letter, then letters, digits, \"_\" and "
+        "\"%.80s\" is not a stage name: it needs a letter, then letters, digits, \"_\" and "
         "\"-\", fewer than %d",
         name, LONGEST_NAME);
 }

@@ -27,8 +27,8 @@ static bool request_all(fe_build *b, ff_stage *stage)
     return some;
 }
 
-/* A text "STAGE.NAME" in the file. For messages: the key it stands under, and what NAME is
-   there. */
+/* How messages describe a text "STAGE.NAME" in the file: by the key above it, and by the word for
+   NAME under this key. */
 typedef struct naming {
     const char *key, *item;
 } naming;
@@ -137,8 +137,8 @@ void fe_request_outputs(fe_build *b, const ff_node *outputs)
         read_request(b, outputs);
     else if (outputs->count == 0)
         ff_error(b->report, FF_FAULT_INPUT, outputs->place,
-                 "leave \"outputs\" away to get the scalars and series of the last stages",
-                 "outputs: the list is empty, so that nothing would run");
+                 "remove \"outputs\" to get the scalars and series of the last stages",
+                 "outputs: the list is empty, so nothing would run");
     else
         for (size_t i = 0; i < outputs->count; i++)
             if (!is_missed_again(b, outputs, i))
@@ -172,14 +172,14 @@ void fe_request_limits(fe_build *b, const ff_node *limits)
 void fe_read_accept(fe_build *b, const ff_node *accept)
 {
     const char *name;
-    if (!is_map(b, accept, "accept", "a map such as {STAGE.LINE: \"why the doubt is none\"}"))
+    if (!is_map(b, accept, "accept", "a map such as {STAGE.LINE: \"why this is no problem\"}"))
         return;
     for (size_t i = 0; i < accept->count; i++) {
         const ff_node *reason = accept->items[i];
         ff_stage *stage = find_named(b, accept->keys[i], accept->key_places[i], &of_accept, &name);
         if (reason->kind != FF_SCALAR || !reason->text[strspn(reason->text, " \t\n")])
             fe_expected(b, reason, fe_pipeline_print(b->pipeline, "accept.%s", accept->keys[i]),
-                        "the reason why the doubt is none, in words");
+                        "the reason why this is no problem, in words");
         else if (stage)
             stage->accept = accept;
     }

@@ -227,8 +227,8 @@ static char *print_history(const iteration *it)
             text = fe_pipeline_print(it->pipeline, "%s, ...", text);
     if (it->uneven && it->residuals[it->rounds - 1] > it->pipeline->feedback.tolerance)
         text = fe_pipeline_print(it->pipeline,
-                                 "%s; %s had %zu values, and %zu a round later: a loop settles on "
-                                 "as many in every round",
+                                 "%s; %s had %zu values, and %zu a round later: a loop converges "
+                                 "only if this number stays the same",
                                  text, it->uneven, it->lengths[0], it->lengths[1]);
     return text;
 }

@@ -63,9 +63,8 @@ static void begin_run(ff_pipeline *pipeline)
    the file by a new one, as `install` does, is harmless. */
 static bool check_files(const ff_pipeline *pipeline, ff_report *report)
 {
-    static const char what[] =
-        "was written over while it was in use, so that what was computed may be "
-        "of neither build; run the command again";
+    static const char what[] = "was overwritten while it was in use, so the results may come from "
+                               "neither build; run the command again";
     bool good = true;
     for (size_t i = 0; i < pipeline->count; i++) {
         const ff_stage *stage = &pipeline->stages[i];

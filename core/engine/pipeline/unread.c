@@ -47,7 +47,8 @@ static ff_stage *feeding(const ff_pipeline *pipeline, const ff_stage *stage, siz
     return offer < 0 ? NULL : from;
 }
 
-/* Marks an output on which a requested one depends, and all outputs on which it depends itself. */
+/* Marks an output as read by a requested output, and also all outputs on which the marked output
+   depends. */
 static void mark_read(const ff_pipeline *pipeline, ff_stage *stage, size_t output)
 {
     bool *read = stage->instance->read;
@@ -119,14 +120,13 @@ static bool refuse_twice(fe_build *b, const ff_stage *stage, const fe_serving *s
     ff_place other = *serving->by ? written_at(b, by, serving->by) : FF_NOWHERE;
     if (!other.source)
         return false;
-    ff_error(b->report, FF_FAULT_INPUT, place,
-             fe_pipeline_print(b->pipeline,
-                               "leave one of both out; an empty value takes it away: "
-                               "--set %s.%s=",
-                               stage->name, stated->item),
-             "%s.%s and %s.%s (%s) say the same thing in two places%s%s", stage->name, stated->item,
-             by->name, serving->by, fe_place_text(b->pipeline, other), *serving->text ? ": " : "",
-             serving->text);
+    ff_error(
+        b->report, FF_FAULT_INPUT, place,
+        fe_pipeline_print(b->pipeline,
+                          "remove one of the two; an empty value removes the first: --set %s.%s=",
+                          stage->name, stated->item),
+        "%s.%s and %s.%s (%s) give the same value twice%s%s", stage->name, stated->item, by->name,
+        serving->by, fe_place_text(b->pipeline, other), *serving->text ? ": " : "", serving->text);
     return true;
 }
 
@@ -143,8 +143,8 @@ static const char *list_outputs(fe_build *b, const char *outputs)
     return text;
 }
 
-/* Whether the outputs were chosen after the value was written: by a file that includes it, by a
-   study or by an assignment. The value was then written for other outputs. */
+/* Whether the outputs were chosen later than the value: by a file that includes the value's file,
+   by a study or by an assignment. The value was then written for other outputs. */
 static bool is_chosen_later(const ff_stage *stage, const char *item, const ff_node *outputs)
 {
     const ff_node *value = ff_node_get(stage->node, item);
@@ -189,10 +189,10 @@ static void warn_of_stage(fe_build *b, const ff_stage *stage)
     const fe_serving *excuse = NULL;
     for (size_t i = 0; i < stage->loaded->model->output_count && !excuse; i++)
         excuse = excuse_of(b, stage, i, &taker);
-    ff_warn(b->report, stage->place,
-            "%s: no requested output depends on what this stage gives%s%s%s%s", stage->name,
-            excuse && *excuse->text ? ": " : "", excuse && *excuse->text ? taker->name : "",
-            excuse && *excuse->text ? ": " : "", excuse ? excuse->text : "");
+    ff_warn(b->report, stage->place, "%s: no requested output depends on this stage%s%s%s%s",
+            stage->name, excuse && *excuse->text ? ": " : "",
+            excuse && *excuse->text ? taker->name : "", excuse && *excuse->text ? ": " : "",
+            excuse ? excuse->text : "");
 }
 
 /* Warns of assignments to a stage that does not run. True if there are any. */
@@ -230,11 +230,11 @@ static void warn_of_idle(fe_build *b, const ff_node *outputs)
     /* the outputs were chosen for this run, or by a study */
     bool chosen = outputs && outputs->rank > b->file_rank;
     if (count > 0 && !chosen)
-        ff_warn(b->report, outputs ? outputs->place : FF_NOWHERE,
-                "%s not run, since no requested output needs %s, and what %s in the file changes "
-                "nothing: %s",
-                count == 1 ? "one stage does" : "some stages do", count == 1 ? "it" : "them",
-                count == 1 ? "it says" : "they say", names);
+        ff_warn(
+            b->report, outputs ? outputs->place : FF_NOWHERE,
+            "%s not run, since no requested output needs %s, so %s in the file change nothing: %s",
+            count == 1 ? "one stage does" : "some stages do", count == 1 ? "it" : "them",
+            count == 1 ? "its settings" : "their settings", names);
 }
 
 void fe_check_unread(fe_build *b, const ff_node *outputs)

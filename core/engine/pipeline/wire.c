@@ -102,7 +102,7 @@ static bool link_written(fe_build *b, const ff_stage *stage, ff_wire *wire, cons
     if (!strcmp(node->text, "none"))
         return !*wire_needs(b, stage, wire) ||
                ff_error(b->report, FF_FAULT_INPUT, node->place, NULL,
-                        "%s: \"none\" is not possible, since %s cannot do without it", path,
+                        "%s: \"none\" is not possible, since %s requires this wire", path,
                         stage->use);
     ff_stage *from = fe_find_stage(b, node->text, node->place, path);
     if (!from)
@@ -253,7 +253,8 @@ static int find_dim(const ff_dims *dims, const char *name)
     return -1;
 }
 
-/* Returns an input that has this dimension on this wire in each round; -1: none. */
+/* Returns an input on this wire that has this dimension and a value in every round of a loop; -1:
+   none. */
 static int find_bringer(const ff_pipeline *pipeline, const ff_stage *stage, const char *wire,
                         size_t length, const char *dim)
 {
@@ -310,8 +311,8 @@ static bool check_dim(fe_build *b, const ff_stage *stage, size_t i, uint32_t at)
     return ff_error(
         b->report, FF_FAULT_INPUT, fe_input_wire(stage, i)->place,
         fe_pipeline_print(b->pipeline,
-                          "a model that gives it there writes \"WIRE.%s\" in its row, where "
-                          "WIRE is its wire to \"%s\"",
+                          "a model whose output runs along that dimension writes \"WIRE.%s\" in "
+                          "the output's row, where WIRE is its wire to \"%s\"",
                           dim, there.stage->name),
         "%s.%s runs along \"%s\" of the stage \"%s\"; %s takes it along that of \"%s\"",
         stage->name, row->name, dim, here.stage->name, stage->use, there.stage->name);

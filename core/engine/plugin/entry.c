@@ -56,8 +56,8 @@ bool fe_entry_find(void *object, const char *id, const ff_model **model, char *w
     *(void **)(void *)&list = dlsym(object, "flankfilm_models_v1");
     if (one && list) {
         snprintf(why, why_size,
-                 "has both functions flankfilm_model_v1 and flankfilm_models_v1; a plugin has one "
-                 "of them");
+                 "has both functions flankfilm_model_v1 and flankfilm_models_v1; a plugin may have "
+                 "only one");
         return false;
     }
     if (!one && !list) {

@@ -55,7 +55,7 @@ static const char *linker_words(const char *path)
     size_t length = strlen(path);
     if (words && !strncmp(words, path, length) && !strncmp(words + length, ": ", 2))
         words += length + 2;
-    return words ? words : "for a reason that the linker does not tell";
+    return words ? words : "the dynamic linker gives no reason";
 }
 
 /* Whether the linker failed because of missing memory. If it cannot map a file it gives no reason:
@@ -143,7 +143,7 @@ static bool load_file(loading *l, char *path)
     if (status == FF_NOMEM)
         fe_out_of_memory();
     if (changed)
-        ff_warn(l->report, l->place, "the plugin %s %s when it was loaded; this was set back", path,
+        ff_warn(l->report, l->place, "the plugin %s %s when it was loaded; this was undone", path,
                 changed);
     if (l->good)
         return true;
@@ -187,13 +187,13 @@ static void report_absence(const loading *l, const char *tried)
     char *others = models_of_kind(l->engine, l->id);
     char *hint =
         fe_print_text("looked for %s; --plugin-path and FLANKFILM_PLUGIN_PATH add directories",
-                      tried[0] ? tried : "it in no directory at all");
+                      tried[0] ? tried : "it, but no directory is searched");
     if (near)
         ff_error(l->report, FF_FAULT_INPUT, l->place, hint,
                  "there is no model \"%s\"; did you mean \"%s\"?", l->id, near);
     else
         ff_error(l->report, FF_FAULT_INPUT, l->place, hint, "there is no model \"%s\"%s%s", l->id,
-                 others[0] ? "; of its kind there are " : "", others);
+                 others[0] ? "; the models of this kind are " : "", others);
     fe_free(others);
     fe_free(hint);
 }

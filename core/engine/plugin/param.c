@@ -135,7 +135,8 @@ static bool check_range(const reading *r, const ff_node *node, double *si)
     return true;
 }
 
-/* Reads a value with a tolerance, and returns its middle. Both ends must be allowed values. */
+/* Reads a value with a tolerance, and returns the middle of the tolerance. Both its ends must be
+   allowed values. */
 static bool read_toleranced(const reading *r, const ff_node *node, const ff_tolerance *t,
                             double *si)
 {
@@ -175,7 +176,7 @@ static bool read_real(const reading *r, const ff_node *node, double *si)
     if (!ff_quantity_parse(node->text, r->unit, r->row->unit, si, why, sizeof why))
         return refuse(r, node,
                       is_list_without_commas(node->text)
-                          ? "numbers of a list stand between commas: [1, 2]"
+                          ? "separate the numbers of a list by commas: [1, 2]"
                           : NULL,
                       "%s", why);
     return check_range(r, node, si);
@@ -358,7 +359,7 @@ static bool take_number(const reading *r, double *si)
 {
     bool whole = r->row->type == FF_INT || r->row->flags & FF_WHOLE;
     if (!isfinite(*si))
-        return refuse(r, &nowhere, NULL, "%g is not a number that it can have", *si);
+        return refuse(r, &nowhere, NULL, "%g is not a possible value", *si);
     if (whole && *si != floor(*si))
         return refuse(r, &nowhere, NULL, "%g is not a whole number", *si);
     if (whole && fabs(*si) > LARGEST_WHOLE)

@@ -108,7 +108,7 @@ static bool check_version(const checking *c)
     if (!m)
         return fault(c, "gives no model");
     if (!FF_HAS(m, abi_minor))
-        return fault(c, "gives a model that is not larger than %zu bytes", m->size);
+        return fault(c, "gives a model of only %zu bytes", m->size);
     if (m->abi_major != FF_ABI_MAJOR)
         return fault(c, "is made for version %u of the plugin interface, but this program has %d",
                      m->abi_major, FF_ABI_MAJOR);
@@ -127,7 +127,7 @@ static bool check_table(const checking *c, const char *what, const void *rows, s
                         size_t stride, size_t least, size_t most)
 {
     if (count > 0 && !rows)
-        return fault(c, "says that it has %zu %s, but gives no table of them", count, what);
+        return fault(c, "states that it has %zu %s, but gives no table of them", count, what);
     if (count > most)
         return fault(c, "has %zu %s; at most %zu are possible", count, what, most);
     if (count > 0 && (stride < least || stride % alignof(ff_param) != 0))
@@ -167,13 +167,13 @@ static bool check_model(const checking *c, const char *id)
         {is_line(m->summary), "has no summary of one line"},
         {is_line(m->licence), "states no licence"},
         {m->reference && m->bibtex,
-         "has no reference to the literature (\"\" where there is none)"},
+         "has no reference to the literature (write \"\" if there is none)"},
         {m->output_count > 0, "offers no output"},
         {m->create != NULL, "lacks the function \"create\""},
-        {m->evaluate || !data, "lacks the function \"evaluate\", which its outputs call for"},
-        {m->service || !service, "lacks the function \"service\", which its outputs call for"},
-        {m->set || placed, "lacks the function \"set\", which its parameters call for"},
-        {m->wire || !wired, "lacks the function \"wire\", which its inputs call for"},
+        {m->evaluate || !data, "lacks the function \"evaluate\", which its outputs require"},
+        {m->service || !service, "lacks the function \"service\", which its outputs require"},
+        {m->set || placed, "lacks the function \"set\", which its parameters require"},
+        {m->wire || !wired, "lacks the function \"wire\", which its inputs require"},
         {m->cost >= 0 && isfinite(m->cost), "states an impossible cost"},
     };
     if (m->output_count > MOST_OUTPUTS_1_0 && m->abi_minor < 2)
@@ -295,10 +295,9 @@ static bool check_param(checking *c, size_t index, ff_unit *unit)
     c->what = "parameter";
     c->name = row->name ? row->name : "";
     if (count_names(c->name) == 0)
-        return fault(c, "gives its parameter %zu the name \"%.60s\", which is not possible",
-                     index + 1, c->name);
+        return fault(c, "gives its parameter %zu the invalid name \"%.60s\"", index + 1, c->name);
     if (is_reserved(c->name))
-        return fault(c, "calls a parameter \"%s\", a word of the file's own", c->name);
+        return fault(c, "calls a parameter \"%s\", which is a reserved word of files", c->name);
     /* names must differ, and none may be a map of another, as "atlas" is for "atlas.from" */
     for (size_t i = 0; i < index; i++) {
         const char *other = ff_model_param(c->model, i)->name;
@@ -361,7 +360,7 @@ static bool check_input(checking *c, size_t index, ff_dims *dims)
                      "\"wire\" for a service",
                      index + 1, c->name);
     if (is_reserved(c->name))
-        return fault(c, "calls a wire \"%.*s\", a word of the file's own", wire, c->name);
+        return fault(c, "calls a wire \"%.*s\", which is a reserved word of files", wire, c->name);
     for (size_t i = 0; i < index; i++) {
         const ff_port *other = ff_model_input(c->model, i);
         bool same_from =
@@ -397,9 +396,9 @@ static bool check_instead(const checking *c, size_t index)
     }
     const bool old = data && c->model->abi_minor < 3;
     return !row->instead || (any && optional && !old) ||
-           fault(c, "lets \"%.60s\" replace the parameter \"%s\", which %s", row->instead,
+           fault(c, "lets \"%.60s\" replace the parameter \"%s\", but it %s", row->instead,
                  row->name,
-                 old ? "needs version 1.3 of the interface where it is a data input"
+                 old ? "is a data input, which needs version 1.3 of the interface"
                      : "is not an optional input");
 }
 
@@ -414,7 +413,7 @@ static bool check_meaning(const checking *c, const ff_port *row)
         {!(row->flags & FF_DIFFERENCE) || kelvin, "has a difference that is not in K"},
         {!row->label || is_line(row->label), "has a label that is not one line"},
         {!row->quantity || is_line(row->quantity), "has a quantity that is not one line"},
-        {row->apart >= 0, "has a negative distance of two that agree"},
+        {row->apart >= 0, "has a negative difference at which two values agree"},
         {row->headline >= FF_NO_HEADLINE && row->headline <= FF_MEAN, "has an unknown headline"},
         {!row->origin || ff_model_find_input(c->model, row->origin) >= 0,
          "is counted from an input that the model does not have"},
@@ -424,7 +423,7 @@ static bool check_meaning(const checking *c, const ff_port *row)
     if (row->shown && (!ff_unit_parse(row->shown, &shown, clause, sizeof clause) ||
                        !ff_unit_parse(row->unit, &unit, clause, sizeof clause) ||
                        !ff_unit_same_dimension(&shown, &unit)))
-        return fault(c, "shows the output \"%s\" in \"%.40s\", which is no unit of its dimension",
+        return fault(c, "shows the output \"%s\" in \"%.40s\", a unit of another dimension",
                      c->name, row->shown);
     return check_claims(c, claims, sizeof claims / sizeof *claims);
 }
@@ -438,8 +437,7 @@ static bool check_output(checking *c, ff_loaded *loaded, size_t index)
     if (row->flags & FF_FEEDBACK || (row->flags & FF_DIFFERENCE && c->model->abi_minor < 3))
         return fault(c, "has unknown flags for the output \"%.60s\"", c->name);
     if (count_names(c->name) != 1)
-        return fault(c, "gives its output %zu the name \"%.60s\", which is not possible", index + 1,
-                     c->name);
+        return fault(c, "gives its output %zu the invalid name \"%.60s\"", index + 1, c->name);
     for (size_t i = 0; i < index; i++)
         if (!strcmp(c->name, ff_model_output(c->model, i)->name))
             return fault(c, "has the output \"%s\" twice", c->name);
@@ -457,8 +455,7 @@ static bool check_column(checking *c, size_t index)
     c->what = "column";
     c->name = row->name ? row->name : "";
     if (count_names(c->name) != 1)
-        return fault(c, "gives its column %zu the name \"%.60s\", which is not possible", index + 1,
-                     c->name);
+        return fault(c, "gives its column %zu the invalid name \"%.60s\"", index + 1, c->name);
     return check_claims(c, &(claim){is_line(row->doc), "has no line of explanation"}, 1) &&
            check_unit(c, row->unit, &unit);
 }

@@ -40,9 +40,11 @@ static bool refuse_name(const fe_column_reader *r, fe_field head, const char *wo
     }
     const char *near = ff_nearest(word, names, count);
     if (near)
-        snprintf(hint, sizeof hint, "did you mean \"%s\"? One of your own begins with x-", near);
+        snprintf(hint, sizeof hint,
+                 "did you mean \"%s\"? The name of a column of your own begins with x-", near);
     else
-        snprintf(hint, sizeof hint, "the columns are %s; one of your own begins with x-", list);
+        snprintf(hint, sizeof hint,
+                 "the columns are %s; the name of a column of your own begins with x-", list);
     return fe_column_refuse(r, head, hint, "no column is called \"%s\"", word);
 }
 
@@ -72,8 +74,8 @@ static bool read_unit(fe_column_reader *r, size_t index, fe_field head, const ch
         return fe_column_refuse(r, head, hint, "the unit \"%s\" %s", unit, why);
     return ff_unit_same_dimension(&r->unit_of[index], &c->units[k]) ||
            fe_column_refuse(r, head, NULL,
-                            "the column \"%s\" is in \"%s\", but should be in %s or the like", word,
-                            unit, c->requested[k]->unit);
+                            "the column \"%s\" is in \"%s\", but should be in a unit such as %s",
+                            word, unit, c->requested[k]->unit);
 }
 
 /* Reads one field of the header: "pressure [GPa]". */
@@ -88,7 +90,7 @@ static bool read_head(fe_column_reader *r, size_t index, fe_field head)
     if (k == FE_NO_COLUMN)
         return !strncmp(word, "x-", 2) || refuse_name(r, head, word);
     if (c->values[k])
-        return fe_column_refuse(r, head, NULL, "the column \"%s\" comes twice", word);
+        return fe_column_refuse(r, head, NULL, "the column \"%s\" occurs twice", word);
     c->values[k] = fe_alloc(sizeof(double));
     c->fields[k] = index;
     c->heads[k] = fe_column_place(r, head);

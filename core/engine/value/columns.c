@@ -29,7 +29,7 @@ static bool load(fe_column_reader *r, const char *path)
     if (stat(path, &about) == 0 && !S_ISREG(about.st_mode))
         return fe_column_refuse(r, whole, NULL, "this is not a text file");
     if (about.st_size > MOST_BYTES)
-        return fe_column_refuse(r, whole, NULL, "the file has more than 128 MiB");
+        return fe_column_refuse(r, whole, NULL, "the file is larger than 128 MiB");
     size_t most = (size_t)about.st_size;
     /* allocated before the file is opened, so that a failure leaves no open file */
     source->text = fe_resize(source->text, most + 1);
@@ -171,8 +171,8 @@ static bool take_rows(fe_column_reader *r, const ff_param *rows, size_t count, s
             r->most = row->max_count;
         if (!ff_unit_parse(row->unit, &c->units[k], why, sizeof why))
             return ff_error(r->report, FF_FAULT_PLUGIN, FF_NOWHERE, NULL,
-                            "of the column \"%s\" that is asked for, the unit \"%s\" %s", row->name,
-                            row->unit, why);
+                            "the requested column \"%s\": the unit \"%s\" %s", row->name, row->unit,
+                            why);
     }
     return true;
 }

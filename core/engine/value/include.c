@@ -105,8 +105,7 @@ static char *hint_at(const char *whole, const char *path)
     while (!strncmp(below, "../", 3))
         below += 3;
     char *found = below > path ? shipped(below) : NULL;
-    char *hint =
-        found ? fe_print_text("among the examples there is \"%s\": write it so", below) : NULL;
+    char *hint = found ? fe_print_text("to include the example, write \"%s\"", below) : NULL;
     fe_free(found);
     if (!hint)
         hint = fe_near_file(whole);
@@ -172,8 +171,8 @@ bool fe_check_format(ff_report *report, const ff_node *format)
     bool first = !strcmp(format->text, "1");
     return ff_error(
         report, FF_FAULT_INPUT, format->place,
-        first ? "lubricants.md of the guide has the table of names, under \"From format 1\"" : NULL,
-        "format: expected " FE_FORMAT ", the only one that this version reads, found \"%.40s\"",
+        first ? "the new names are listed in docs/lubricants.md, \"From format 1\"" : NULL,
+        "format: expected " FE_FORMAT ", the only format that this version reads, found \"%.40s\"",
         format->text);
 }
 
@@ -185,7 +184,7 @@ static ff_node *read_source(const file *f, const ff_source *source)
     if (root && fe_node_is_empty(root)) {
         ff_error(f->report, FF_FAULT_INPUT, whole,
                  "it begins with \"format: " FE_FORMAT "\"; stages stand under \"pipeline:\"",
-                 "there is nothing in it to read");
+                 "the file is empty");
         return NULL;
     }
     if (root && root->kind != FF_MAP) {

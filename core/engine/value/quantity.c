@@ -97,9 +97,9 @@ static const char *wrong_mark(const char *rest)
     if (*rest == '\0' || !is_digit(rest[1]))
         return NULL;
     if (*rest == ',')
-        return "write the decimal point as \".\" and leave out marks between thousands";
+        return "write the decimal point as \".\" and no separators between thousands";
     if (*rest == '_' || *rest == '\'')
-        return "write the digits without marks between them";
+        return "write the digits without separators";
     return *rest == '.' ? "it has two decimal points" : NULL;
 }
 
@@ -119,7 +119,7 @@ static bool refuse_dimension(const reading *r, double si, const ff_unit *unit, c
 
 static bool read_unit(const char *text, ff_unit *unit, const char *wanted, const reading *r)
 {
-    char clause[200] = "is a second number";
+    char clause[200] = "is a number";
     if (strcmp(text, "1") != 0 && ff_unit_parse(text, unit, clause, sizeof clause))
         return true;
     bool advised = strchr(clause, ';') != NULL;

@@ -40,7 +40,7 @@ static bool step_into_list(walk *w, const char *word, ff_place place)
     unsigned long index = strtoul(word, &end, 10);
     if (*end != '\0' || *word < '0' || *word > '9' || index >= list->count)
         return ff_error(w->report, FF_FAULT_INPUT, place, "entries are counted from 0",
-                        "\"%.60s\" is not an entry of a list of %zu", word, list->count);
+                        "\"%.60s\" is not an entry of this list, which has %zu", word, list->count);
     w->slot = &list->items[index];
     return true;
 }

@@ -13,8 +13,8 @@ typedef struct part {
     ff_unit unit;
 } part;
 
-/* Finds the tolerance mark between the two parts; *pass is the start of the second part. NULL:
-   there is no mark. */
+/* Returns the tolerance mark between the two parts, such as "+-"; *pass is the start of the second
+ * part. NULL: there is no mark. */
 static const char *find_mark(const char *text, const char **pass)
 {
     static const char *const marks[] = {"+-", "+/-", "\xc2\xb1", " to "};
@@ -57,7 +57,7 @@ static int refuse(const char *text, const char *what, char *why, size_t size)
 int ff_tolerance_parse(const char *text, ff_tolerance *t, char *why, size_t why_size)
 {
     static const char example[] =
-        "is no value with a tolerance, such as \"120 mm +- 20 um\" or \"-75 um to -45 um\"";
+        "is not a value with a tolerance, such as \"120 mm +- 20 um\" or \"-75 um to -45 um\"";
     const char *pass, *mark = find_mark(text, &pass);
     part value, other;
     if (!mark)
@@ -73,7 +73,8 @@ int ff_tolerance_parse(const char *text, ff_tolerance *t, char *why, size_t why_
     if (range && share)
         return refuse(text, "has two units that do not agree", why, why_size);
     if (share && value.unit.offset != 0)
-        return refuse(text, "has a share of a temperature, which depends on where its scale begins",
+        return refuse(text,
+                      "has a percentage of a temperature, which depends on the zero of its scale",
                       why, why_size);
     snprintf(t->unit, sizeof t->unit, "%s", value.text);
     if (range) {

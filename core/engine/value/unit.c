@@ -44,8 +44,9 @@ __attribute__((format(printf, 2, 3))) static bool refuse(const reader *r, const 
     return false;
 }
 
-/* Spellings used on keyboards and in papers, and the plain ones of the grammar. "u" replaces both
-   the micro sign and the Greek letter mu. The last three are no-break and thin spaces. */
+/* Spellings used on keyboards and in papers, each with the plain spelling of the grammar. "u"
+   replaces both the micro sign and the Greek letter mu. The last three are no-break and thin
+   spaces. */
 static const char *const spellings[][2] = {
     {"**", "^"}, {"*", "."},      {"·", "."},      {"⋅", "."},      {"⁻", "-"}, {"⁰", "0"},
     {"¹", "1"},  {"²", "2"},      {"³", "3"},      {"⁴", "4"},      {"⁵", "5"}, {"⁶", "6"},
@@ -101,14 +102,14 @@ static bool refuse_here(const reader *r)
     while (((unsigned char)r->at[length] & 0xC0) == 0x80)
         length++;
     if (*r->at == '\0')
-        return refuse(r, "ends where one more unit should stand");
+        return refuse(r, "ends where another unit is expected");
     if (strchr(digits, *r->at))
-        return refuse(r, "has a number where a unit should stand; a power is written \"mm2\" or "
+        return refuse(r, "has a number where a unit is expected; a power is written \"mm2\" or "
                          "\"mm^2\"");
     if (*r->at == '(')
         return refuse(r, "has \"(\" in the wrong place; parentheses belong after \"/\", as in "
                          "\"N/(mm um)\"");
-    return refuse(r, "has \"%.*s\" where a unit should stand", length, r->at);
+    return refuse(r, "has \"%.*s\" where a unit is expected", length, r->at);
 }
 
 static bool refuse_word(const reader *r, const char *word)
@@ -133,7 +134,7 @@ static bool read_power(reader *r, int *power)
     if (*r->at == '.' && r->at[1] && strchr(digits, r->at[1]))
         return refuse(r, "has a power that is not a whole number");
     if (count != 1 || *digit == '0')
-        return refuse(r, "has the power \"%.*s\"; powers are whole numbers from -9 to 9 without 0",
+        return refuse(r, "has the power \"%.*s\"; powers are whole numbers from -9 to 9, but not 0",
                       (int)(r->at - start), start);
     *power = minus ? '0' - *digit : *digit - '0';
     return true;
@@ -144,7 +145,7 @@ static bool multiply(reader *r, const fe_symbol *symbol, int power)
     for (int i = 0; i < FF_DIMENSIONS; i++) {
         r->power[i] += power * symbol->power[i];
         if (abs(r->power[i]) > LARGEST_POWER_IN_ALL)
-            return refuse(r, "has too high a power in all");
+            return refuse(r, "has too high a power in total");
     }
     for (int i = 0; i < abs(power); i++)
         r->scale = power > 0 ? r->scale * symbol->scale : r->scale / symbol->scale;
@@ -255,7 +256,7 @@ static bool finish(const reader *r, ff_unit *unit)
     double tens = pow(10, abs(r->ten));
     unit->factor = r->ten < 0 ? r->scale / tens : r->scale * tens;
     unit->offset = r->offset;
-    return isnormal(unit->factor) || refuse(r, "is beyond what numbers can hold");
+    return isnormal(unit->factor) || refuse(r, "is too large or too small for a number");
 }
 
 bool ff_unit_parse(const char *text, ff_unit *unit, char *why, size_t why_size)

@@ -105,7 +105,7 @@ static char *read_text(reader *r, const yaml_event_t *event, ff_place place)
 {
     char *text = (char *)event->data.scalar.value;
     if (memchr(text, '\0', event->data.scalar.length))
-        fail(r, place, NULL, "the text has a NUL character in it");
+        fail(r, place, NULL, "the text contains a NUL character");
     return text;
 }
 
@@ -130,8 +130,8 @@ static ff_node *read_alias(reader *r, const yaml_event_t *event, ff_place place,
     const char *name = (const char *)event->data.alias.anchor;
     const anchor *a = find_anchor(r, name);
     if (!a)
-        ff_error(r->report, FF_FAULT_INPUT, place, "an anchor comes before its aliases",
-                 "the alias \"*%.60s\" has no anchor \"&%.60s\" before it", name, name);
+        ff_error(r->report, FF_FAULT_INPUT, place, "write the anchor before its aliases",
+                 "there is no anchor \"&%.60s\" before the alias \"*%.60s\"", name, name);
     else if (!a->node)
         ff_error(r->report, FF_FAULT_INPUT, place, NULL,
                  "the alias \"*%.60s\" is inside the value that it repeats", name);

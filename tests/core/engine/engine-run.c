@@ -72,7 +72,7 @@ static void results(void)
                                      says("there is no result \"sum.nothing\""));
     check_true("no such stage", ff_run_result(run, "none.sum", &result) == FF_INVALID);
     check_true("not asked for", ff_run_result(run, "one.rare", &result) == FF_INVALID &&
-                                    says("`outputs` of the file does not ask for it"));
+                                    says("`outputs` in the file does not request it"));
     check_true("a verdict", ff_run_verdict(run, &verdict) == FF_OK && verdict == FF_GOOD);
     check_true("a quality line", ff_run_quality(run, 0, &line) == FF_OK &&
                                      !strcmp(line->stage, "one") && line->name[0]);
@@ -124,7 +124,7 @@ static void failed(void)
     check_true("what failed is not", ff_run_result(run, "one.level", &result) == FF_INVALID &&
                                          !result && says("its stage failed"));
     check_true("nor what it feeds", ff_run_result(run, "sum.sum", &result) == FF_INVALID &&
-                                        says("what feeds its stage failed"));
+                                        says("a stage that feeds its stage failed"));
     check_true("the verdict is bad", ff_run_verdict(run, &verdict) == FF_OK && verdict == FF_BAD);
     for (size_t i = 0; ff_run_output(run, i, &stage, &result) == FF_OK; i++)
         good = good && !strcmp(stage, "good");

@@ -17,12 +17,12 @@ static const struct {
     {"pipeline: [a]\n", 2, 11, "expected a map from names to stages, found a list"},
     {"pipeline:\n", 2, 10, "expected a map from names to stages, found nothing"},
     {"pipeline: {}\n", 2, 11, "pipeline: it has no stages"},
-    {"pipeline: {a b: {use: toy/law}}\n", 2, 12, "\"a b\" is not a name for a stage"},
+    {"pipeline: {a b: {use: toy/law}}\n", 2, 12, "\"a b\" is not a stage name"},
     {"pipeline: {none: {use: toy/law}}\n", 2, 12, "cannot be called \"none\""},
     {"pipeline: {a: toy/law}\n", 2, 15, "expected a map that says which model it uses"},
     {"pipeline: {a: {gain: 1}}\n", 2, 12, "does not say which model it uses"},
     {"pipeline: {law: {use: toy/law}, x: {gain: 1}}\n", 2, 33, "name one of the stages law"},
-    {"pipeline: {law.gain: 1}\n", 2, 12, "it is law: {gain: ...}"},
+    {"pipeline: {law.gain: 1}\n", 2, 12, "in a file, write law: {gain: ...}"},
     {"pipeline: {law: {use: toy/law, gian 1}}\n", 2, 32, "a key ends with a colon and a blank"},
     {"pipeline: {law: {use: toy/law}, lwa: {gain: 1}}\n", 2, 33, "uses; did you mean \"law\"?"},
     {"pipeline: {a: {use: [toy/law]}}\n", 2, 21, "a.use: expected a model such as KIND/MODEL"},
@@ -135,7 +135,8 @@ int main(void)
         try_close(&a);
     }
     format("pipeline: {a: {use: toy/law}}\n", 1, 1, "the file does not state its format");
-    format("format: 1\npipeline: {a: {use: toy/law}}\n", 1, 9, "format: expected 2, the only one");
+    format("format: 1\npipeline: {a: {use: toy/law}}\n", 1, 9,
+           "format: expected 2, the only format");
     format("format: [1]\npipeline: {a: {use: toy/law}}\n", 1, 9, "expected 2, found a list");
     all_in_one_pass();
     return check_done();

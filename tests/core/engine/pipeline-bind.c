@@ -150,7 +150,7 @@ static void replaced_by_a_wire(void)
     try_close(&a);
     a = replaced("law: l, gain: 3", law);
     check_error("both: at the parameter", &a, 4, 40,
-                "gives this by the wire \"law\" (case.yaml:4:31)");
+                "gives this value, too, by the wire \"law\" (case.yaml:4:31)");
     check_error("both: what to do", &a, 4, 40, "or leave the wire unconnected: law: none");
     try_close(&a);
     a = replaced("far: 1 m", law);
@@ -171,7 +171,7 @@ static void replaced_by_a_wire(void)
     try_close(&a);
     a = replaced("gain: 3, far: 1 m, source: s, offset: 1 mm", level);
     check_error("a data input beside the parameter", &a, 4, 64,
-                "gives this by the wire \"source\" (case.yaml:4:53)");
+                "gives this value, too, by the wire \"source\" (case.yaml:4:53)");
     try_close(&a);
     a = replaced("gain: 3", "");
     check_error("neither of a group", &a, 3, 3,

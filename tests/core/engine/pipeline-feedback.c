@@ -284,13 +284,13 @@ static void refused(void)
     } cases[] = {
         {"  a: {use: loop/linear, base: 1 m, before: b}\n  b: {use: loop/linear, base: 0 m, "
          "before: a}\n",
-         "the stages wait for each other", 0, 0},
+         "the stages need each other", 0, 0},
         {"  a: {use: loop/linear, base: 1 m, back: b}\n  b: {use: loop/linear, base: 0 m}\n"
          "feedback: {round: 3}\n",
          "feedback: unknown key \"round\"; did you mean \"rounds\"?", 5, 12},
         {"  a: {use: loop/linear, base: 1 m, back: b}\n"
          "  b: {use: loop/linear, base: 0 m, before: a, law: a}\n",
-         "b: it is in a loop, so that no stage of the loop can be its law", 4, 52},
+         "b: it is in a loop, so it cannot use a service of another stage in the loop", 4, 52},
         {"  a: {use: loop/linear, base: 1 m}\nfeedback: 3\n", "feedback: expected a map such as", 4,
          11},
         {"  a: {use: loop/linear, base: 1 m}\nfeedback: {rounds: 1}\n", "1 is too small", 4, 20},

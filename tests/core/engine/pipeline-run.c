@@ -60,8 +60,8 @@ static void natural_bounds(void)
     static const struct {
         const char *params, *outputs, *said;
     } cases[] = {
-        {", share: -0.1", "b.share", "share is -0.1, limit 0: it can only be from 0 to 1"},
-        {", share: 1.5", "b.share", "share is 1.5, limit 1: it can only be from 0 to 1"},
+        {", share: -0.1", "b.share", "share is -0.1, limit 0: it must be between 0 and 1"},
+        {", share: 1.5", "b.share", "share is 1.5, limit 1: it must be between 0 and 1"},
         {", temperature: -1 K", "b.temperature", "limit 0: it cannot be below 0"},
         {", film: [1 m, 2 m, -3 m]", "b.film",
          "film is -3, limit 0: it cannot be below 0, at index 2"},
@@ -271,7 +271,7 @@ static void statuses(void)
     status("nomem", FF_FAULT_RUN, "the answer is nomem");
     status("invalid", FF_FAULT_INPUT, "the answer is invalid");
     status("unsupported", FF_FAULT_INPUT, "the answer is unsupported");
-    status("bug", FF_FAULT_PLUGIN, "a fault of its own during evaluate: the answer is bug");
+    status("bug", FF_FAULT_PLUGIN, "an internal error during evaluate: the answer is bug");
     status("unknown", FF_FAULT_PLUGIN, "the unknown status 77 during evaluate");
     attempt a = try_build("pipeline: {one: {use: toy/source, level: 2 mm, count: 7, answer: "
                           "ready}}\n",

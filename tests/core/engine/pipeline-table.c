@@ -77,8 +77,8 @@ int main(void)
     refuse("late", good, 1, 1, "one.file (toy/reader): a thought came late", path, 2);
     refuse("replaced", bad, 3, 31, "one.how (toy/reader): another reason", "case.yaml", 2);
     refuse("foreign", good, 3, 14, "named a table that it has not read", "case.yaml", 3);
-    refuse("unit", good, 3, 14, "asked for a table that cannot be read: of the column \"level\"",
-           "case.yaml", 3);
+    refuse("unit", good, 3, 14,
+           "asked for a table that cannot be read: the requested column \"level\"", "case.yaml", 3);
     refuse("nowhere", good, 3, 14, "asked for a table that cannot be read: it gave no path",
            "case.yaml", 3);
     unlink(path);

@@ -42,7 +42,7 @@ static void parameters(void)
     try_close(&a);
     a = with_outputs("  p: {use: toy/frugal, wrong: true}\n", "p.shape");
     check_error("a model that names what it does not have", &a, 3, 12,
-                "said what \"finnish\" serves, which it does not have");
+                "stated what \"finnish\" serves, but has no such item");
     try_close(&a);
 }
 
@@ -65,8 +65,8 @@ static void through_stages(void)
     a = with_outputs("  p: {use: toy/frugal, form: 1, finish: 2}\n"
                      "  q: {use: toy/frugal, before: p, finish: 3}\n",
                      "q.shade, q.shape");
-    check_error("one thing in two places", &a, 3, 41,
-                "p.finish and q.finish (case.yaml:4:43) say the same thing in two places");
+    check_error("the same value twice", &a, 3, 41,
+                "p.finish and q.finish (case.yaml:4:43) give the same value twice");
     try_close(&a);
     a = with_outputs("  p: {use: toy/frugal, form: 1}\n"
                      "  q: {use: toy/frugal, before: p, finish: 3}\n",
@@ -77,7 +77,7 @@ static void through_stages(void)
                      "  q: {use: toy/frugal, before: p, finish: 3}\n",
                      "q.shade");
     check_warning("a stage of which nothing counts", &a, 3, 3,
-                  "p: no requested output depends on what this stage gives: q: finish is given");
+                  "p: no requested output depends on this stage: q: finish is given");
     try_close(&a);
 }
 
@@ -186,7 +186,7 @@ static void cards(void)
     attempt a = with_card(card, "format: 2\ninclude: card.yaml\npipeline: {a: {speed: 6 rpm}}\n");
     check_error("two of a group in two files", &a, 3, 23, "only one of \"rate\" (");
     check_error("with both places", &a, 3, 23, "card.yaml:2:43) and \"speed\" (case.yaml:3:23)");
-    check_error("and what to do", &a, 3, 23, "takes away what an included file says: rate:");
+    check_error("and what to do", &a, 3, 23, "removes that of an included file: rate:");
     try_close(&a);
     a = with_card(card, "format: 2\ninclude: card.yaml\npipeline: {a: {speed: 6 rpm, rate: }}\n");
     check_good("taken away", &a);

@@ -93,10 +93,10 @@ static void cycles(void)
                           "  b: {use: toy/relay, before: c}\n"
                           "  c: {use: toy/relay, before: a}\n",
                           true);
-    check_error("a circle of stages", &a, 5, 31, "wait for each other: a -> b -> c -> a");
+    check_error("a circle of stages", &a, 5, 31, "need each other: a -> b -> c -> a");
     try_close(&a);
     a = try_build("pipeline:\n  a: {use: toy/relay, before: a}\n", true);
-    check_error("a stage that feeds itself", &a, 3, 31, "wait for each other: a -> a");
+    check_error("a stage that feeds itself", &a, 3, 31, "need each other: a -> a");
     try_close(&a);
 }
 

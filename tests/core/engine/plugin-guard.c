@@ -90,7 +90,7 @@ static void deaths(void)
 
 static void breaches(void)
 {
-    fails("nan", FF_FAULT_PLUGIN, "gave no number (NaN) at index 2 of the output \"series\"");
+    fails("nan", FF_FAULT_PLUGIN, "gave NaN at index 2 of the output \"series\"");
     fails("infinite", FF_FAULT_PLUGIN,
           "gave an infinite number at index 0 of the output \"level\"");
     fails("missing", FF_FAULT_PLUGIN, "did not give the output \"level\"");

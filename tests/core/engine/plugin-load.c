@@ -41,7 +41,7 @@ static void descriptors(void)
         {"no-licence", "states no licence"},
         {"no-evaluate", "lacks the function \"evaluate\""},
         {"no-create", "lacks the function \"create\""},
-        {"no-table", "says that it has 2 parameters, but gives no table"},
+        {"no-table", "states that it has 2 parameters, but gives no table"},
         {"stride", "table of outputs in rows of 8 bytes"},
         {"many", "has 1001 outputs; at most 1000 are possible"},
         {"many-old", "has 65 outputs; for more than 64 it must ask for version 1.2"},
@@ -53,7 +53,7 @@ static void descriptors(void)
         {"no-output", "offers no output"},
         {"param-twice", "has the parameter \"size\" twice"},
         {"map", "has the parameter \"size\" twice"},
-        {"param-name", "gives its parameter 1 the name"},
+        {"param-name", "gives its parameter 1 the invalid name"},
         {"param-use", "calls a parameter \"use\""},
         {"param-unit", "has a bad unit for the parameter \"size\": the unit \"mmm\""},
         {"param-type", "the unknown type 99"},
@@ -66,13 +66,14 @@ static void descriptors(void)
         {"feedback-service", "has feedback of a service for the input \"law\""},
         {"bounds", "has impossible bounds for the output \"level\""},
         {"difference", "has a difference that is not in K for the output \"level\""},
-        {"apart", "has a negative distance of two that agree for the output \"level\""},
+        {"apart", "has a negative difference at which two values agree for the output \"level\""},
         {"headline", "has an unknown headline for the output \"level\""},
         {"origin", "is counted from an input that the model does not have for the output"},
-        {"shown", "shows the output \"level\" in \"kg\", which is no unit of its dimension"},
-        {"instead", "lets \"nothing\" replace the parameter \"size\", which is not an optional"},
-        {"instead-old", "replace the parameter \"size\", which needs version 1.3"},
-        {"instead-needed", "lets \"law\" replace the parameter \"size\", which is not an optional"},
+        {"shown", "shows the output \"level\" in \"kg\", a unit of another dimension"},
+        {"instead", "lets \"nothing\" replace the parameter \"size\", but it is not an optional"},
+        {"instead-old", "replace the parameter \"size\", but it is a data input, which needs"},
+        {"instead-needed",
+         "lets \"law\" replace the parameter \"size\", but it is not an optional"},
         {"place-behind", "places the parameter \"size\" behind the 16 bytes of its instance"},
         {"place-crooked", "places the parameter \"size\" at byte 4, where its type cannot stand"},
         {"place-old", "place for the parameter \"size\", but does not ask for version 1.2"},
@@ -106,7 +107,7 @@ static void names(void)
 {
     refuses("toy/surce", FF_FAULT_INPUT, "did you mean \"toy/source\"?");
     refuses("toy/surce", FF_FAULT_INPUT, "/toy/surce.so");
-    refuses("toy/nothing-near", FF_FAULT_INPUT, "of its kind there are toy/");
+    refuses("toy/nothing-near", FF_FAULT_INPUT, "the models of this kind are toy/");
     refuses("toys/nothing-near", FF_FAULT_INPUT, "there is no model \"toys/nothing-near\"");
     refuses("../toy/source", FF_FAULT_INPUT, "does not name a model");
     refuses("toy/source.so", FF_FAULT_INPUT, "does not name a model");

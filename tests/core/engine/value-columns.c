@@ -184,7 +184,7 @@ static const refusal refusals[] = {
     {HEAD, "the file has no rows of numbers below its header", 0, 1, 0},
     {"tim [s], angle [deg]\n0,1\n", "no column is called \"tim\"", 1, 1, 7},
     {"µ [s], angle [deg]\n0,1\n", "no column is called \"µ\"", 1, 1, 5},
-    {"time [s], angle [deg], time [s]\n0,1,2\n", "the column \"time\" comes twice", 1, 24, 8},
+    {"time [s], angle [deg], time [s]\n0,1,2\n", "the column \"time\" occurs twice", 1, 24, 8},
     {"time [s], angle [deg],\n0,1,2\n", "no column is called \"\"", 1, 23, 0},
     {"time, angle [deg]\n0,1\n",
      "the column \"time\" needs its unit in brackets, such as \"time [s]\"", 1, 1, 4},
@@ -194,7 +194,7 @@ static const refusal refusals[] = {
      "the unit belongs in brackets at the end, as in \"gear\"", 1, 1, 6},
     {"time [furlong], angle [deg]\n0,1\n", "the unit \"furlong\" ", 1, 1, 14},
     {"time [m], angle [deg]\n0,1\n",
-     "the column \"time\" is in \"m\", but should be in s or the like", 1, 1, 8},
+     "the column \"time\" is in \"m\", but should be in a unit such as s", 1, 1, 8},
     {"time [s], angle\n0,1\n", "the column \"angle\" needs its unit", 1, 11, 5},
     {"angle [deg]\n1\n", "the column \"time [s]\" is missing: of the instant", 1, 1, 0},
     {"time [s]\n1\n", "the column \"angle [deg]\" or \"length [um]\" is missing: of roll", 1, 1, 0},
@@ -249,10 +249,10 @@ static const char *hint_of(const char *text)
 START_TEST(hints)
 {
     ck_assert_str_eq(hint_of("tiem [s], angle [deg]\n0,1\n"),
-                     "did you mean \"time\"? One of your own begins with x-");
+                     "did you mean \"time\"? The name of a column of your own begins with x-");
     ck_assert_str_eq(hint_of("time [s], angle [deg], whatever\n0,1,2\n"),
                      "the columns are time [s], angle [deg], length [um], gear, temperature [K]; "
-                     "one of your own begins with x-");
+                     "the name of a column of your own begins with x-");
     ck_assert_str_eq(hint_of("time [s]; angle [deg]\n0,5; 1\n"), "write a decimal point");
     ck_assert_str_eq(hint_of("time [s]; angle [foo]\n0;1\n"), "write for example \"angle [deg]\"");
 }
@@ -296,7 +296,7 @@ START_TEST(bounded_files)
     ck_assert(file && fseek(file, 1 << 27, SEEK_SET) == 0 && fputc('x', file) == 'x');
     fclose(file);
     ck_assert(!read_rows(rows, COLUMNS));
-    ck_assert_str_eq(ff_report_at(report, 0)->text, "the file has more than 128 MiB");
+    ck_assert_str_eq(ff_report_at(report, 0)->text, "the file is larger than 128 MiB");
     char header[1000] = "x-0";
     for (int i = 0; i < 100; i++)
         strcat(header, ",x-1");

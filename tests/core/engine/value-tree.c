@@ -483,7 +483,7 @@ static const struct {
     {"duty..torque=3", "a word is missing", 6},
     {"duty.=3", "a word is missing", 6},
     {"duty.torque.x=3", "leads to a value, not to a map", 13},
-    {"gears.teeth.2=3", "\"2\" is not an entry of a list of 2", 13},
+    {"gears.teeth.2=3", "\"2\" is not an entry of this list, which has 2", 13},
     {"gears.teeth.-1=3", "\"-1\" is not an entry", 13},
     {"gears.teeth.first=3", "\"first\" is not an entry", 13},
     {"gears.teeth.99999999999999999999=3", "is not an entry", 13},

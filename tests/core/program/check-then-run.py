@@ -111,7 +111,7 @@ refused("nothing.yaml", GEARS.replace("losses: {use: losses/tooth-mesh}", "losse
         "losses: expected a map that says which model it uses, found nothing")
 
 # what is meant by keys of other programs, and by a list without commas
-for old, new, hint in (("teeth: [19, 41]", "teeth: [19 41]", "numbers of a list stand between commas: [1, 2]"),
+for old, new, hint in (("teeth: [19, 41]", "teeth: [19 41]", "separate the numbers of a list by commas: [1, 2]"),
                        ("module", "helix_angle: 15 deg, module", "spur teeth have no helix angle"),
                        ("torque", "power: 50 kW, torque", "perhaps \"torque\" is meant"),
                        ("oil: {", "oil: {viscosity: 220 cSt, ", "perhaps \"grade\" is meant"),

@@ -31,7 +31,7 @@ static void test_input(void)
     cli_write("nomodel.yaml", "format: 2\npipeline:\n  wave: {use: toy/nothing}\n");
     expect_failure("$F check missing.yaml", 2, "error", "missing.yaml");
     expect_failure("$F run broken.yaml", 2, "error", "a value is missing before");
-    expect_failure("$F check empty.yaml", 2, "error", "there is nothing in it to read");
+    expect_failure("$F check empty.yaml", 2, "error", "the file is empty");
     expect_failure("$F check typo.yaml", 2, "error", "amplitud");
     expect_failure("$F explain typo.yaml", 2, "error", "amplitud");
     expect_failure("$F run nomodel.yaml", 2, "error", "toy/nothing");

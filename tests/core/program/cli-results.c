@@ -195,7 +195,7 @@ static void test_written_over(void)
             "sleep 0.3; printf x >>own/toy/wave.so; wait $!");
     cli_expect("other bytes are told at the end", &r,
                r.code == 3 && cli_has(r.err, "wave: the plugin") &&
-                   cli_has(r.err, "wave.so was written over while it was in use, so that"));
+                   cli_has(r.err, "wave.so was overwritten while it was in use, so"));
     r = cli("cp -rL $FLANKFILM_PLUGIN_PATH gone; FLANKFILM_PLUGIN_PATH=gone; "
             "$F run pair.yaml --set wave.work='5 s' & sleep 0.3; : >gone/toy/wave.so; wait $!");
     cli_expect("a fault over it is told, too", &r,

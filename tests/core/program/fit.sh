@@ -100,7 +100,7 @@ bad 'bad.csv:1:1: error: the column "pressure" is in "m"' 'pressure [m], viscosi
 bad 'bad.csv:1:36: error: no column is called "wieght"' "$head, wieght" '0, 1, 2'
 bad 'did you mean "weight"?' "$head, wieght" '0, 1, 2'
 bad 'all rows have the pressure 0 GPa' 'pressure [GPa], viscosity [mPa s], temperature [degC], x-who' '0, 1, 40, Ada' '0, 2, 20, Bo'
-bad 'comes twice' "$head, pressure [GPa]" '0, 1, 2'
+bad 'occurs twice' "$head, pressure [GPa]" '0, 1, 2'
 bad 'exclude each other' "$head, weight, uncertainty [%]" '0, 1, 2, 3'
 bad 'bad.csv:4:6: error: viscosity must be above 0 mPa s, but is -2' "$head" '# so' '0, 1' '0.1, -2'
 bad 'bad.csv:2:4: error: "x" is not a number' "$head" '0, x'

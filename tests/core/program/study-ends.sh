@@ -125,7 +125,7 @@ touch limit-10/study.json.7.part limit-10/table.csv.12345.part limit-10/own.part
 if [ -d "${flankfilm%/*}/../configs" ]; then
     printf 'format: 2\ninclude: [../gears/unity-50.yaml]\npipeline: {}\n' >copied.yaml
     if "$flankfilm" check copied.yaml >said 2>&1; then exit 1; fi
-    grep -qF 'hint: among the examples there is "gears/unity-50.yaml": write it so' said
+    grep -qF 'hint: to include the example, write "gears/unity-50.yaml"' said
 fi
 
 [ "$sanitized" = none ] || exit 0 # a sanitizer needs all of the address space

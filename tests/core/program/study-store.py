@@ -140,11 +140,11 @@ def test_written_over():
     wait_for("over", 2)
     with paused(run):
         (own / "wave.so").write_bytes((own / "walk.so").read_bytes())
-    expect("written over", run, 3, "wave.so was overwritten while the study ran")
+    expect("overwritten", run, 3, "wave.so was overwritten while the study ran")
     if not 2 <= rows("over") < cases:
         raise SystemExit(f"FAIL {rows('over')} rows of a plugin that was written over")
     (own / "wave.so").write_bytes((plugins / "wave.so").read_bytes())
-    check_calm("written over", "over")
+    check_calm("overwritten", "over")
     # a model that the files of a later case put into a stage; a file that is touched alone does no harm
     shutil.copy(own / "guess.so", own / "brief.so")
     run = start("swap", "swap")

@@ -133,8 +133,9 @@ static void test_refused_headers(void)
     refuse("time [s, radius [mm]\n", ":1:1: the unit belongs in brackets at the end");
     refuse("time, radius [mm]\n", ":1:1: the column \"time\" needs its unit");
     refuse("time [furlong]\n", ":1:1: the unit \"furlong\" ");
-    refuse("time [m]\n", ":1:1: the column \"time\" is in \"m\", but should be in s or the like");
-    refuse("time [s], time [s]\n", ":1:11: the column \"time\" comes twice");
+    refuse("time [m]\n",
+           ":1:1: the column \"time\" is in \"m\", but should be in a unit such as s");
+    refuse("time [s], time [s]\n", ":1:11: the column \"time\" occurs twice");
     refuse("time [s]\n0\n", ":1:1: the column \"radius [mm]\" or \"radius_1 [mm]\" is missing");
     refuse("time [s], radius [mm], speed_1 [m/s]\n0,1,1\n",
            ":1:1: the column \"speed_2 [m/s]\" is missing: speed of surface 2");

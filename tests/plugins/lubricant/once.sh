@@ -40,8 +40,8 @@ refuses() { # TEXT, then SETTING...: what `run` refuses is found by `check`, too
     echo "$said" | tr '\n' ' ' | grep -q "$text" || { echo "check $*: $said" && exit 1; }
 }
 
-refuses 'viscosity.eta0: the stage "oil" gives this by the wire "oil"' "viscosity.eta0=60 mPa s"
-refuses 'density.rho0: the stage "oil" gives this by the wire "oil"' "density.rho0=855 kg/m3"
+refuses 'viscosity.eta0: the stage "oil" gives this value, too, by the wire "oil"' "viscosity.eta0=60 mPa s"
+refuses 'density.rho0: the stage "oil" gives this value, too, by the wire "oil"' "density.rho0=855 kg/m3"
 # a law that knows nothing of the oil, by 2 % and by 0.3 %
 refuses 'at 70 degC eta0 is 0.06025 Pa s by the law and 0.05907 Pa s by the oil' \
     viscosity.use=viscosity/roelands viscosity.oil=none "viscosity.alpha=20 1/GPa" "viscosity.eta0=60.25 mPa s"

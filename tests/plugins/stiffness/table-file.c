@@ -245,7 +245,7 @@ static void test_refusals(void)
     expect_refusal("phase,stiffness [furlong]\n0,1e8\n", ":1:7: the unit \"furlong\"");
     expect_refusal("phase,stiffness [N/m\n0,1e8\n", "brackets");
     expect_refusal("phase,stiffnes [N/m]\n0,1e8\n", ":1:7: no column is called \"stiffnes\"");
-    expect_refusal("phase,phase\n0,1\n", ":1:7: the column \"phase\" comes twice");
+    expect_refusal("phase,phase\n0,1\n", ":1:7: the column \"phase\" occurs twice");
     expect_refusal("stiffness [N/m]\n1e8\n", ":1:1: the column \"phase\" is missing");
     expect_refusal("phase,transmission_error [m]\n0,1\n", "must name stiffness");
     expect_refusal("phase,stiffness [N/m],loaded_transmission_error [m]\n0,1,1\n",
