@@ -63,6 +63,8 @@ const char *ff_nearest(const char *word, const char *const *candidates, size_t c
         int same = beginning(word, candidates[i]);
         if (n >= 3 && (size_t)same == n)
             cost = min(cost, 1); /* the word is an abbreviation */
+        if (same >= 3 && !candidates[i][same] && fold(word[same]) == '_')
+            cost = min(cost, 2); /* a part such as "_mean" is added to the candidate */
         if (cost > near || (cost == near && same < shared))
             continue;
         if (cost < near || same > shared || mistakes < least) {

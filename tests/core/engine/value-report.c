@@ -237,6 +237,9 @@ START_TEST(finds_the_nearest_word)
     ck_assert_str_eq(ff_nearest("fil", stages, 3), "film");
     ck_assert_str_eq(ff_nearest("film_s", stages, 3), "film_static");
     ck_assert_str_eq(ff_nearest("il", stages, 3) ? "near" : "none", "none");
+    static const char *const outputs[] = {"h_min", "friction_coefficient", "friction_loss"};
+    ck_assert_str_eq(ff_nearest("friction_coefficient_mean", outputs, 3), "friction_coefficient");
+    ck_assert_ptr_null(ff_nearest("friction_coefficients_mean", outputs, 3));
 }
 END_TEST
 
