@@ -319,9 +319,10 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
         {.name = "h_min_error",
          .unit = "m",
          .doc =
-             "estimate of the error of h_min: 1.5 times what the transport of errors tells, by the "
-             "cells and by the time steps (ehl/finite-volume: steady films, and histories with "
-             "errors: transport); else (0.16 + 0.0063 L^2)/n^2 of it (first-order wedge: (0.4 + "
+             "estimate of the error of h_min: 1.5 times what the transport of errors tells of the "
+             "cells (ehl/finite-volume without heat or rest of the oil) and the truncation of the "
+             "time steps that the film gathers; else (0.16 + 0.0063 L^2)/n^2 of it (first-order "
+             "wedge: (0.4 + "
              "0.012 L)/n) with n cells over the inlet's pressure rise and Moes' L, plus the "
              "truncation of the time steps and of the cells that the film gathers on its way "
              "through the contact; above 2 % what twice the cells make of the last passage",

@@ -41,6 +41,15 @@ void ehl_kernel_direct(size_t nodes, const double *d, const double *p, double *v
     }
 }
 
+FF_SIMD
+void ehl_deflect_by(size_t nodes, size_t k, double p, const double *restrict d, double *restrict v)
+{
+    for (size_t i = k; i < nodes; i++)
+        v[i] += p * d[i - k];
+    for (size_t i = 0; i < k; i++)
+        v[i] += p * d[k - i];
+}
+
 struct ehl_fft {
     size_t nodes, length;
     fftw_plan forward, backward;

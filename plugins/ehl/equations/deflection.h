@@ -15,6 +15,9 @@ void ehl_kernel_fill(size_t count, double dx, double modulus, double unit, doubl
 /* Computes v[0 .. nodes-1] from p by the plain double sum. */
 void ehl_kernel_direct(size_t nodes, const double *d, const double *p, double *v);
 
+/* Adds to v what the pressure p of node k alone deflects. */
+void ehl_deflect_by(size_t nodes, size_t k, double p, const double *d, double *v);
+
 /* Computes the same as a circular convolution of length 2 (nodes - 1), which suffices because the
  * pressure is zero at both ends. NULL: out of memory. */
 typedef struct ehl_fft ehl_fft;

@@ -42,6 +42,7 @@ typedef struct ehl_march {
     ehl_state trial, spare;
     ehl_step trial_step;
     ehl_instant trial_at;
+    int evaluated; /* 1: the equations have the values and slopes of the trial's last Newton step */
     double *memory, *past, *change, *deflection, *heights;
     double *local; /* truncation error of the last step over rho h; 0 outside the contact */
     double *accumulated_error; /* sum of `local`, transported with the film */

@@ -79,6 +79,25 @@ static double accumulated_error_near(const ehl_march *m, size_t node)
     return ehl_greatest_size(end - from, m->accumulated_error + from);
 }
 
+/* lowered = h (1 - caution |error|) */
+FF_SIMD
+static void fill_lowered(size_t n, const double *restrict h, const double *restrict error,
+                         double caution, double *restrict lowered)
+{
+    for (size_t i = 0; i < n; i++)
+        lowered[i] = h[i] * (1 - caution * fabs(error[i]));
+}
+
+/* Returns by how much the least film may be lower due to the steps, relative to it: by its own
+ * error, or because another dip is lower than that film without its error. */
+static double least_in_time(ehl_results *r, const ehl_march *m, size_t node)
+{
+    const ehl_reynolds *eq = m->solver->reynolds;
+    double own = EHL_CAUTION * accumulated_error_near(m, node);
+    fill_lowered(eq->nodes, eq->h, m->accumulated_error, EHL_CAUTION, r->tau);
+    return fmax(own, 1 - ehl_least(eq->nodes, r->tau) / r->row[EHL_H_MIN]);
+}
+
 /*
  * Share of the load that is carried close to the end of the domain, within a quarter of
  * sqrt(2 R h); 0 where the film ruptures upstream of the end, which then has no effect.
@@ -362,20 +381,35 @@ static void record_bounds(ehl_results *r, const ehl_march *m, double h_central, 
     }
 }
 
-/* Replaces the bounds of the errors due to the cells with the computed errors. The end of the film
- * of a rigid cylinder moves from node to node, which the linear equation of the errors does not
- * show: for such a film the bound stays if it is larger. */
-static void put_transported(ehl_results *r, const ehl_transported *e, const contact *c)
+/* Returns what the parabola through the lowest node i leaves out of h_min, m. At the distance t
+ * from that node, in cells, the cubic through one more node on that side differs from the parabola
+ * by t (t^2 - 1)/6 of the third difference. */
+static double left_by_parabola(const ehl_march *m, size_t i)
+{
+    const double *h = m->solver->reynolds->h;
+    if (m->rough || i < 2 || i + 2 >= m->solver->reynolds->nodes)
+        return 0;
+    double bend = h[i + 1] - 2 * h[i] + h[i - 1], t = (h[i - 1] - h[i + 1]) / (2 * bend);
+    double third = t < 0 ? h[i + 1] - 3 * h[i] + 3 * h[i - 1] - h[i - 2]
+                         : h[i + 2] - 3 * h[i + 1] + 3 * h[i] - h[i - 1];
+    return bend > 0 ? fabs(t * (t * t - 1) / 6 * third) : 0;
+}
+
+/* Replaces the bounds of the errors by the cells with the computed errors. The film of a rigid
+ * cylinder feels its end move from node to node, which the linear equation of the errors does not
+ * show: there the bound stays if it is larger. */
+static void put_transported(ehl_results *r, const ehl_march *m, int rigid)
 {
     const double film[] = {r->row[EHL_H_MIN], r->row[EHL_H_CENTRAL]};
-    const int rigid = c->opening > 2 * c->a;
+    double error[] = {INFINITY, INFINITY};
+    if (m->transport->known)
+        ehl_results_transported(r, m, error);
     for (int k = EHL_LEAST; k <= EHL_CENTRAL; k++) {
-        double share = ehl_known_error(e->by_cells[k] / film[k]), *part = &r->row_in_space[k];
-        if (!rigid || fabs(share) * film[k] > *part)
+        double share = ehl_known_error(error[k]), *part = &r->row_in_space[k];
+        if (!rigid || !(fabs(share) * film[k] <= *part))
             *part = share * film[k];
         r->row_in_space[EHL_ORIGIN + k] = EHL_TRANSPORTED;
     }
-    r->transported = 1;
 }
 
 static void keep_least(double *least, double value)
@@ -389,17 +423,7 @@ void ehl_results_errors(ehl_results *r, const ehl_march *m, size_t node, double 
 {
     const ehl_grid *g = m->solver->grid;
     size_t centre = (size_t)(g->inlet / g->dx + 0.5);
-    double time[] = {accumulated_error_near(m, node), accumulated_error_near(m, centre)};
-    const int transported = m->transport && m->transport->known;
-    ehl_transported e;
-    if (transported) {
-        e = ehl_results_transported(r, m);
-        const double film[] = {r->row[EHL_H_MIN], r->row[EHL_H_CENTRAL]};
-        for (int k = EHL_LEAST; k <= EHL_CENTRAL; k++) {
-            double by_steps = fabs(e.by_steps[k]) / film[k];
-            time[k] = m->distance_of_jump > 0 ? fmax(time[k], by_steps) : by_steps;
-        }
-    }
+    double time[] = {least_in_time(r, m, node), EHL_CAUTION * accumulated_error_near(m, centre)};
     if (ehl_march_is_loaded(m)) {
         const ehl_reynolds *eq = m->solver->reynolds;
         contact c = contact_at(eq, &m->at, m->history->modulus, h_central);
@@ -411,12 +435,14 @@ void ehl_results_errors(ehl_results *r, const ehl_march *m, size_t node, double 
         };
         record_resolution(r, m, h_central, &c);
         record_bounds(r, m, h_central, p_max, carried, &c);
-        if (transported)
-            put_transported(r, &e, &c);
+        if (m->transport)
+            put_transported(r, m, c.opening > 2 * c.a);
         for (int k = EHL_LEAST; k <= EHL_CENTRAL; k++)
             ehl_worse(&r->worst_in_time[k], time[k]);
         keep_least(&r->least_in_time, r->row[EHL_H_MIN] * (1 - time[EHL_LEAST]));
+    } else if (m->transport && r->lowest_alone) { /* the lowest film may be one without load */
+        put_transported(r, m, 0);
     }
-    r->row[EHL_H_MIN_ERROR] = time[EHL_LEAST] * r->row[EHL_H_MIN];
+    r->row[EHL_H_MIN_ERROR] = time[EHL_LEAST] * r->row[EHL_H_MIN] + left_by_parabola(m, node);
     r->row[EHL_H_CENTRAL_ERROR] = time[EHL_CENTRAL] * r->row[EHL_H_CENTRAL];
 }

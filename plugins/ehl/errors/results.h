@@ -19,6 +19,9 @@ enum { EHL_BOUNDED, EHL_TRANSPORTED, EHL_FINER };
  * the film is not computed on more cells. */
 enum { EHL_ORIGIN = EHL_BOUNDS, EHL_NARROW = EHL_ORIGIN + EHL_BOUNDS, EHL_TIP, EHL_SPACE };
 
+/* A bar is this many times the error, which is that of a linear equation. */
+#define EHL_CAUTION 1.5
+
 /* A table of rows of equal width, which grows, since their number is only known at the end. */
 typedef struct ehl_rows {
     double *data;
@@ -64,8 +67,7 @@ typedef struct ehl_results {
     double share;     /* share of the bound of p_max that remains at rows without a look; 1: all */
     ehl_look look[EHL_LOOKS]; /* in the order of their rows */
     size_t looks;
-    double known_error[2];  /* largest recent relative errors due to cells and steps */
-    int transported;        /* errors of h_min and h_central come from their transport equation */
+    double known_by_cells;  /* largest error of the last passage, relative */
     int measured[EHL_PEAK]; /* 1: h_min, h_central were measured at some rows */
     int finest;             /* largest number of cells used for that, divided by that of the run */
     size_t narrow;          /* the same for narrow peaks; 0: there are none */
@@ -96,13 +98,9 @@ double ehl_results_loss_in_time(const ehl_results *r, const ehl_march *m);
 void ehl_results_errors(ehl_results *r, const ehl_march *m, size_t node, double h_central,
                         double p_max);
 
-/* Errors of h_min and h_central of the newest film due to the cells and due to the steps, from the
- * transport equation of the errors: bars in m, negative if the film is too thin. */
-typedef struct ehl_transported {
-    double by_cells[EHL_PEAK], by_steps[EHL_PEAK];
-} ehl_transported;
-
-ehl_transported ehl_results_transported(ehl_results *r, const ehl_march *m);
+/* Fills in the bars of h_min and h_central of the newest film due to the cells, from the transport
+ * of its errors: relative, negative if the film is too thin. */
+void ehl_results_transported(ehl_results *r, const ehl_march *m, double *error);
 
 /* Returns a bound of the error of p_max due to the cells in the newest film of the march, Pa;
  * infinite if the cells do not resolve its peak. The reynolds must have the gap of that film. */

@@ -422,7 +422,7 @@ static void report_cells(const ehl_results *r, const ehl_march *m, int kind, con
                  r->finest, r->share);
     else if (kind != EHL_PEAK && r->measured[kind])
         snprintf(how, sizeof how, "; measured by the last passage of the contact on more cells");
-    else if (kind != EHL_PEAK && r->transported)
+    else if (kind != EHL_PEAK && m->transport)
         snprintf(how, sizeof how, "; 1.5 times what their transport tells");
     if (kind == EHL_PEAK && isinf(error))
         snprintf(enough, sizeof enough,

@@ -19,8 +19,8 @@ enum { LEAST_STRIDE = 16, LEAST_CORNERS = 16, MOST_CORNERS = 128 };
    the flow through the contact. It is too large if both limits are exceeded. */
 static const double MOST_IMBALANCE_LEFT = 0.3, IMBALANCE_NOTICED = 0.01;
 
-/* As MOST_IMBALANCE_LEFT, if the right-hand side is not the residual of a Newton step
- * (ehl_linear_answer). */
+/* Imbalance that the answer to other right-hand sides may leave (ehl_linear_answer), relative to
+ * theirs. */
 static const double ANSWER_IMBALANCE = 0.1;
 
 /* Least reduction of the residual of a linear system, relative to its first residual.
@@ -292,25 +292,28 @@ static double forcing_term(const ehl_solver *s, double change, int careful)
     return fmin(s->reynolds->touching ? SHARED_REDUCTION : least, left);
 }
 
-/* Returns the share of the preconditioned residual `first` that may be left for that accuracy. The
+/* What is asked of the answer to a right-hand side that is not the residual of a Newton step. */
+typedef struct goal {
+    double share;            /* error that may be left, over the larger of answer and guess */
+    const ehl_answer *guess; /* the solution begins with it */
+    const double *rows;      /* the right-hand side without the guess */
+} goal;
+
+/* Returns the share of the preconditioned residual `first` that may be left for that goal. The
  * preconditioned residual is measured in the same norm as the answer. */
-static double share_left(const ehl_accuracy *accuracy, double first, size_t rows, double weight)
+static double share_left(const goal *of, double first, size_t rows, double weight)
 {
-    double most = first;
-    for (size_t k = 0; k < sizeof accuracy->over / sizeof accuracy->over[0]; k++) {
-        const ehl_answer *e = accuracy->over[k];
-        if (e)
-            most = ehl_greater(hypot(sqrt(dot(e->p, e->p, rows)), e->h00 * weight), most);
-    }
-    return first > 0 ? accuracy->share * most / first : 1;
+    const ehl_answer *e = of->guess;
+    double most = ehl_greater(hypot(sqrt(dot(e->p, e->p, rows)), e->h00 * weight), first);
+    return first > 0 ? of->share * most / first : 1;
 }
 
 /* Solves J (dp, dh00) = (product, missing) until the preconditioned residual is below the share of
- * the first one that forcing_term allows, or within `accuracy`, if not NULL. Left preconditioning
+ * the first one that forcing_term allows, or to that goal, if it is not NULL. Left preconditioning
  * makes the norm measure the error of the pressure. A norm of the balances would let short waves of
  * the pressure grow from step to step, since they hardly change the balances. */
 static ff_status gmres(ehl_solver *s, const ehl_film *film, int loaded, double missing,
-                       const ehl_accuracy *accuracy, double *dh00)
+                       const goal *of, double *dh00)
 {
     ehl_linear *w = s->self;
     const ehl_grid *g = s->grid;
@@ -331,9 +334,8 @@ static ff_status gmres(ehl_solver *s, const ehl_film *film, int loaded, double m
     double first = sqrt(dot(w->basis[0], w->basis[0], rows)), norm = first;
     if (!isfinite(first))
         return FF_NOCONV;
-    double reduction = accuracy
-                           ? share_left(accuracy, first, rows, weight)
-                           : forcing_term(s, ehl_greatest_size(rows, w->basis[0]) / p_max, careful);
+    double reduction = of ? share_left(of, first, rows, weight)
+                          : forcing_term(s, ehl_greatest_size(rows, w->basis[0]) / p_max, careful);
     scale(w->basis[0], first > 0 ? 1 / first : 0, rows);
     q.rest[0] = first;
     while (k < EHL_KRYLOV && norm > reduction * first) {
@@ -360,22 +362,24 @@ static ff_status gmres(ehl_solver *s, const ehl_film *film, int loaded, double m
    blocks of the coarse grid are wider than the contact, M^-1 almost cancels some waves of the
    balances, and a left-preconditioned norm does not contain them. */
 static int misses_imbalance(const ehl_solver *s, const ehl_step *step, const ehl_film *film,
-                            double most_share, double noticed, double dh00)
+                            const goal *of, double dh00)
 {
     ehl_linear *w = s->self;
     const ehl_reynolds *r = s->reynolds;
+    const double *whole = of ? of->rows : w->asked;
     double flow = 0, left = 0, most = 0, most_left = 0, thin = ehl_least(r->last, r->thick);
     shift(w->v_step, dh00, w->h_step, r->last + 1);
     apply_jacobian(r, w->p_step, w->h_step, w->left);
     for (size_t i = 1; i < r->last; i++) {
-        flow += film->full[i] ? w->asked[i] : 0;
+        flow += film->full[i] ? whole[i] : 0;
         left += film->full[i] ? w->asked[i] - w->left[i] : 0;
         most = ehl_greater(fabs(flow), most);
         most_left = ehl_greater(fabs(left), most_left);
     }
     double passing = r->oil.density * thin * (step->entrainment + step->rate * s->grid->half_width);
     w->unbalanced = most_left / passing;
-    return most_left > most_share * most && w->unbalanced > noticed;
+    return of ? most_left > ANSWER_IMBALANCE * most
+              : most_left > MOST_IMBALANCE_LEFT * most && w->unbalanced > IMBALANCE_NOTICED;
 }
 
 /* Fills the right-hand side of rows 1 ... last - 1 at the nodes where ehl_is_solved is true. */
@@ -388,24 +392,22 @@ static void negate_solved(size_t last, int all, const unsigned char *restrict fu
 }
 
 /* Solves the system with the right-hand side w->asked in the rows of the nodes and `sum` in the row
- * of the load. `accuracy`: see gmres. */
+ * of the load. `of`: see gmres. */
 static ff_status solve_for_asked(ehl_solver *s, const ehl_step *step, const ehl_film *film,
-                                 double sum, const ehl_accuracy *accuracy, double *dh00)
+                                 double sum, const goal *of, double *dh00)
 {
     ehl_linear *w = s->self;
     const ehl_reynolds *r = s->reynolds;
-    const double most = accuracy ? ANSWER_IMBALANCE : MOST_IMBALANCE_LEFT,
-                 noticed = accuracy ? 0 : IMBALANCE_NOTICED;
     for (w->split = w->coarse != NULL;;
          w->split = 0) { /* the band matrix alone is slower, but misses no wave */
         memcpy(w->product + 1, w->asked + 1, (r->last - 1) * sizeof *w->product);
-        ff_status status = gmres(s, film, step->loaded, sum, accuracy, dh00);
+        ff_status status = gmres(s, film, step->loaded, sum, of, dh00);
         if (status != FF_OK) {
             w->factored = 0; /* after an overflow the factors would wrongly count as valid */
             return status;
         }
         w->unbalanced = 0;
-        if (!w->split || !misses_imbalance(s, step, film, most, noticed, *dh00))
+        if (!(w->split || of) || !(misses_imbalance(s, step, film, of, *dh00) && w->split))
             return FF_OK;
     }
 }
@@ -423,24 +425,27 @@ ff_status ehl_linear_solve(ehl_solver *s, const ehl_step *step, const ehl_film *
     return status;
 }
 
-/* Sets the guess to 0 where no equation holds, and recomputes its deflection. */
+/* Sets the guess to 0 where no equation holds, and its deflection accordingly. */
 static void fit_guess(ehl_solver *s, const ehl_step *step, const ehl_film *film, ehl_answer *e)
 {
+    enum { FEW = 16 }; /* a convolution is as long as some 30 of them */
     const ehl_reynolds *r = s->reynolds;
-    int cut = 0;
+    size_t cut = 0;
     for (size_t i = 0; i < r->nodes; i++)
         if (fabs(e->p[i]) > 0 && !(i > 0 && i < r->last && ehl_is_solved(r, film, i))) {
+            if (!r->conserving && cut < FEW)
+                ehl_deflect_by(r->nodes, i, -e->p[i], s->kernel, e->v);
             e->p[i] = 0;
-            cut = 1;
+            cut++;
         }
-    if (cut)
+    if (r->conserving ? cut > 0 : cut > FEW)
         ehl_linear_deflect(s, ehl_pressure_part(s, film, e->p), e->v);
     if (!step->loaded)
         e->h00 = 0;
 }
 
 ff_status ehl_linear_answer(ehl_solver *s, const ehl_step *step, const ehl_film *film,
-                            const double *rows, const ehl_accuracy *accuracy, ehl_answer *e)
+                            const double *rows, double share, ehl_answer *e, double *rest)
 {
     ehl_linear *w = s->self;
     const ehl_reynolds *r = s->reynolds;
@@ -453,10 +458,13 @@ ff_status ehl_linear_answer(ehl_solver *s, const ehl_step *step, const ehl_film 
         w->asked[i] = ehl_is_solved(r, film, i) ? rows[i] - w->left[i] : 0;
     ehl_linear_factor(s, step, film);
     double dh00 = 0, sum = -ehl_sum(r->last - 1, ehl_pressure_part(s, film, e->p) + 1);
-    ff_status status = solve_for_asked(s, step, film, sum, accuracy, &dh00);
+    const goal of = {share, e, rows};
+    ff_status status = solve_for_asked(s, step, film, sum, &of, &dh00);
     ehl_add(e->p, 1, w->p_step, r->nodes);
     ehl_add(e->v, 1, w->v_step, r->nodes);
     e->h00 += dh00;
+    for (size_t i = 0; i < r->nodes; i++) /* misses_imbalance has filled in w->left */
+        rest[i] = i > 0 && i < r->last && ehl_is_solved(r, film, i) ? w->asked[i] - w->left[i] : 0;
     if (status == FF_OK && !ehl_linear_converged(w))
         status = FF_NOCONV;
     w->krylov = before.krylov;

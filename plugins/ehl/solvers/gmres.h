@@ -18,12 +18,6 @@ typedef struct ehl_answer {
     double *p, *v, h00;
 } ehl_answer;
 
-/* Error that an answer may have, as a share of the largest answer listed. */
-typedef struct ehl_accuracy {
-    double share;
-    const ehl_answer *over[2]; /* NULL: none */
-} ehl_accuracy;
-
 /* Work space of the linear solver: the first member of a solver's `self`. */
 typedef struct ehl_linear {
     ehl_fft *fft;
@@ -64,11 +58,11 @@ void ehl_linear_deflect(ehl_solver *s, const double *p, double *v);
 ff_status ehl_linear_solve(ehl_solver *s, const ehl_step *step, const ehl_film *film, double *dh00);
 
 /* Solves J (e->p, e->h00) = (rows, 0) with the derivatives that the equations have now, starting
- * from the values in `e`. The last row is the balance of the load. Leaves the state of Newton's
- * method and the counters as they were. FF_NOCONV: a number overflowed, or the accuracy was not
- * reached. */
+ * from the values in `e`, until an error of this share of the answer is left. The last row is the
+ * balance of the load. Fills in what is left of `rows`. Leaves the state of Newton's method and the
+ * counters as they were. FF_NOCONV: a number overflowed, or the accuracy was not reached. */
 ff_status ehl_linear_answer(ehl_solver *s, const ehl_step *step, const ehl_film *film,
-                            const double *rows, const ehl_accuracy *accuracy, ehl_answer *e);
+                            const double *rows, double share, ehl_answer *e, double *rest);
 
 /* Returns 1 if the last solution reached its accuracy within EHL_KRYLOV vectors, or reached
  * `suffices`. */

@@ -47,11 +47,6 @@ static const ff_param params[] = {
         "the film is as accurate as if its equations were solved exactly, to about this; "
         "auto: to a twentieth of what its cells, and time_tolerance with steps: auto, "
         "make of it; 1e-4 with rough flanks, 1e-5 with other models than ehl/finite-volume"),
-    FF_ONE_OF("bounds|transport", "errors", ehl_model, errors, 0, "bounds",
-              "errors of h_min and h_central of a history between smooth flanks without heat. "
-              "bounds: what is known of films like them, and passages on more cells where that is "
-              "much; transport: by their own linear equation at every instant, for half as much "
-              "time again. A steady film of ehl/finite-volume has the latter"),
     FF_QUANTITY_OR("none", "light_load", "N/m", ehl_model, light_load, FF_MIN_OPEN, "none", NULL, 0,
                    1e9, 0, 0,
                    "least load per width: smaller loads are replaced by it; none: without load "

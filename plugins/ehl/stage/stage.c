@@ -62,11 +62,6 @@ ff_status ehl_ready(void *self)
                                    : smooth,
                *cold = "thermal is not full";
     const int full = m->thermal == EHL_THERMAL_FULL;
-    const char *untold = m->maker != ehl_newton_krylov || m->outside ? "this film has bounds alone"
-                         : m->thermal                                ? "a film with heat has bounds"
-                         : !flat                           ? "rough flanks have no estimate"
-                         : m->cavitation == EHL_CONSERVING ? "with mass-conserving it has bounds"
-                                                           : NULL;
     const ff_serving rows[] = {
         {m->steps > 0, "time_tolerance", "", NULL, "the time steps are given and equal"},
         {!any, "roughness", "", NULL, smooth},
@@ -77,7 +72,6 @@ ff_status ehl_ready(void *self)
         {flat, "valleys", "", NULL, why},
         {flat || m->valleys != EHL_VENTILATED, "valley_length", "", NULL,
          flat ? why : "valleys is sealed"},
-        {untold != NULL, "errors", "", NULL, untold},
         {!flat && m->cavitation != EHL_CONSERVING, "cavitation", "", NULL,
          "with rough flanks mass-conserving is used"},
         {!flat && m->wedge > 0, "wedge", "", NULL, "with rough flanks the first order is used"},

@@ -18,8 +18,8 @@ ff_status ehl_ready(void *self);
 ff_status ehl_evaluate(void *self, uint64_t wanted, const ff_array *in);
 void ehl_destroy(void *self);
 
-/* Ranks of the words of cavitation, valleys, roughness and errors. */
-enum { EHL_CONSERVING = 1, EHL_VENTILATED = 1, EHL_IGNORED = 1, EHL_TRANSPORT = 1 };
+/* Ranks of the words of cavitation, valleys and roughness. */
+enum { EHL_CONSERVING = 1, EHL_VENTILATED = 1, EHL_IGNORED = 1 };
 
 typedef struct ehl_model {
     const ff_host *host;
@@ -28,7 +28,7 @@ typedef struct ehl_model {
     /* Parameters by their names. auto and none are -1 or NaN; a word is its index. */
     int64_t cells, steps;
     double inlet, outlet, time_tolerance, tolerance, light_load;
-    int32_t time_scheme, wedge, cavitation, valleys, roughness, thermal, errors;
+    int32_t time_scheme, wedge, cavitation, valleys, roughness, thermal;
     int64_t thermal_nodes;
     double flank_conductivity, flank_density, flank_heat_capacity, bulk_temperature;
     double contact_film, boundary_friction, asperity_hardness, valley_length, roughness_cutoff;

@@ -67,6 +67,7 @@ ff_status ehl_march_without_load(ehl_march *m, const ehl_instant *at)
     memset(m->local, 0, m->solver->grid->nodes * sizeof *m->local);
     m->trial_step = step;
     m->trial_at = *at;
+    m->evaluated = 0;
     ehl_march_update_mass(m);
     if (m->thermal)
         ehl_thermal_rest(m, &step, at->time);

@@ -10,21 +10,14 @@
 
 ff_status ehl_transport_create(ehl_transport *t, size_t nodes)
 {
-    *t = (ehl_transport){.nodes = nodes, .accuracy = 1e-2};
+    *t = (ehl_transport){.nodes = nodes, .accuracy = 0.03};
     double *next = t->memory = calloc(EHL_TRANSPORT_ARRAYS * nodes, sizeof *next);
     if (!next)
         return FF_NOMEM;
-    for (size_t k = 0; k < EHL_CAUSES; k++) {
-        ehl_film_error *e = &t->of[k];
-        double **own[EHL_ERROR_ARRAYS - EHL_STATES] = {&e->now.p, &e->now.v, &e->before.p,
-                                                       &e->before.v, &e->h};
-        for (size_t j = 0; j < EHL_ERROR_ARRAYS - EHL_STATES; j++, next += nodes)
-            *own[j] = next;
-        for (size_t j = 0; j < EHL_STATES; j++, next += nodes)
-            e->mass[j] = next;
-    }
-    double **own[EHL_SHARED_ARRAYS] = {&t->tau, &t->rows, &t->flow};
-    for (size_t k = 0; k < EHL_SHARED_ARRAYS; k++, next += nodes)
+    double **own[EHL_TRANSPORT_ARRAYS] = {&t->e.p,     &t->e.v,    &t->h,    &t->tau,
+                                          &t->rows,    &t->rest,   &t->flow, &t->mass[0],
+                                          &t->mass[1], &t->mass[2]};
+    for (size_t k = 0; k < EHL_TRANSPORT_ARRAYS; k++, next += nodes)
         *own[k] = next;
     return FF_OK;
 }
@@ -38,10 +31,10 @@ void ehl_transport_destroy(ehl_transport *t)
 void ehl_transport_restart(ehl_transport *t)
 {
     memset(t->memory, 0, EHL_TRANSPORT_ARRAYS * t->nodes * sizeof *t->memory);
-    for (size_t k = 0; k < EHL_CAUSES; k++)
-        t->of[k].now.h00 = t->of[k].before.h00 = 0;
+    t->e.h00 = 0;
     t->last_step = 0;
-    t->known = t->lost = 0;
+    t->blind = 0;
+    t->known = 0;
 }
 
 /* Computes the pressure flow from each node to the one `stride` cells further, with the mobility of
@@ -131,84 +124,24 @@ static void truncate_cells(ehl_transport *t, const ehl_reynolds *r, const ehl_st
     add_end(r, film, t->tau);
 }
 
-/* Divided differences of the mass over the newest times: third with 4 of them, second with 3. */
-typedef struct divided {
-    double of[EHL_STATES + 1];
-} divided;
-
-static divided differences(const double *time, size_t count)
-{
-    divided d = {{0}};
-    for (size_t i = 0; i < count; i++) {
-        d.of[i] = 1;
-        for (size_t k = 0; k < count; k++)
-            d.of[i] *= k == i ? 1 : 1 / (time[i] - time[k]);
-    }
-    return d;
-}
-
-FF_SIMD
-static void add_difference(size_t n, const double *restrict of, const double *restrict m0,
-                           const double *restrict m1, const double *restrict m2,
-                           const double *restrict m3, double factor, double *restrict to)
-{
-    const double c0 = factor * of[0], c1 = factor * of[1], c2 = factor * of[2], c3 = factor * of[3];
-    for (size_t i = 0; i < n; i++)
-        to[i] += c0 * m0[i] + c1 * m1[i] + c2 * m2[i] + c3 * m3[i];
-}
-
-/*
- * tau of the steps: (10.2) takes the change in time by dt (dt + dt_1) of the third divided
- * difference of the mass too small, (10.1) by dt of the second. The step behind a restart is one of
- * (10.1); what it leaves, dt^2 of the second difference, is known one step later.
+/* rows = -tau + dx (c1 e1 + c2 e2) + share rest, where e1 and e2 are the errors of earlier masses.
  */
-static void truncate_steps(const ehl_march *m, ehl_transport *t)
-{
-    const ehl_reynolds *r = m->solver->reynolds;
-    const ehl_state *s = m->state;
-    const double now = m->trial_at.time, time[] = {now, s[0].time, s[1].time, s[2].time};
-    const int euler = m->scheme == EHL_EULER;
-    memset(t->tau, 0, t->nodes * sizeof *t->tau);
-    size_t count = euler ? 3 : 4;
-    double factor = r->dx * (now - time[1]) * (euler ? 1 : now - time[2]), *to = t->tau;
-    if (!euler && m->smooth == 2) {
-        count = 3;
-        factor = (time[1] - time[2]) * (time[1] - time[2]);
-        to = t->of[EHL_BY_STEPS].mass[0];
-    }
-    if (m->smooth + 1 < count || m->known + 1 < count)
-        return;
-    divided d = differences(time, count);
-    add_difference(t->nodes, d.of, r->mass, s[0].mass, s[1].mass, s[2].mass, factor, to);
-}
-
-/* rows = -tau + dx (c1 e1 + c2 e2), where e1 and e2 are the errors of earlier masses. */
 FF_SIMD
 static void fill_rows(size_t n, const double *restrict tau, double c1, const double *restrict e1,
-                      double c2, const double *restrict e2, double *restrict rows)
+                      double c2, const double *restrict e2, double share,
+                      const double *restrict rest, double *restrict rows)
 {
     for (size_t i = 0; i < n; i++)
-        rows[i] = c1 * e1[i] + c2 * e2[i] - tau[i];
+        rows[i] = c1 * e1[i] + c2 * e2[i] - tau[i] + share * rest[i];
 }
 
-/* Extrapolates x in a straight line, and sets `before` to the old x. */
-FF_SIMD
-static void go_on(size_t n, double ahead, double *restrict x, double *restrict before)
-{
-    for (size_t i = 0; i < n; i++) {
-        double now = x[i];
-        x[i] = now + ahead * (now - before[i]);
-        before[i] = now;
-    }
-}
-
-static void guess(const ehl_march *m, const ehl_transport *t, ehl_film_error *e)
+/* Returns the share of what the last solution has left of its right-hand side that is added to this
+ * one. As a flow it counts over the length of its step. Otherwise the oil would gather all of it on
+ * its way. */
+static double what_was_left(const ehl_march *m, const ehl_transport *t)
 {
     double dt = m->trial_at.time - m->state[0].time;
-    double ahead = t->last_step > 0 && m->smooth > 1 ? dt / t->last_step : 0;
-    go_on(t->nodes, ahead, e->now.p, e->before.p);
-    go_on(t->nodes, ahead, e->now.v, e->before.v);
-    go_on(1, ahead, &e->now.h00, &e->before.h00);
+    return m->known > 0 && t->last_step > 0 ? t->last_step / dt : 0;
 }
 
 FF_SIMD
@@ -229,60 +162,66 @@ static void fill_mass(size_t n, const double *restrict rho, const double *restri
 }
 
 /* Fills in the errors of the gap and of the mass, which is the unknown of a cavitated node. */
-static void spread(const ehl_march *m, const ehl_transport *t, ehl_film_error *e)
+static void spread(const ehl_march *m, ehl_transport *t)
 {
     const ehl_reynolds *r = m->solver->reynolds;
     const ehl_film *film = &m->trial.film;
     const ehl_liquid *q = &r->liquid;
-    double *mass = e->mass[0];
-    add_h00(t->nodes, e->now.v, e->now.h00, e->h);
-    fill_mass(r->last + 1, q->rho, q->rho_p, r->h, e->h, e->now.p, mass);
+    double *mass = t->mass[0];
+    add_h00(t->nodes, t->e.v, t->e.h00, t->h);
+    fill_mass(r->last + 1, q->rho, q->rho_p, r->h, t->h, t->e.p, mass);
     for (size_t i = 0; r->touching && i <= r->last;
          i++) /* the asperities' part of p is not oil's */
-        mass[i] -= q->rho_p[i] * r->h[i] * r->p_a_h[i] * e->h[i];
+        mass[i] -= q->rho_p[i] * r->h[i] * r->p_a_h[i] * t->h[i];
     for (size_t i = r->last + 1; i < t->nodes; i++)
-        mass[i] = r->mass[i] / r->h[i] * e->h[i];
+        mass[i] = r->mass[i] / r->h[i] * t->h[i];
     for (size_t i = 1; r->conserving && i + 1 < t->nodes; i++)
         if (ehl_is_cavitated(r, film, i))
-            mass[i] = r->unit * e->now.p[i];
+            mass[i] = r->unit * t->e.p[i];
 }
 
-/* Finds the errors by one cause whose tau is known. */
-static ff_status find(ehl_march *m, ehl_transport *t, int cause)
+/* Returns 1 if the equations are near enough to those of the trial: the last step of Newton's
+ * method has changed it by little more than its tolerance, and has not moved its end. */
+static int is_evaluated(const ehl_march *m)
 {
-    ehl_film_error *e = &t->of[cause];
-    double c[3] = {0, 0, 0}, *oldest = e->mass[EHL_STATES - 1], dx = m->solver->reynolds->dx;
-    if (m->known > 0)
-        ehl_march_factors(m, m->trial_at.time, c);
-    fill_rows(t->nodes, t->tau, dx * c[1], e->mass[0], dx * c[2], e->mass[1], t->rows);
-    guess(m, t, e);
-    const ehl_accuracy accuracy = {t->accuracy, {&t->of[EHL_BY_CELLS].now, &e->now}};
-    ff_status status =
-        ehl_linear_answer(m->solver, &m->trial_step, &m->trial.film, t->rows, &accuracy, &e->now);
-    memmove(e->mass + 1, e->mass, (EHL_STATES - 1) * sizeof e->mass[0]);
-    e->mass[0] = oldest;
-    spread(m, t, e);
-    return status;
+    const ehl_reynolds *r = m->solver->reynolds;
+    return m->evaluated && !r->statistical.law && m->trial.film.full[r->last - 1];
 }
+
+/* Half-widths of the largest contact within which the oil leaves it: with its inlet some 3. */
+static const double PASSAGE = 4;
+
+/* Accuracy of the first film's errors, over that of the others, which begin with a guess. */
+static const double FIRST_ACCURACY = 0.3;
 
 void ehl_transport_step(ehl_march *m)
 {
     ehl_transport *t = m->transport;
     ehl_reynolds *r = m->solver->reynolds;
     const ehl_film *film = &m->trial.film;
-    if (t->lost) /* later errors would be made of numbers that are none */
-        return;
-    ehl_reynolds_evaluate(r, &m->trial_step, film);
-    ehl_reynolds_slopes(r, &m->trial_step, film);
-    if (r->statistical.law)
-        ehl_statistical_rows(r, film);
-    truncate_cells(t, r, &m->trial_step, film);
-    ff_status status = find(m, t, EHL_BY_CELLS);
-    if (status == FF_OK && m->known > 0) {
-        truncate_steps(m, t);
-        status = find(m, t, EHL_BY_STEPS);
+    double c[3] = {0, 0, 0}, *oldest = t->mass[EHL_STATES - 1];
+    if (!is_evaluated(m)) {
+        ehl_reynolds_evaluate(r, &m->trial_step, film);
+        ehl_reynolds_slopes(r, &m->trial_step, film);
+        if (r->statistical.law)
+            ehl_statistical_rows(r, film);
     }
+    truncate_cells(t, r, &m->trial_step, film);
+    if (m->known > 0)
+        ehl_march_factors(m, m->trial_at.time, c);
+    fill_rows(t->nodes, t->tau, r->dx * c[1], t->mass[0], r->dx * c[2], t->mass[1],
+              what_was_left(m, t), t->rest, t->rows);
+    ff_status status = ehl_linear_answer(m->solver, &m->trial_step, film, t->rows,
+                                         m->known > 0 ? t->accuracy : FIRST_ACCURACY * t->accuracy,
+                                         &t->e, t->rest);
+    memmove(t->mass + 1, t->mass, (EHL_STATES - 1) * sizeof t->mass[0]);
+    t->mass[0] = oldest;
+    spread(m, t);
     t->last_step = m->known > 0 ? m->trial_at.time - m->state[0].time : 0;
-    t->lost |= status != FF_OK;
-    t->known = !t->lost;
+    t->blind -= m->trial_step.entrainment * t->last_step;
+    if (status != FF_OK) { /* the errors of later films would be made of numbers that are none */
+        ehl_transport_restart(t);
+        t->blind = PASSAGE * m->solver->grid->half_width;
+    }
+    t->known = !(t->blind > 0);
 }

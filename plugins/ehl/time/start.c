@@ -186,6 +186,7 @@ ff_status ehl_march_start_at(ehl_march *m, double time)
     if (status == FF_OK) {
         m->trial_step = step;
         m->trial_at = at;
+        m->evaluated = 0;
         ehl_march_update_mass(m);
         ehl_march_accept(m);
         m->contact_lost = m->start_unloaded;

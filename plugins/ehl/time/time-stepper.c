@@ -42,6 +42,7 @@ ff_status ehl_march_try(ehl_march *m, const ehl_instant *at)
         return status;
     m->trial_step = step;
     m->trial_at = *at;
+    m->evaluated = 1;
     ehl_march_update_mass(m);
     ehl_estimate_truncation(m);
     return FF_OK;

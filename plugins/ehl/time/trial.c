@@ -112,17 +112,6 @@ static void keep_carried(size_t n, const double *restrict before, int shrinks, d
         full[i] = full[i] & (p[i] > 0);
 }
 
-/* v += change kernel, for a change at node k alone. */
-FF_SIMD
-static void deflect_by(size_t n, size_t k, double change, const double *restrict kernel,
-                       double *restrict v)
-{
-    for (size_t i = k; i < n; i++)
-        v[i] += change * kernel[i - k];
-    for (size_t i = 0; i < k; i++)
-        v[i] += change * kernel[k - i];
-}
-
 /*
  * Sets the deflection of the trial. `free` is its pressure before keep_carried. The deflection is
  * extrapolated like the pressure, and corrected where the pressure was cut off. The round-off error
@@ -152,7 +141,7 @@ static void extrapolate_deflection(ehl_march *m, const double c[3], const double
     }
     combine(n, c[0], s[0].film.v, c[1], s[1].film.v, c[2], s[2].film.v, film->v);
     for (size_t k = 0; k < cut; k++)
-        deflect_by(n, place[k], film->p[place[k]] - free[place[k]], m->solver->kernel, film->v);
+        ehl_deflect_by(n, place[k], film->p[place[k]] - free[place[k]], m->solver->kernel, film->v);
 }
 
 /* Returns the last full node. */

@@ -16,7 +16,10 @@
 
 enum { FINER = 8 };
 
-static const char *const outputs = "time h_min h_central p_max h_min_error";
+/* A transported bar over its estimate. */
+static const double CAUTION = 1.5;
+
+static const char *const outputs = "time h_min h_central p_max h_central_error";
 
 static double off(const line *c, const line *fine, const char *output)
 {
@@ -117,8 +120,8 @@ static void test_measured(void)
         }
     }
     check_near("of the series",
-               line_value(&few, "h_min_error", 100) / line_value(&few, "h_min", 100),
-               stage_quality(few.film, "h_min_space_error"), 1e-2);
+               line_value(&few, "h_central_error", 100) / line_value(&few, "h_central", 100),
+               stage_quality(few.film, "h_central_space_error"), 1e-2);
     line_close(&one);
     line_close(&few);
     line_close(&fine);
@@ -215,14 +218,16 @@ static void slow(line *c, double cells)
     check_true("runs", line_run(c, outputs) == FF_OK);
 }
 
+/* A passage is a part of a step, and the transport of errors states all rows but two. */
 static void test_slow(void)
 {
     line c, fine;
     slow(&c, 128);
     slow(&fine, FINER * 128);
-    check_told("slow: h_min", off(&c, &fine, "h_min"), stage_quality(c.film, "h_min_space_error"));
-    check_told("slow: h_central", off(&c, &fine, "h_central"),
-               stage_quality(c.film, "h_central_space_error"));
+    check_within("slow: h_min", off(&c, &fine, "h_min"),
+                 stage_quality(c.film, "h_min_space_error") / CAUTION, 1.5);
+    check_within("slow: h_central", off(&c, &fine, "h_central"),
+                 stage_quality(c.film, "h_central_space_error") / CAUTION, 1.5);
     line_close(&c);
     line_close(&fine);
 }
@@ -340,12 +345,10 @@ static void falling_by_much(line *c, double cells)
     falling(c, cells, 0.6, "h_min_lowest");
 }
 
-/* The end of the contact moves at 0.4 to 0.9 of the speed of the oil, and the bound, of films that
-   are steady, is half of what is true. */
-static void unloading_to(line *c, const char *errors, double share, double duration, double cells)
+/* The end of the contact moves at 0.4 to 0.9 of the speed of the oil. */
+static void unloading_to(line *c, double share, double duration, double cells)
 {
     line_open(c, "ehl/finite-volume");
-    stage_set_text(c->film, "errors", errors);
     line_last(c, 2, duration);
     c->load[1] = share * c->load[0];
     stage_set(c->film, "steps", 400);
@@ -355,21 +358,14 @@ static void unloading_to(line *c, const char *errors, double share, double durat
 
 static void unloading(line *c, double cells)
 {
-    unloading_to(c, "bounds", 0.2, 40e-6, cells);
-}
-
-/* The transport of errors states 1.5 times the error of such a film, and more than that; from the
-   limit on its error is measured as well. */
-static void unloading_by_transport(line *c, double cells)
-{
-    unloading_to(c, "transport", 0.2, 40e-6, cells);
+    unloading_to(c, 0.2, 40e-6, cells);
 }
 
 /* The film is lowest where the load is below 2 %, of which no error is bounded: an eighth of it
    would be told. */
 static void emptying(line *c, double cells)
 {
-    unloading_to(c, "bounds", 0.005, 60e-6, cells);
+    unloading_to(c, 0.005, 60e-6, cells);
 }
 
 /* The oil comes nearly to rest, at a hundredth of its speed, and the flanks squeeze it. */
@@ -521,7 +517,6 @@ int main(void)
     test_lost();
     check_lowest("falling", falling_by_much, 192);
     check_lowest("unloading", unloading, 256);
-    check_lowest("unloading by transport", unloading_by_transport, 256);
     check_lowest("emptying", emptying, 256);
     test_slowing();
     check_lowest("rising", rising, 384);

@@ -79,7 +79,7 @@ def run(args, s, finer, domain):
     text = f'''format: 2
 include: [{args.source}/configs/lubricants/{oil}.yaml]
 pipeline:
-{body}  film: {{use: ehl/finite-volume, errors: transport, cells: {finer * cells}, {time}{domain}, tolerance: 1e-6}}
+{body}  film: {{use: ehl/finite-volume, cells: {finer * cells}, {time}{domain}, tolerance: 1e-6}}
 outputs: [{contact}.hertz_half_width, film.time, film.load_per_width, film.x, film.h_min, film.h_central, film.h_min_error,
           film.h_central_error]
 '''
