@@ -35,19 +35,22 @@ static void kinematics(const ff_fixture *fixture)
             good = conformance_near(&run, "slide_roll_ratio", i, slide.data[i],
                                     us.data[i] / ur.data[i], size / fabs(ur.data[i]), 1e-9);
         if (good && !(load.data[i] >= 0)) {
-            ff_check_failf(fixture, "load_per_width is %g at point %zu: flanks do not pull",
+            ff_check_failf(fixture,
+                           "load_per_width is %g at point %zu: it is negative, but flanks "
+                           "do not pull",
                            load.data[i], i);
             good = false;
         }
         if (good && i && !(time.data[i] >= time.data[i - 1])) {
-            ff_check_failf(fixture, "time falls at point %zu", i);
+            ff_check_failf(fixture, "time decreases at point %zu", i);
             good = false;
         }
     }
     conformance_close(&run);
 }
 
-/* 1/R = 1/r1 + 1/r2, b = sqrt(8 W R/(pi E')), p_H = 2 W/(pi b). */
+/* Checks Hertz' line contact under the load per width W: 1/R = 1/r1 + 1/r2, half width b = sqrt(8 W
+   R/(pi E')), pressure p_H = 2 W/(pi b). */
 static void hertz(const ff_fixture *fixture)
 {
     conformance_evaluation run;
@@ -102,13 +105,14 @@ static void give_pair(const ff_fixture *fixture)
     conformance_give_series(fixture, "load.tooth_force", STATIONS, force);
 }
 
-/* At the given stations: roll = omega t, u1 = omega R1, u2 = omega z1/z2 R2, w = W/b. */
+/* Checks the kinematics of a tooth pair at the stations of the gear: roll angle = omega t, surface
+   speeds u1 = omega R1 and u2 = omega z1/z2 R2, load per width = tooth force over face width. */
 static void passage(const ff_fixture *fixture)
 {
     conformance_evaluation run;
     if (ff_model_find_input(fixture->model, "load.tooth_force") < 0 ||
         ff_model_find_input(fixture->model, "gear.radius_1") < 0) {
-        fixture->skip(fixture->ctx, NULL); /* the model is no pair of teeth */
+        fixture->skip(fixture->ctx, NULL); /* the model does not describe a tooth pair */
         return;
     }
     give_pair(fixture);
@@ -140,9 +144,9 @@ static void passage(const ff_fixture *fixture)
 }
 
 static const ff_check checks[] = {
-    {"kinematics", "speeds of rolling and sliding are those of the surfaces", kinematics},
-    {"hertz", "radius, width and pressure are those of Hertz", hertz},
-    {"passage", "speeds and load of a pair of teeth are those of the gears", passage},
+    {"kinematics", "entrainment and sliding speed follow from the surface speeds", kinematics},
+    {"hertz", "radius, half width and pressure agree with Hertz", hertz},
+    {"passage", "speeds and load of a tooth pair follow from those of the gears", passage},
 };
 
 const ff_conformance conformance_offer = {.size = sizeof conformance_offer,

@@ -55,8 +55,9 @@ static void compression(const ff_fixture *fixture)
            pressed = conformance_law_at(law->eval, law->self, 1e9, NULL, NULL);
     if (!(pressed <= 1.5 * level))
         ff_check_failf(fixture,
-                       "rho is %.4g at p = 0 and %.4g at 1 GPa: no liquid gives way by half", level,
-                       pressed);
+                       "rho is %.4g at p = 0 and %.4g at 1 GPa: no liquid becomes denser by "
+                       "half",
+                       level, pressed);
     fixture->close(fixture->ctx, instance);
 }
 

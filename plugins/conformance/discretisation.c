@@ -8,8 +8,8 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* A rigid cylinder that approaches through oil, without entrainment: p = 6 eta V R (1/h^2 -
-   1/h_end^2), V = -dh/dt. */
+/* A rigid cylinder approaches with the speed V = -dh/dt, without entrainment: p = 6 eta V R (1/h^2
+   - 1/h_end^2), where h_end is the gap at the ends of the domain. */
 static void squeeze(const ff_fixture *fixture)
 {
     const double fall = 0.02; /* V, m/s */
@@ -36,7 +36,8 @@ static void squeeze(const ff_fixture *fixture)
     film_case_close(&c);
 }
 
-/* A wedge with Martin's load, w h/(eta u R) = 4.86526 with the inlet at 20 sqrt(2 R h). */
+/* A rigid wedge must carry Martin's load, w h/(eta u R) = 4.86526 for an inlet at 20 sqrt(2 R
+   h). */
 static void wedge(const ff_fixture *fixture)
 {
     film_case c;
@@ -64,9 +65,9 @@ static void fluidity(const ff_fixture *fixture)
     if (film_case_solve(&c)) {
         double expected =
             4.86526 * c.eta * c.instant.entrainment * c.instant.radius / c.state.h00 / 3;
-        film_case_near(
-            &c, "the load of a rigid wedge with an oil that shear makes three times as fluid", 0,
-            film_case_load(&c), expected, expected, 0.05);
+        film_case_near(&c,
+                       "the load of a rigid wedge, if shear makes the oil three times as fluid,", 0,
+                       film_case_load(&c), expected, expected, 0.05);
     }
     film_case_close(&c);
 }
@@ -106,7 +107,7 @@ static void elastic(const ff_fixture *fixture)
                               deflection_at(&c, i), most, 0.01);
     flow = good ? film_case_flow(&c, top) : 0;
     for (size_t i = 2; i <= top && good; i++)
-        good = film_case_near(&c, "the flow of oil between the nodes before this one and it", i,
+        good = film_case_near(&c, "the oil flow into this node from the node before it", i,
                               film_case_flow(&c, i), flow,
                               c.rho * c.instant.entrainment * film_case_gap(&c, i), 0.03);
     film_case_close(&c);
@@ -115,8 +116,8 @@ static void elastic(const ff_fixture *fixture)
 static const ff_check checks[] = {
     {"squeeze", "a rigid approaching cylinder has the exact pressure", squeeze},
     {"wedge", "a rigid wedge carries Martin's load", wedge},
-    {"fluidity", "the flow includes the effect of shear on the oil", fluidity},
-    {"elastic", "load, deflection and flow are those of its pressure", elastic},
+    {"fluidity", "the flow includes shear thinning", fluidity},
+    {"elastic", "load, deflection and flow follow from the pressure", elastic},
 };
 
 const ff_conformance conformance_offer = {.size = sizeof conformance_offer,

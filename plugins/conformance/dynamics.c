@@ -18,8 +18,8 @@ typedef struct test_pair {
 
 static const test_pair plain = {.stiffness = 4e8, .mass = 1, .load = 3000, .frequency = 1000};
 
-/* Returns the roll angle of a station. The stations imply double contact during 3/4 of a cycle
-   after SAP, and again before the tip. */
+/* Returns the roll angle of a station. Their spacing implies double contact from SAP over 3/4 of a
+   cycle, and over another 3/4 of a cycle up to the tip. */
 static double roll_of(int station)
 {
     const int part = station / (STATIONS / 3);
@@ -74,8 +74,8 @@ static const char wanted[] =
     "phase dte dte_velocity mesh_force dte_rms dte_mean dte_peak_to_peak "
     "period natural_frequency multipliers tooth_force dynamic_factor_tooth";
 
-/* Whether the pair can only rotate, which two multipliers show. With other degrees of freedom it
-   has other equilibrium positions. */
+/* Returns whether rotation is the only degree of freedom; the motion then has two multipliers. With
+   other degrees of freedom the pair has other equilibrium positions. */
 static bool rotates_only(const conformance_evaluation *e)
 {
     size_t numbers = conformance_array_of(e, "multipliers").count;
@@ -132,8 +132,9 @@ static harmonic first_harmonic(conformance_array phase, conformance_array y, dou
 
 static const double damping = 0.05, ratio = 0.7; /* of a linear pair: zeta, and f over f_n */
 
-/* Opens a linear pair with constant stiffness, excited by e = E cos(2 pi phase). False, after a
-   report, if the model has no inertia, has other degrees of freedom or lacks the parameters. */
+/* Evaluates a linear pair with constant stiffness, excited by e = E cos(2 pi phase). If the model
+   has no inertia, has other degrees of freedom or lacks the parameters, reports this and returns
+   false. */
 static bool open_linear(conformance_evaluation *run, const ff_fixture *fixture, test_pair *s)
 {
     *s = plain;
@@ -154,10 +155,10 @@ static bool open_linear(conformance_evaluation *run, const ff_fixture *fixture, 
     return false;
 }
 
-/* In the first harmonic F = (k + i w c)(S - E) and F = m w^2 S, with w c = 2 zeta r k and m w^2 =
-   r^2 k. The first equation checks the mesh, the second the mass. |S| = E sqrt(1 + d^2)/sqrt((1 -
-   r^2)^2 + d^2), d = 2 zeta r. e is linear between 64 phases, so its harmonic is sinc^2(1/64) times
-   that of the cosine. */
+/* The first harmonics of mesh force F, transmission error S and excitation E obey F = (k + i w c)(S
+   - E) and F = m w^2 S, with w c = 2 zeta r k and m w^2 = r^2 k. The first equation checks the
+   mesh, the second the mass. |S| = E sqrt(1 + d^2)/sqrt((1 - r^2)^2 + d^2), d = 2 zeta r. e is
+   linear between 64 phases, so its harmonic is sinc^2(1/64) times that of the cosine. */
 static void linear(const ff_fixture *fixture)
 {
     test_pair s;
@@ -183,11 +184,11 @@ static void linear(const ff_fixture *fixture)
                viscous = (F.cosine * W.sine - F.sine * W.cosine) / size,
                inertia = (F.cosine * S.cosine + F.sine * S.sine) /
                          (S.cosine * S.cosine + S.sine * S.sine);
-        /* -viscous, since the cosine leads */
+        /* -viscous: the harmonic is (cosine, sine) = (real part, -imaginary part) */
         if (conformance_near(&run, "mesh_force over the deflection, N/m,", 0, elastic, k, k,
                              0.02) &&
-            conformance_near(&run, "the damper's share of it, 2 zeta r k,", 0, viscous, d * k,
-                             d * k, 0.1))
+            conformance_near(&run, "the part of it in phase with the speed, 2 zeta r k,", 0,
+                             viscous, d * k, d * k, 0.1))
             conformance_near(&run, "mesh_force over the motion, m w^2,", 0, inertia,
                              ratio * ratio * k, ratio * ratio * k, 0.02);
     }
@@ -210,7 +211,7 @@ static void teeth(const ff_fixture *fixture)
         return;
     for (int i = 0; i < STATIONS; i++)
         stations[i] = roll_of(i);
-    /* if the model takes no gear, its stations are those of the stiffness */
+    /* a model without a gear input uses the stations of the stiffness */
     const conformance_array roll = {stations, STATIONS},
                             tooth = conformance_array_of(&run, "tooth_force"),
                             phase = conformance_array_of(&run, "phase"),
@@ -308,7 +309,7 @@ static void energy(const ff_fixture *fixture)
         size += step * (fabs(a * va) + fabs(b * vb)) / 2;
     }
     if (good &&
-        conformance_near(&run, "mean mesh_force, less the load,", 0, impulse, 0, sway + 1e-6 * load,
+        conformance_near(&run, "mean mesh_force minus the load", 0, impulse, 0, sway + 1e-6 * load,
                          1e-2) &&
         sway > 1e-3 * load)
         conformance_near(&run, "work of mesh_force and load over a period", 0, work, 0, size, 2e-2);
@@ -349,8 +350,8 @@ static void means(const ff_fixture *fixture)
     conformance_close(&run);
 }
 
-/* Under an error that removes the load, flanks separate and do not pull until the backlash is
-   crossed. A damper may pull, by up to 2 zeta r of the amplitude. */
+/* A large transmission error unloads the mesh, so the flanks separate. They must not pull while
+   they cross the backlash; only a damper may pull, by up to 2 zeta r of the amplitude. */
 static void parting(const ff_fixture *fixture)
 {
     test_pair s = plain;
@@ -383,9 +384,9 @@ static void parting(const ff_fixture *fixture)
     if (good && pulling > driving - 0.9 * backlash)
         ff_check_failf(
             fixture,
-            "mesh_force is %.4g N where the flanks are %.3g m from where they drive, which "
-            "is within the backlash of %g m: they pull, at a load of %g N and e = %.3g m "
-            "cos(2 pi phase)",
+            "mesh_force is %.4g N where the flanks are %.3g m away from driving contact, within "
+            "the backlash of %g m: separated flanks pull; the load is %g N, and e = %.3g m cos(2 "
+            "pi phase)",
             worst, driving - pulling, backlash, s.load, s.error);
     conformance_close(&run);
 }
@@ -394,7 +395,7 @@ static const ff_check checks[] = {
     {"rest", "a pair of constant stiffness rests at F/k", rest},
     {"linear", "a linear pair responds as an oscillator of one degree of freedom", linear},
     {"teeth", "the tooth forces of the pairs in mesh sum to the mesh force", teeth},
-    {"means", "mean, rms and range are those of the series", means},
+    {"means", "mean, rms and range follow from the series", means},
     {"parting", "flanks separate, and do not pull within the backlash", parting},
     {"periodicity", "position and velocity return after the period", periodicity},
     {"energy", "the mean mesh force is the load, and its net work over a period is 0", energy},

@@ -46,8 +46,8 @@ static ff_status incompressible(const void *self, size_t n, const double *p, con
 
 static const ff_density liquid = {sizeof liquid, NULL, incompressible};
 
-/* A contact in the dimensionless groups of Moes: M = W/sqrt(2U), L = alpha E' (2U)^(1/4), with
-   2U = eta (u1 + u2)/(E' R), W = w/(E' R). */
+/* A contact given by Moes' load number M = W/sqrt(2U) and lubricant number L = alpha E' (2U)^(1/4),
+   with 2U = eta (u1 + u2)/(E' R), W = w/(E' R). */
 typedef struct line_contact {
     double M, L, eta, modulus, radius, speed, load, alpha;
     oil law;
@@ -64,13 +64,13 @@ static void make_contact(line_contact *c, double M, double L)
     c->viscosity = (ff_viscosity){sizeof c->viscosity, &c->law, eval};
 }
 
-/* H of Moes: (h/R)/sqrt(2U). */
+/* Returns Moes' film thickness number H = (h/R)/sqrt(2U). */
 static double moes_film(const line_contact *c, double h)
 {
     return h / c->radius / sqrt(2 * c->eta * c->speed / (c->modulus * c->radius));
 }
 
-/* Feeds `times` instants; the load varies by the relative amplitude `swing`. */
+/* Sets the inputs at `times` instants; the load varies by the relative amplitude `swing`. */
 static void give_contact(const ff_fixture *fixture, const line_contact *c, size_t times,
                          double swing)
 {
@@ -128,7 +128,7 @@ static void balance(const ff_fixture *fixture)
     conformance_close(&run);
 }
 
-/* The flow between the points i - 1 and i. */
+/* Returns the volume flow per width between the points i - 1 and i, m2/s. */
 static double flux_at(const line_contact *c, const double *x, const double *p, const double *h,
                       size_t i)
 {
@@ -169,8 +169,8 @@ static void mass(const ff_fixture *fixture)
     conformance_close(&run);
 }
 
-/* Rigid cylinder, isoviscous oil (Martin 1916): w h/(eta u R) = 4.86526 with the inlet at 20 sqrt(2
-   R h). */
+/* A rigid cylinder with isoviscous oil must have Martin's film, w h/(eta u R) = 4.86526 for an
+   inlet at 20 sqrt(2 R h) (Martin 1916). */
 static void rigid(const ff_fixture *fixture)
 {
     const double h = 1e-6, number = 4.86526;
@@ -197,8 +197,8 @@ static void rigid(const ff_fixture *fixture)
     conformance_close(&run);
 }
 
-/* Central films of an independent program (dense Newton, extrapolated to a fine grid). The
-   tolerance is 1.5 %, or twice the error that the model itself states. */
+/* Compares with central films computed by an independent program (dense Newton, extrapolated to a
+   fine grid). The tolerance is 1.5 %, or twice the error that the model itself states. */
 static void benchmark(const ff_fixture *fixture)
 {
     static const struct {
@@ -222,9 +222,9 @@ static void benchmark(const ff_fixture *fixture)
     }
 }
 
-/* A rigid contact whose load varies faster than oil can be squeezed out. A quasi-steady film would
-   vary by the factor (1 + s)/(1 - s), as 1/w does; squeeze must leave less than half of this
-   variation. */
+/* The load of a rigid contact varies faster than oil can be squeezed out, with the relative
+   amplitude s. A quasi-steady film would vary by the factor (1 + s)/(1 - s), as 1/w does; squeeze
+   must reduce the variation to less than half of this. */
 static void squeeze(const ff_fixture *fixture)
 {
     const double h = 1e-6, swing = 0.5;
@@ -237,7 +237,7 @@ static void squeeze(const ff_fixture *fixture)
     }
     make_contact(&c, 1, 0);
     c.modulus = 1e18;
-    c.speed = 0.4; /* m/s: oil passes the inlet, 160 um long, in twice the time of the history */
+    c.speed = 0.4; /* m/s: oil takes twice the time of the history to pass the inlet, 160 um long */
     c.load = 4.86526 * c.eta * c.speed * c.radius / h;
     give_contact(fixture, &c, 24, swing);
     double width = sqrt(8 * c.load * (1 + swing) * c.radius / (pi * c.modulus)),
@@ -260,9 +260,9 @@ static void squeeze(const ff_fixture *fixture)
     if (film.count > 4 && !(high / low - 1 < (slow - 1) / 2))
         ff_check_failf(
             fixture,
-            "h_min swings between %.4g and %.4g m while the load of a rigid contact swings "
-            "by half of itself in 0.2 ms at u = %g m/s: as much as in a slow change, as if "
-            "no oil had to be squeezed out",
+            "h_min varies between %.4g and %.4g m while the load of a rigid contact varies by 50 "
+            "%% in 0.2 ms at u = %g m/s: as much as during a slow change, as if no oil had to be "
+            "squeezed out",
             low, high, c.speed);
     conformance_close(&run);
 }

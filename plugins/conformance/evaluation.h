@@ -17,8 +17,8 @@ typedef struct conformance_array {
     size_t count;
 } conformance_array;
 
-/* Opens an instance and evaluates the named outputs. False, after a report, if there is nothing to
-   check. */
+/* Opens an instance and evaluates the named outputs. If there is nothing to check, reports why and
+   returns false. */
 bool conformance_evaluate(conformance_evaluation *e, const ff_fixture *fixture, const char *wanted);
 void conformance_close(conformance_evaluation *e);
 
@@ -27,7 +27,7 @@ double conformance_scalar_of(const conformance_evaluation *e,
                              const char *name); /* NaN: not available */
 
 bool conformance_offers(const ff_fixture *fixture, const char *output);
-/* whether all are available */
+/* Returns whether all named outputs are available. */
 bool conformance_has_all(const conformance_evaluation *e, const char *names);
 
 /* Checks |value - expected| <= tolerance * scale, and reports a fault with the name `what` and the

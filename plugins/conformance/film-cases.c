@@ -99,7 +99,8 @@ static void set_up(film_case *c, unsigned how)
                                    .load = pi * a * 4e8 / 2};
 }
 
-/* Starts rigid flanks with a low parabola of pressure, elastic ones with the Hertz pressure. */
+/* Sets the initial pressure: a low parabola for rigid flanks, the Hertz pressure for elastic
+   flanks. */
 static void guess(film_case *c)
 {
     for (size_t i = 0; i < FILM_NODES; i++) {
@@ -133,7 +134,7 @@ bool film_case_open(film_case *c, const ff_fixture *fixture, unsigned how)
     if (c->film->open(c->film->self, &c->contact, &c->solver) == FF_OK)
         return true;
     ff_check_failf(fixture,
-                   "open refuses %d nodes of a smooth contact without cavities to follow: %s",
+                   "open refuses a smooth contact of %d nodes without a cavitation model: %s",
                    FILM_NODES, fixture->why(fixture->ctx, c->model));
     c->solver = NULL;
     film_case_close(c);
@@ -194,8 +195,8 @@ bool film_case_near(const film_case *c, const char *what, size_t node, double va
     return fabs(value - expected) <= tolerance * fabs(scale) ||
            ff_check_failf(
                c->fixture,
-               "%s is %.6g at node %zu, but must be %.6g (R = %g m, u = %g m/s, eta0 = %g "
-               "Pa s, E' = %g Pa, %d nodes from %.4g m on, %.4g m apart)",
+               "%s is %.6g at node %zu, but must be %.6g (R = %g m, u = %g m/s, eta0 = %g Pa s, E' "
+               "= %g Pa, %d nodes that begin at x = %.4g m, %.4g m apart)",
                what, value, node, expected, c->instant.radius, c->instant.entrainment, c->eta,
                c->contact.modulus, FILM_NODES, c->contact.first, c->contact.dx);
 }

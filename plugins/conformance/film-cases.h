@@ -10,9 +10,9 @@
 
 enum { FILM_NODES = 193 };
 
-/* The cases: rigid flanks with constant viscosity, optionally three times as fluid by shear; or
-   elastic flanks with Barus' oil. FILM_EVEN: the nodes extend as far behind the contact as in front
-   of it. */
+/* The cases: elastic flanks with Barus' oil (FILM_PLAIN), or rigid flanks with constant viscosity
+   (FILM_RIGID), which shear makes three times as fluid if FILM_FLUID is set. FILM_EVEN: the nodes
+   extend as far behind the contact as in front of it. */
 enum { FILM_PLAIN = 0, FILM_RIGID = 1, FILM_FLUID = 2, FILM_EVEN = 4 };
 
 typedef struct film_case {
@@ -30,9 +30,10 @@ typedef struct film_case {
     unsigned char full[FILM_NODES];
 } film_case;
 
-/* False, after a report, if there is nothing to check; otherwise the caller closes the case. */
+/* If there is nothing to check, reports why and returns false; otherwise the caller closes the
+   case. */
 bool film_case_open(film_case *c, const ff_fixture *fixture, unsigned how);
-/* False, after a report, if the result is no valid film. */
+/* If the result is no valid film, reports why and returns false. */
 bool film_case_solve(film_case *c);
 void film_case_close(film_case *c);
 

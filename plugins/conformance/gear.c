@@ -7,9 +7,9 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* Radii of curvature are r_b roll, and their sum is the line of action between the base circles.
-   The base radius is the working pitch radius times cos alpha_w. The contact ratio is path over
-   base pitch. */
+/* A radius of curvature is base radius times roll angle, and both radii sum to the length of the
+   line of action between the base circles. The base radius is the working pitch radius times cos
+   alpha_w. The contact ratio is the length of the path of contact over the base pitch. */
 static void involute(const ff_fixture *fixture)
 {
     conformance_evaluation run;
@@ -69,7 +69,7 @@ static void path(const ff_fixture *fixture)
         }
     for (size_t i = 1; i < roll.count && good; i++)
         if (roll.data[i] < roll.data[i - 1]) {
-            ff_check_failf(fixture, "roll_angle falls at station %zu", i);
+            ff_check_failf(fixture, "roll_angle decreases at station %zu", i);
             good = false;
         }
     if (good && conformance_near(&run, "the first roll_angle", 0, roll.data[0], sap, tip, 1e-9) &&
@@ -95,8 +95,8 @@ static bool ends_at_tips(const conformance_evaluation *run)
         double most = sqrt(tip.data[i] * tip.data[i] - base.data[i] * base.data[i]);
         if (reached[i] > most * (1 + 1e-9))
             return ff_check_failf(run->fixture,
-                                  "%s is where the flank of gear %d has a radius of %.6g m, but at "
-                                  "its tip_radius %g m it has %.6g m",
+                                  "at %s the flank of gear %d has a radius of curvature of %.6g m, "
+                                  "but it has only %.6g m at its tip_radius %g m",
                                   i ? "roll_sap" : "roll_tip", i + 1, reached[i], tip.data[i],
                                   most);
     }
@@ -123,8 +123,9 @@ static void pair(const ff_fixture *fixture)
                       poisson = conformance_array_of(&run, "poisson_ratio");
     bool good = base.count == 2 && pitch.count == 2 && teeth.count == 2;
     for (size_t i = 0; i < 2 && good && told; i++)
-        good = conformance_near(&run, "base_radius, of 4 mm and 22 deg,", i, base.data[i],
-                                teeth.data[i] * module * cos(angle) / 2, base.data[i], within);
+        good =
+            conformance_near(&run, "base_radius, for a module of 4 mm and 22 deg,", i, base.data[i],
+                             teeth.data[i] * module * cos(angle) / 2, base.data[i], within);
     good =
         good && ends_at_tips(&run) &&
         conformance_near(&run, "centre_distance", 0, conformance_scalar_of(&run, "centre_distance"),
@@ -147,9 +148,9 @@ static void pair(const ff_fixture *fixture)
 }
 
 static const ff_check checks[] = {
-    {"involute", "radii, pitches and contact ratio are those of involutes", involute},
+    {"involute", "radii, pitches and contact ratio agree with involutes", involute},
     {"path", "the path of contact runs from SAP to the tip", path},
-    {"pair", "radii, centre distance, mass and modulus follow from its data", pair},
+    {"pair", "radii, centre distance, mass and modulus follow from the data of the pair", pair},
 };
 
 const ff_conformance conformance_offer = {.size = sizeof conformance_offer,

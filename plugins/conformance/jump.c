@@ -5,7 +5,8 @@
 
 enum { INTERVALS = 256, HALVINGS = 80 };
 
-/* relative to the value, since a law may join its pieces with rounded constants */
+/* smallest jump to report, relative to the value: a law may join its pieces with rounded
+   constants */
 static const double least = 1e-6;
 
 typedef struct point {

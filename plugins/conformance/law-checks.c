@@ -83,8 +83,7 @@ static batch batch_draw(const ff_fixture *fixture, const conformance_function *f
     return b;
 }
 
-/* Which arguments a call passes; the others are NULL. They are the optional argument and the
-   derivatives. */
+/* The arguments that a call passes; an argument left out is NULL. */
 enum { WITH_OPTIONAL = 1, WITH_DERIVATIVES = 2, WITH_ALL = 3, CHOICES = 4 };
 
 static ff_status call(const conformance_function *function, const void *table, const batch *b,
@@ -118,8 +117,8 @@ static bool test_output(checking *c, void *instance, uint32_t output, function_t
             return ff_check_failf(fixture, "service gave no table for \"%s\"", row->name);
         if (*(const size_t *)table < f->size)
             return ff_check_failf(fixture,
-                                  "the table for \"%s\" says a size of %zu bytes, but that of the "
-                                  "interface has %zu",
+                                  "the table for \"%s\" says a size of %zu bytes, but the table of "
+                                  "the interface has %zu",
                                   row->name, *(const size_t *)table, f->size);
         for (size_t v = 0; v < f->speed_count && good; v++) {
             step(fixture, "", f->name);
@@ -260,8 +259,8 @@ static bool check_finite(checking *c, const conformance_function *function, cons
                 char where[160];
                 for (size_t j = 0; j < function->axis_count; j++)
                     point[j] = b->in[j][k];
-                return ff_check_failf(c->fixture, "%s: %s is %g at %s, scalar %g", function->name,
-                                      function->results[i], b->out[i][k],
+                return ff_check_failf(c->fixture, "%s: %s is %g at %s, scalar argument %g",
+                                      function->name, function->results[i], b->out[i][k],
                                       point_text(function, point, where), speed);
             }
     return true;
@@ -381,9 +380,10 @@ static bool physics(checking *c, const conformance_function *function, const voi
             good = ff_check_failf(c->fixture, "%s: %s is %g; it must be positive", function->name,
                                   function->results[0], value);
         else if (function->follows_speed && (value > 0) - (value < 0) != sign)
-            good =
-                ff_check_failf(c->fixture, "%s: %s is %g at a sliding speed of %g; it has its sign",
-                               function->name, function->results[0], value, speed);
+            good = ff_check_failf(c->fixture,
+                                  "%s: %s is %g at a sliding speed of %g; both must have "
+                                  "the same sign",
+                                  function->name, function->results[0], value, speed);
     }
     return good;
 }
@@ -393,7 +393,7 @@ void conformance_check_physics(const ff_fixture *fixture)
     for_each_function(fixture, physics);
 }
 
-/* The work of one thread. */
+/* Arguments of one thread. */
 typedef struct shift {
     const conformance_function *function;
     const void *table;
@@ -412,7 +412,7 @@ static bool same(const conformance_function *function, const batch *a, const bat
     return true;
 }
 
-/* Long enough to be interrupted during calls even on a single processor. */
+/* Repeats the calls long enough to be interrupted during a call even on a single processor. */
 static void *work(void *argument)
 {
     shift *mine = argument;

@@ -23,10 +23,10 @@ typedef struct conformance_axis {
 
 typedef struct conformance_function {
     const char *service, *name;
-    size_t size; /* size of the service's table */
+    size_t size; /* size of the service's table, bytes */
     const conformance_axis *axes[CONFORMANCE_AXES];
     size_t axis_count;
-    const char *results[CONFORMANCE_RESULTS]; /* the value, then its derivatives over the axes
+    const char *results[CONFORMANCE_RESULTS]; /* the value, then its derivatives along the axes
                                                  `by` */
     size_t by[CONFORMANCE_RESULTS];
     size_t result_count;
@@ -57,15 +57,16 @@ void conformance_check_purity(const ff_fixture *fixture);
         {"guards", "writes its results and nothing else", conformance_check_guards},               \
         {"batch", "a batch gives the same as single calls", conformance_check_batch},              \
         {"finite", "is finite for extreme arguments", conformance_check_finite},                   \
-        {"derivatives", "derivatives agree with differences", conformance_check_derivatives},      \
+        {"derivatives", "derivatives agree with finite differences",                               \
+         conformance_check_derivatives},                                                           \
         {"continuity", "has no jumps", conformance_check_continuity},                              \
         {"physics", "has the sign and slope required by physics", conformance_check_physics},      \
     {                                                                                              \
         "purity", "gives the same results again, and in two threads", conformance_check_purity     \
     }
 
-/* law-common.c: arguments that several laws share; and the `eval` of a law of p and T whose value
-   is the constant to which `self` points. */
+/* law-common.c defines the arguments that several laws share, and an `eval` whose value is the
+   constant to which `self` points. */
 extern const conformance_axis conformance_pressure, conformance_temperature, conformance_ln_eta,
     conformance_film, conformance_stress;
 

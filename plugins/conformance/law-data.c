@@ -94,8 +94,7 @@ static bool follows(const ff_fixture *fixture, const law_table *law, int32_t pro
                found = conformance_law_at(law->eval, law->self, 0, &T, NULL);
         if (!(fabs(found - oil) <= within))
             return ff_check_failf(fixture,
-                                  "%s is %.6g at p = 0, T = %g K, where the oil that is wired has "
-                                  "%.6g",
+                                  "%s is %.6g at p = 0, T = %g K, but the wired oil has %.6g",
                                   name_of(property), found, T, oil);
         double cooler = T - 10;
         for (size_t i = 0; i < sizeof pressures / sizeof *pressures; i++) {
@@ -106,8 +105,8 @@ static bool follows(const ff_fixture *fixture, const law_table *law, int32_t pro
             if (warm > cool)
                 return ff_check_failf(
                     fixture,
-                    "%s rises from %.6g at %g K to %.6g at %g K, p = %g Pa; it "
-                    "must fall with temperature, as that of the oil that is wired",
+                    "%s rises from %.6g at %g K to %.6g at %g K, p = %g Pa; it must decrease with "
+                    "temperature, as that of the wired oil does",
                     name_of(property), cool, cooler, warm, T, pressures[i]);
         }
     }
@@ -137,7 +136,7 @@ bool conformance_is_as_set(const ff_fixture *fixture, const char *service, const
     double found = law ? conformance_law_at(law->eval, law->self, 0, NULL, NULL) : value;
     bool good = law != NULL;
     if (!(fabs(found - value) <= within))
-        good = ff_check_failf(fixture, "with %s = %s it answers %.6g at p = 0, but must be %.6g",
+        good = ff_check_failf(fixture, "with %s = %s the value at p = 0 is %.6g, but must be %.6g",
                               param, text, found, value);
     fixture->close(fixture->ctx, instance);
     return good;

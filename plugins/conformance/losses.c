@@ -7,8 +7,9 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* The power of the torque is either lost or transmitted. The mean loss is the work of one pair, int
-   P b d(roll)/omega, once in each pitch 2 pi/(z omega). */
+/* The input power is either lost or transmitted. The mean loss is the energy that one pair loses,
+   int P b d(roll)/omega with the loss per width P and the face width b, over the time of one pitch,
+   2 pi/(z omega). */
 static void energy(const ff_fixture *fixture)
 {
     enum { POINTS = 65 };

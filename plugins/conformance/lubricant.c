@@ -9,7 +9,8 @@
 
 #include <math.h>
 
-/* Whether the oil has a property; its data may lack one, or give it at one temperature only. */
+/* Returns whether the oil has a property; the property may be missing, or be known at one
+   temperature only. */
 static bool is_known(const ff_liquid *oil, int32_t what)
 {
     const double T[2] = {313.15, 373.15};
@@ -125,8 +126,9 @@ static double at(const ff_liquid *oil, int32_t what, double T)
     return value;
 }
 
-/* A grade has its kinematic viscosity at 40 degC (ISO 3448); alpha holds at alpha_at; the density
-   does not rise with temperature. */
+/* Checks the oil against its data: an ISO VG grade must have its kinematic viscosity at 40 degC
+   (ISO 3448), the pressure coefficient must equal alpha at the temperature alpha_at, and the
+   density must not rise with temperature. */
 static void data(const ff_fixture *fixture)
 {
     void *instance;
@@ -140,7 +142,9 @@ static void data(const ff_fixture *fixture)
            alpha = at(oil, FF_LIQUID_PRESSURE_COEFFICIENT, 323.15),
            cool = at(oil, FF_LIQUID_RHO0, 300), warm = at(oil, FF_LIQUID_RHO0, 360);
     if (graded && !(fabs(nu - 1e-4) <= 1e-6))
-        ff_check_failf(fixture, "ISO VG 100 is eta0/rho0 = 100 mm2/s at 40 degC, but is %.4g mm2/s",
+        ff_check_failf(fixture,
+                       "ISO VG 100 has eta0/rho0 = 100 mm2/s at 40 degC, but eta0/rho0 is "
+                       "%.4g mm2/s",
                        1e6 * nu);
     else if (told && !(fabs(alpha - 12e-9) <= 1e-11))
         ff_check_failf(fixture, "alpha is %.4g 1/GPa at alpha_at, but must be 12 1/GPa",

@@ -7,7 +7,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* f = z n, F = T/r_b. */
+/* Checks the mesh frequency f = z n and the line force F = T/r_b. */
 static void power(const ff_fixture *fixture)
 {
     const double teeth[] = {24, 37}, radius[] = {0.03, 0.04625};

@@ -37,8 +37,8 @@ static double safety_at(const ff_fixture *fixture, const char *input, double fac
     return safety;
 }
 
-/* Half of the film, or 1.5 times the load or roughness, must not increase the safety. Each input is
-   restored afterwards. */
+/* Checks that half of the film, or 1.5 times the load or roughness, does not increase the safety.
+   Restores each input afterwards. */
 static void order(const ff_fixture *fixture)
 {
     static const struct {

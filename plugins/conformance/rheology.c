@@ -158,11 +158,11 @@ static void check_point(const ff_fixture *fixture, const ff_rheology *law)
     law->shear(law->self, 1, &p, &ln_eta, &h, -u, &tau_back);
     if (!(psi >= (1 - 1e-9) / eta))
         ff_check_failf(fixture,
-                       "flow: psi is %g where 1/eta is %g: less fluid than the Newtonian liquid",
+                       "flow: the fluidity psi is %g, less than 1/eta = %g of the Newtonian liquid",
                        psi, 1 / eta);
     else if (!(fabs(tau) <= (1 + 1e-9) * eta * u / h))
         ff_check_failf(fixture,
-                       "shear: tau is %g Pa at eta u_s/h = %g Pa, more than the Newtonian liquid's",
+                       "shear: tau is %g Pa, more than eta u_s/h = %g Pa of the Newtonian liquid",
                        tau, eta * u / h);
     else if (!agree(psi, psi_back))
         ff_check_failf(fixture, "flow: psi is %g at u_s = %g m/s, but %g at the opposite speed",
@@ -193,15 +193,17 @@ static void check_rate(const ff_fixture *fixture, const ff_rheology_2 *law)
     law->rate(law->self, 1, &p, &T, &ln_eta, &back, &rate_back, NULL, NULL);
     if (!(rate >= (1 - 1e-9) * least))
         ff_check_failf(fixture,
-                       "rate: it is %g 1/s where tau/eta is %g 1/s: stiffer than the Newtonian "
-                       "liquid",
+                       "rate: the shear rate is %g 1/s, less than tau/eta = %g 1/s of the "
+                       "Newtonian liquid",
                        rate, least);
     else if (!agree(rate, -rate_back))
-        ff_check_failf(fixture, "rate: it is %g 1/s at tau = %g Pa, but %g 1/s at the opposite",
+        ff_check_failf(fixture,
+                       "rate: the shear rate is %g 1/s at tau = %g Pa, but %g 1/s at the "
+                       "opposite stress",
                        rate, tau, rate_back);
 }
 
-/* Checks rates, if the rheology offers them. */
+/* Checks the shear rates if the rheology offers them. */
 static void check_rates(const ff_fixture *fixture)
 {
     void *instance = fixture->open(fixture->ctx);
@@ -217,8 +219,8 @@ static void check_rates(const ff_fixture *fixture)
     fixture->close(fixture->ctx, instance);
 }
 
-/* Checks that psi is the slope of the shear rate over the stress, and that both depend on u_s/h
-   only. */
+/* Checks that psi is the derivative of the shear rate over the stress, and that psi and stress
+   depend on u_s/h only. */
 static void check_tangent(const ff_fixture *fixture, const ff_rheology *law)
 {
     const double d = 1e-4;
@@ -234,14 +236,14 @@ static void check_tangent(const ff_fixture *fixture, const ff_rheology *law)
     if (!(fabs(tau[3] - tau[2]) <= 1e-6 * tau[2]))
         ff_check_failf(
             fixture,
-            "shear: tau is %.6g Pa at u_s = %g m/s, h = %g m, but %.6g Pa at twice both, "
-            "where the shear rate is the same",
+            "shear: tau is %.6g Pa at u_s = %g m/s, h = %g m, but %.6g Pa if both are doubled, "
+            "although the shear rate is the same",
             tau[2], u, h, tau[3]);
     else if (!(fabs(psi - slope) <= 1e-3 * slope))
         ff_check_failf(
             fixture,
-            "flow: psi is %.6g at ln_eta = %g, u_s = %g m/s, h = %g m, but the shear rate "
-            "rises by %.6g with the stress there",
+            "flow: psi is %.6g at ln_eta = %g, u_s = %g m/s, h = %g m, but the derivative of the "
+            "shear rate over the stress is %.6g",
             psi, ln_eta, u, h, slope);
 }
 
@@ -257,9 +259,10 @@ static void tangent(const ff_fixture *fixture)
 
 static const ff_check checks[] = {
     CONFORMANCE_LAW_CHECKS,
-    {"newtonian", "is no stiffer in shear than a Newtonian liquid, equally in both directions",
+    {"newtonian", "shear thins the oil or leaves it Newtonian, equally in both directions",
      newtonian},
-    {"rates", "its shear rate over stress is no stiffer either, if it offers one", check_rates},
+    {"rates", "the shear rate, if offered, is not below the Newtonian rate at any stress",
+     check_rates},
     {"tangent", "pressure flow and shear follow the same flow curve", tangent},
 };
 

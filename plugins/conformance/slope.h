@@ -15,9 +15,9 @@ typedef struct conformance_line {
 
 double conformance_value_at(const conformance_line *l, double x, double out[CONFORMANCE_RESULTS]);
 
-/* Compares a derivative with finite differences about the point; `h` is the first step. 0: they
-   agree; 1: they differ; 2: the differences are too inaccurate to decide, for example near a kink.
-   *found: the result of the differences. */
+/* Compares the derivative `claimed` with finite differences about the point; `h` is the first step.
+   Returns 0: they agree; 1: they differ; 2: the differences are too inaccurate to decide, for
+   example near a kink. *found: the derivative by differences. */
 int conformance_compare_slope(const conformance_line *l, double claimed, double h, double *found);
 
 #endif

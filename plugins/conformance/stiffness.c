@@ -43,8 +43,8 @@ static void give_gear(const ff_fixture *fixture)
     conformance_give_scalar(fixture, "operating.line_force", 3500);
 }
 
-/* Opens the stiffness with the gear of the user's file, or a standard one, and with the definition
-   for which e_l = e + F/k holds. */
+/* Evaluates the stiffness for the gear of the user's file, or for a standard gear, and with the
+   secant definition, for which e_l = e + F/k holds. */
 static bool open_secant(conformance_evaluation *e, const ff_fixture *fixture)
 {
     void *probe = fixture->open(fixture->ctx);
@@ -77,16 +77,18 @@ static void periodic(const ff_fixture *fixture)
         good = k.data[i] > 0 && (i == 0 || phase.data[i] >= phase.data[i - 1]);
         if (!good)
             ff_check_failf(fixture,
-                           "stiffness is %g N/m at phase %g; it must be positive and phases rise",
+                           "stiffness is %g N/m at phase %g; it must be positive, and phases must "
+                           "increase",
                            k.data[i], phase.data[i]);
     }
     for (size_t i = 0; i < breaks.count; i++)
         jump = jump || fabs(breaks.data[i]) < 1e-9;
-    good = good && conformance_near(&run, "the first phase", 0, phase.data[0], 0, 1, 1e-9) &&
+    good = good &&
+           conformance_near(&run, "the first phase of the series", 0, phase.data[0], 0, 1, 1e-9) &&
            conformance_near(&run, "the last phase", last, phase.data[last], 1, 1, 1e-9);
     if (good && !jump)
-        good = conformance_near(&run, "stiffness, no breakpoint at phase 0,", last, k.data[last],
-                                k.data[0], k.data[0], 1e-6);
+        good = conformance_near(&run, "stiffness without a breakpoint at phase 0", last,
+                                k.data[last], k.data[0], k.data[0], 1e-6);
     if (good)
         conformance_near(&run, "stiffness_mean", 0, conformance_scalar_of(&run, "stiffness_mean"),
                          mean, mean, 1e-3);
@@ -106,9 +108,9 @@ static double at_roll(conformance_array roll, conformance_array force, double an
     return conformance_at(roll, force, angle);
 }
 
-/* At every phase the forces of the pairs in contact sum to the load; tooth_force = load_share times
-   the load; e_l = e + F/k. Phases near which a pair enters or leaves are left out, since
-   interpolation fails there. */
+/* Checks at every phase that the forces of the pairs in contact sum to the load, that tooth_force
+   is load_share times the load, and that e_l = e + F/k. Phases near which a pair enters or leaves
+   are skipped, since interpolation fails there. */
 static void balance(const ff_fixture *fixture)
 {
     enum { PHASES = 97 };
@@ -139,19 +141,20 @@ static void balance(const ff_fixture *fixture)
              angle += cycle)
             sum += at_roll(roll, force, angle, &beside);
         if (!beside && !(fabs(sum - load) <= 5e-3 * load)) {
-            ff_check_failf(
-                fixture, "the tooth forces add up to %.6g N at phase %g, where the load is %.6g N",
-                sum, at, load);
+            ff_check_failf(fixture,
+                           "the tooth forces sum to %.6g N at phase %g, but the load is %.6g N",
+                           sum, at, load);
             good = false;
         }
     }
     conformance_close(&run);
 }
 
-/* The stiffness of a pair does not change when another pair enters or leaves. Therefore k times its
-   share is the same on both sides of such a phase, except for the Hertzian contact, whose load
-   changes. Thus the share must fall where k rises. Loads, ramps and deviations change the product
-   by less than a factor of 1.75. The phases follow from the contact ratio. */
+/* The stiffness of a pair does not change when another pair enters or leaves. Therefore mesh
+   stiffness times the load share of the pair is the same on both sides of this phase, except for
+   the Hertzian contact, whose load changes. Thus the share must fall where the mesh stiffness
+   rises. Loads, ramps and deviations change the product by less than a factor of 1.75. The phases
+   follow from the contact ratio. */
 static void pairs(const ff_fixture *fixture)
 {
     conformance_evaluation run;
@@ -174,13 +177,13 @@ static void pairs(const ff_fixture *fixture)
         if (!(k.data[i] > 3e9 * width && k.data[i] < 60e9 * width)) {
             ff_check_failf(
                 fixture,
-                "stiffness is %.4g N/m at phase %g of a face width of %g m, that is %.3g "
-                "N/(mm um); teeth have 10 to 30",
+                "stiffness is %.4g N/m at phase %g for a face width of %g m, that is %.3g N/(mm "
+                "um); steel teeth have 10 to 30",
                 k.data[i], phase.data[i], width, 1e-9 * k.data[i] / width);
             good = false;
         }
     double one = (fmod(ratio, 1) + 1) / 2, two = fmod(ratio, 1) / 2, stiff[2] = {0}, part[2] = {0};
-    for (int i = -2; i <= 2; i++) { /* a few phases in the middle of each part */
+    for (int i = -2; i <= 2; i++) { /* five phases in the middle of single and of double contact */
         double at[] = {one + 0.02 * i, two + 0.02 * i};
         for (int n = 0; n < 2 && good; n++) {
             stiff[n] += conformance_at(phase, k, at[n]) / 5;
@@ -202,10 +205,10 @@ static void pairs(const ff_fixture *fixture)
 }
 
 static const ff_check checks[] = {
-    {"periodic", "stiffness is positive and periodic, with the mean it states", periodic},
+    {"periodic", "stiffness is positive and periodic, and stiffness_mean is its mean", periodic},
     {"balance", "the tooth forces sum to the load", balance},
     {"pairs",
-     "the stiffness of a pair is that of steel teeth, with one and with two pairs in contact",
+     "a pair has the stiffness of steel teeth, the same with one and with two pairs in contact",
      pairs},
 };
 

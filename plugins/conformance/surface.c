@@ -29,24 +29,24 @@ static void record(const ff_fixture *fixture)
     bool good = true;
     const size_t n = position.count;
     for (size_t i = 0; good && i < n; i++)
-        good = conformance_near(&run, "position, in equal steps from 0,", i, position.data[i],
+        good = conformance_near(&run, "position (equal steps from 0)", i, position.data[i],
                                 position.data[n - 1] * (double)i / (double)(n > 1 ? n - 1 : 1),
                                 position.data[n - 1], 1e-9);
     if (good && n > 1 && period > 0)
-        good = conformance_near(&run, "period, one step behind the last position,", 0, period,
+        good = conformance_near(&run, "period (one step beyond the last position)", 0, period,
                                 position.data[n - 1] * (double)n / (double)(n - 1), period, 1e-6);
     for (int g = 0; good && n > 1 && period > 0 && g < 2; g++) {
         const conformance_array height = conformance_array_of(&run, g ? "height_2" : "height_1");
         const double rough = height.count == n ? rms(height) : (double)NAN;
         good =
-            conformance_near(&run, g ? "rq_2, of height_2," : "rq_1, of height_1,", 0,
+            conformance_near(&run, g ? "rq_2 (rms of height_2)" : "rq_1 (rms of height_1)", 0,
                              conformance_scalar_of(&run, g ? "rq_2" : "rq_1"), rough, rough, 0.01);
     }
     conformance_close(&run);
 }
 
 static const ff_check checks[] = {
-    {"record", "equal steps over a period; rq is that of the heights", record},
+    {"record", "the steps over a period are equal, and rq is the rms of the heights", record},
 };
 
 const ff_conformance conformance_offer = {.size = sizeof conformance_offer,

@@ -50,7 +50,7 @@ static void ambient(const ff_fixture *fixture)
     conformance_is_as_set(fixture, FF_VISCOSITY_ID, "eta0", "0.05 Pa s", log(0.05), 0.01);
 }
 
-/* 1/alpha* = int eta0/eta dp, by Simpson's rule up to 3 GPa. */
+/* Returns alpha*, 1/alpha* = int eta0/eta dp, by Simpson's rule up to 3 GPa. */
 static double star_of(const ff_viscosity *law)
 {
     enum { STEPS = 3000 };
@@ -63,7 +63,8 @@ static double star_of(const ff_viscosity *law)
     return 3 / (step * sum);
 }
 
-/* Checks a coefficient to 15 %, a tolerance for laws that match neither definition exactly. */
+/* Checks that the slope at p = 0 or alpha* equals `alpha` to 15 %; a law may match neither
+   definition exactly. */
 static bool rises(const ff_fixture *fixture, const ff_viscosity *law, double alpha,
                   const char *whose)
 {
@@ -85,7 +86,7 @@ static void coefficient(const ff_fixture *fixture)
         return;
     if (fixture->serve(fixture->ctx, "oil", &conformance_oil)) {
         const ff_viscosity *wired = conformance_open_law(fixture, FF_VISCOSITY_ID, &instance);
-        bool good = wired && rises(fixture, wired, 20e-9, "the oil that is wired");
+        bool good = wired && rises(fixture, wired, 20e-9, "the wired oil");
         fixture->close(fixture->ctx, instance);
         fixture->serve(fixture->ctx, "oil", NULL);
         if (!good)
@@ -101,7 +102,10 @@ static void coefficient(const ff_fixture *fixture)
 static const ff_check checks[] = {
     CONFORMANCE_LAW_CHECKS,
     {"ambient", "equals its oil at ambient pressure, and decreases with temperature", ambient},
-    {"coefficient", "rises with pressure according to its alpha, or that of its oil", coefficient},
+    {"coefficient",
+     "rises with pressure according to its parameter alpha, or to the alpha of its "
+     "oil",
+     coefficient},
 };
 
 const ff_conformance conformance_offer = {.size = sizeof conformance_offer,

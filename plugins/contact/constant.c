@@ -28,7 +28,9 @@ static const ff_param params[] = {
     FF_QUANTITY("radius_2", "mm", constant_contact, radius_2, 0, NULL, NULL, 1e-6, 1e9, 0, 0,
                 "radius of surface 2; with radius_1"),
     FF_QUANTITY("entrainment_speed", "m/s", constant_contact, entrainment_speed, FF_REQUIRED, NULL,
-                "speed", 1e-9, 1e6, 0, 0, "mean surface speed u_r = (u1 + u2)/2"),
+                "speed", 1e-9, 1e6, 0, 0,
+                "entrainment speed: mean surface speed u_r = (u1 + "
+                "u2)/2"),
     FF_QUANTITY(
         "slide_roll_ratio", "1", constant_contact, slide_roll_ratio, 0, NULL, NULL, -1e3, 1e3, 0, 0,
         "slide-roll ratio (u1 - u2)/u_r; with entrainment_speed; left out: 0, pure rolling"),
@@ -51,7 +53,7 @@ static ff_status wire(void *self, uint32_t input, const void *service)
     return FF_OK;
 }
 
-/* Refuses a parameter whose companion is missing: `mate` needs `with`. */
+/* Refuses `mate` if `with` is missing; both are parameters. */
 static ff_status check_company(const constant_contact *s)
 {
     const struct {
@@ -70,7 +72,7 @@ static ff_status check_company(const constant_contact *s)
             return ff_failf(s->host, FF_INVALID, mate,
                             "%s has no meaning without %s; give both or neither", mate, with);
         if (company[i].both && has_with && !has_mate)
-            return ff_failf(s->host, FF_INVALID, with, "%s needs %s beside it", with, mate);
+            return ff_failf(s->host, FF_INVALID, with, "%s needs %s", with, mate);
     }
     return FF_OK;
 }
@@ -91,7 +93,7 @@ static ff_status ready(void *self)
     p->speed_2 = isnan(s->speed_1) ? mean * (1 - slide / 2) : s->speed_2;
     if (!(fabs(p->speed_1 + p->speed_2) > 0))
         return ff_failf(s->host, FF_INVALID, isnan(s->speed_1) ? "entrainment_speed" : "speed_1",
-                        "surface speeds %g and %g m/s carry no oil into the contact; their sum "
+                        "the surface speeds %g and %g m/s carry no oil into the contact: their sum "
                         "must not be 0",
                         p->speed_1, p->speed_2);
     return contact_reduced_modulus(s->host, &s->moduli, &s->reduced_modulus);

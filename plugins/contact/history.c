@@ -61,8 +61,8 @@ const ff_port contact_outputs[CONTACT_OUTPUTS] = {
      .dims = "t"},
     {.name = "gap",
      .unit = "m",
-     .doc = "separation of the surfaces along the line of action, 0 in contact; a damping force "
-            "may act while it is above 0",
+     .doc = "separation of the surfaces along the line of action, 0 in contact; while they are "
+            "separated, a damping force may still act",
      .dims = "t"},
     {.name = "reduced_modulus",
      .unit = "Pa",
@@ -72,12 +72,12 @@ const ff_port contact_outputs[CONTACT_OUTPUTS] = {
     {.name = "roll_angle", .unit = "rad", .doc = "roll angle of gear 1", .dims = "t"},
     {.name = "engagement",
      .unit = "1",
-     .doc = "index of the mesh cycle in which the pair enters contact, from 0; a change of it "
-            "begins another engagement with a history of its own",
+     .doc = "index of the mesh cycle in which the pair enters contact, from 0; where the index "
+            "changes, another engagement begins, with its own history",
      .dims = "t"},
     {.name = "engagements_judged",
      .unit = "1",
-     .doc = "number of engagements of the motion in the history, one after the other",
+     .doc = "number of engagements in the history, one after the other",
      .dims = "",
      .max = INFINITY},
     {.name = "mesh_load_mean",
@@ -89,8 +89,9 @@ const ff_port contact_outputs[CONTACT_OUTPUTS] = {
 enum { PANELS = 512 }; /* for Simpson's rule, an even number */
 
 /* Film-forming pressure coefficient alpha*, the reciprocal asymptotic isoviscous pressure (Blok
-   1963): 1/alpha* = int_0^inf eta0/eta dp. The integral is taken over t from 0 to 1 with p = t/((1
-   - t) slope), slope = d ln eta/dp at p = 0. If eta does not rise with p, alpha* is 0. */
+   1963): 1/alpha* = int_0^inf eta0/eta dp. The substitution p = t/((1 - t) slope), with slope = d
+   ln eta/dp at p = 0, makes it an integral over t from 0 to 1. If eta does not rise with p, alpha*
+   is 0. */
 static ff_status film_coefficient(const ff_viscosity *law, double ln_eta0, double slope,
                                   double *alpha)
 {
@@ -109,7 +110,8 @@ static ff_status film_coefficient(const ff_viscosity *law, double ln_eta0, doubl
     return status;
 }
 
-/* Reads eta0 and alpha* at the temperature of the oil; if no oil is wired, at that of the law. */
+/* Reads eta0 and alpha* at the oil temperature, or at the temperature of the law if no oil is
+   wired. */
 static ff_status read_viscosity(contact_history *h, const ff_viscosity *law, const ff_array *oil)
 {
     numerics_answers answers = {.status = FF_OK};
@@ -118,7 +120,7 @@ static ff_status read_viscosity(contact_history *h, const ff_viscosity *law, con
     if (!law)
         return ff_failf(h->host, FF_INVALID, "viscosity",
                         "moes_M and moes_L need a viscosity: wire `viscosity` to a stage of that "
-                        "kind, or do not ask for them");
+                        "kind, or do not request moes_M and moes_L");
     law = numerics_viscosity_make(&at, law, T, &answers);
     if (oil[0].data) {
         ff_status contradiction = numerics_hold_viscosity(h->host, law, oil[1].data, T);
@@ -166,8 +168,8 @@ static ff_status refuse(const contact_history *h, uint32_t output, size_t i, dou
     int goes_with_speed = output == CONTACT_MOES_M || output == CONTACT_SLIDE_ROLL_RATIO;
     if (goes_with_speed && u_mean == 0)
         return ff_failf(h->host, FF_INVALID, name,
-                        "%s is not defined without entrainment, as at instant %zu of the history: "
-                        "do not ask for it",
+                        "%s is not defined at instant %zu of the history, since the entrainment "
+                        "speed is 0 there: do not request it",
                         name, i);
     return ff_failf(h->host, FF_INVALID, name,
                     "%s is not finite at instant %zu of the history: speeds, radii, load or "

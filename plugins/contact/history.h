@@ -46,7 +46,7 @@ typedef struct contact_history {
     const ff_host *host;
     double *series[CONTACT_SERIES_END]; /* NULL: not wanted */
     double reduced_modulus;
-    double eta0, alpha; /* eta0 in Pa s; alpha*, 1/Pa; both 0 if no Moes number is wanted */
+    double eta0, alpha; /* eta0, Pa s, and alpha*, 1/Pa; both 0 if no Moes number is wanted */
     double hertz_error; /* largest relative difference between pi a p_H/2 and the load w */
 } contact_history;
 

@@ -24,7 +24,7 @@ typedef struct contact_moduli {
 ff_status contact_reduced_modulus(const ff_host *host, const contact_moduli *moduli,
                                   double *reduced);
 
-/* Inputs: the viscosity, and the rows of the oil. */
+/* Inputs: the viscosity, and two rows of the oil. */
 enum { CONTACT_LINE_VISCOSITY, CONTACT_LINE_OIL, CONTACT_LINE_INPUTS = CONTACT_LINE_OIL + 2 };
 extern const ff_port contact_line_inputs[CONTACT_LINE_INPUTS];
 extern const char contact_line_reference[];

@@ -113,7 +113,8 @@ double contact_load_error(const contact_load_curve *c)
     for (size_t k = 0; k < c->piece_count; k++) {
         for (size_t i = c->pieces[k].first; i + 6 <= c->pieces[k].last; i++) {
             double x[4], y[4], slope[4];
-            for (size_t j = 0; j < 4; j++) { /* of the stations i, i + 2, i + 4, i + 6 */
+            for (size_t j = 0; j < 4; j++) { /* the cubic goes through the stations i, i + 2, i + 4,
+                                                i + 6 */
                 x[j] = c->angle[i + 2 * j];
                 y[j] = c->value[i + 2 * j];
             }

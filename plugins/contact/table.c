@@ -12,7 +12,7 @@
 enum { TIME, RADIUS, RADIUS_1, RADIUS_2, SPEED_1, SPEED_2, LOAD, GAP };
 
 static const ff_param columns[] = {
-    FF_ROW("time", "s", "of the instant", FF_REALS, FF_REQUIRED | FF_INCREASING, NULL, NULL, NULL,
+    FF_ROW("time", "s", "time of the row", FF_REALS, FF_REQUIRED | FF_INCREASING, NULL, NULL, NULL,
            0, 0, 0, 0, 0, 1000000, 0),
     FF_COLUMN("radius", "mm", FF_REQUIRED, "radius", 1e-6, 1e9,
               "equivalent radius of the contact, instead of radius_1 and radius_2"),
@@ -38,8 +38,9 @@ static const ff_param params[] = {
     FF_PATH("file", table_contact, path, FF_REQUIRED, NULL,
             "table with the columns time [s], radius [mm] (equivalent) or radius_1 [mm] and "
             "radius_2 [mm], speed_1 [m/s], speed_2 [m/s], load_per_width [N/mm], and optionally "
-            "gap [um] for a lost contact; linear between the rows. A repeated time is a jump; at "
-            "the first time it starts from the film of the first row"),
+            "gap [um] during contact loss; values are linear between the rows. A repeated time "
+            "marks a jump. If the first time is repeated, the film starts as the steady film of "
+            "the first row"),
     CONTACT_MODULI_ROWS(table_contact),
 };
 
@@ -75,7 +76,7 @@ static ff_status check_file(const table_contact *t)
         status = check_row(t, i);
     if (status == FF_OK && n > 1 && !(time[n - 1] > time[0]))
         return ff_table_failf(t->host, file, FF_TABLE_ALL, TIME,
-                              "the table must span a time; for a steady contact give one row");
+                              "all rows have the same time; for a steady contact give one row");
     return status;
 }
 

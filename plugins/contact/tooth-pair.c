@@ -32,8 +32,8 @@ typedef struct tooth_pair {
 static const ff_param params[] = {
     FF_QUANTITY("load_ramp", "deg", tooth_pair, load_ramp, 0, "0.2 deg", NULL, 0, 90, 0, 0,
                 "width in roll angle of the linear load ramp at each change in the number of "
-                "pairs, centred on the change; left out: the preset, or less if the changes are "
-                "closer; 0: a step with a width of 1e-6 of the path"),
+                "pairs, centred on the change; left out: 0.2 deg, or less if changes are closer "
+                "than this; 0: a step with a width of 1e-6 of the path"),
     FF_COUNT(
         "points", tooth_pair, points, FF_TUNABLE, "4000", NULL, 16, 1e6, 0, 0,
         "number of instants of each engagement, including the ends of the ramps and of the load"),
@@ -41,20 +41,20 @@ static const ff_param params[] = {
                 "mesh cycle in which the pair enters contact, from 0, for a motion of several mesh "
                 "cycles; all: all of them in sequence, each with its own history"),
     FF_COUNT("max_engagements", tooth_pair, engagements.most, 0, "16", NULL, 1, 1e6, 0, 0,
-             "largest number of engagements for `all`; from a longer motion this many are taken, "
-             "spread evenly over it"),
+             "largest number of engagements for `all`; from a longer motion, this many engagements "
+             "are taken at even spacing"),
 };
 
 static ff_status ready(void *self)
 {
     const tooth_pair *s = self;
     const ff_serving rows[] = {
-        {s->engagements.one >= 0, "max_engagements", "", NULL, "engagement names one of them"}};
+        {s->engagements.one >= 0, "max_engagements", "", NULL, "engagement selects one of them"}};
     ff_serve(s->host, rows, sizeof rows / sizeof rows[0]);
     return FF_OK;
 }
 
-/* The only service is a viscosity law; data inputs have none. */
+/* The only service input is the viscosity law. */
 static ff_status wire(void *self, uint32_t input, const void *service)
 {
     (void)input;
@@ -104,7 +104,7 @@ static size_t add_load_ends(const contact_load_curve *force, size_t points, doub
     return n;
 }
 
-/* One engagement of the load: its tooth force over the path. */
+/* One engagement: the tooth force and the gap over the path of contact. */
 typedef struct engagement {
     double number, begin; /* `begin`: time in the history at which the engagement begins, s */
     contact_load_curve force, gap;
@@ -124,7 +124,7 @@ static contact_point point_at(const contact_tooth_path *p, const engagement *e, 
         .radius_2 = p->radius_2[i] + t * (p->radius_2[i + 1] - p->radius_2[i]),
         .load_per_width = contact_load_at(&e->force, angle) / p->face_width,
     };
-    /* the surface speed along the flank is the gear's speed times the radius of curvature */
+    /* a flank's surface speed is its gear's angular speed times its radius of curvature */
     point.speed_1 = p->speed * point.radius_1;
     point.speed_2 = p->speed * p->ratio * point.radius_2;
     if (e->gap.value)
@@ -223,7 +223,8 @@ static ff_status make_ramps(const tooth_pair *s, const contact_tooth_path *p, co
                     s->load_ramp / degree, most / degree);
 }
 
-/* Updates the largest force and error, and the negative forces, with those of one engagement. */
+/* Updates the largest force, the largest error and the integral of negative forces with one
+   engagement. */
 static void add_force_extremes(load_record *r, const contact_tooth_path *p, const double *f,
                                const contact_load_curve *force)
 {
@@ -242,13 +243,13 @@ static void report_engagements(const tooth_pair *s, const contact_tooth_path *p)
     if (p->available == 1)
         return;
     if (p->count == p->available)
-        snprintf(text, sizeof text, "all %zu engagements of the motion are taken", p->available);
+        snprintf(text, sizeof text, "all %zu engagements of the motion are included", p->available);
     else
         snprintf(text, sizeof text,
                  s->engagements.one == CONTACT_ENGAGEMENTS_ALL
-                     ? "%zu of the %zu engagements of the motion stand for all, spread over them; "
-                       "max_engagements takes more"
-                     : "%zu of the %zu engagements of the motion alone, as asked for",
+                     ? "%zu of the %zu engagements of the motion, evenly spaced, represent all of "
+                       "them; a higher max_engagements includes more"
+                     : "%zu of the %zu engagements of the motion is included, as requested",
                  p->count, p->available);
     if (p->count < p->available)
         s->host->log(s->host->ctx, FF_LOG_INFO, text);
@@ -256,21 +257,22 @@ static void report_engagements(const tooth_pair *s, const contact_tooth_path *p)
                      text);
 }
 
-/* Reports the load as quality. Over whole periods, the mean of the mesh force is F, since the gears
-   do not accelerate. A negative force acts on the other flank and is no load of this one. */
+/* Reports the mean load as quality. Over whole periods the mean mesh force equals the static force,
+   since the gears do not accelerate on average. A negative tooth force acts on the opposite flank,
+   so it is not counted as load. */
 static void report_load(const tooth_pair *s, const contact_tooth_path *p, const load_record *r)
 {
     const double limit = 0.01, turns = p->pitch * (double)p->count;
     const char *by =
-        p->both_bear ? "that of the motion on these flanks" : "torque over base radius";
+        p->both_bear ? "the mean force of the motion on these flanks" : "torque over base radius";
     char text[240];
     if (!(p->mean_force > 0))
         return;
     double off = fabs((r->load_sum - r->negative) / turns / p->mean_force - 1);
     if (p->count < p->available)
         snprintf(text, sizeof text,
-                 "relative difference between the mean mesh force and %s; "
-                 "only %zu of %zu engagements are included; %s takes more",
+                 "relative difference between the mean mesh force and %s; only %zu of %zu "
+                 "engagements are included; %s includes more",
                  by, p->count, p->available,
                  s->engagements.one == CONTACT_ENGAGEMENTS_ALL ? "max_engagements"
                                                                : "engagement: all");
@@ -328,8 +330,8 @@ static ff_status make_history(const tooth_pair *s, const contact_tooth_path *p, 
     double *ends = breaks + break_count, *load = curves + 2 * p->n;
     if (break_count > points)
         return ff_failf(s->host, FF_INVALID, "points",
-                        "points is %zu; the history needs at least %zu for the ramps of its load",
-                        points, break_count);
+                        "points is %zu; the history needs at least %zu for its load ramps", points,
+                        break_count);
     load_record r = {0};
     engagement e = {.force = {p->n, count, p->angle, load, curves, pieces},
                     .gap = {p->n, count, p->angle, NULL, curves + p->n, pieces}};
@@ -397,8 +399,8 @@ FF_MODEL(contact_tooth_pair, tooth_pair, .id = "contact/tooth-pair", .version = 
          .input_stride = sizeof contact_tooth_inputs[0], .outputs = FF_TABLE(contact_outputs),
          .wire = wire, .ready = ready, .evaluate = evaluate, .destroy = free);
 FF_MODEL(contact_back_tooth_pair, tooth_pair, .id = "contact/back-tooth-pair", .version = "1.0.0",
-         .summary = "load, radii and speeds of one tooth pair on the flanks that the mean load "
-                    "does not press",
+         .summary = "load, radii and speeds of one tooth pair on the flanks opposite to those that "
+                    "carry the mean load",
          .reference = "Steffen 1990, Astron. Astrophys. 239, 443 (interpolation)",
          .bibtex = BIB_steffen1990, .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
          .inputs = contact_tooth_inputs, .input_count = CONTACT_TOOTH_INPUTS - CONTACT_TOOTH_FIRST,

@@ -14,12 +14,12 @@
 const ff_port contact_tooth_inputs[CONTACT_TOOTH_INPUTS] = {
     {.name = "load.back_tooth_force",
      .unit = "N",
-     .doc = "tooth force on a pair of flanks that the mean load does not press",
+     .doc = "tooth force on a pair of flanks opposite to those that carry the mean load",
      .dims = "engagement? gear.station",
      .from = "stiffness|dynamics"},
     {.name = "load.back_gap",
      .unit = "m",
-     .doc = "separation of these flanks; 0 in contact",
+     .doc = "separation of the flanks of load.back_tooth_force; 0 in contact",
      .dims = "engagement? gear.station",
      .from = "stiffness|dynamics"},
     {.name = "gear.roll_angle",
@@ -63,8 +63,8 @@ const ff_port contact_tooth_inputs[CONTACT_TOOTH_INPUTS] = {
     NUMERICS_OIL_ROWS,
     {.name = "load.back_force_mean",
      .unit = "N",
-     .doc = "mean force of the flanks that the mean load does not press, if load.tooth_force is "
-            "without it",
+     .doc = "mean force on the flanks opposite to those that carry the mean load, if "
+            "load.tooth_force does not include it",
      .dims = "",
      .flags = FF_OPTIONAL,
      .from = "stiffness|dynamics"},
@@ -100,7 +100,7 @@ static ff_status read_positive(const ff_host *host, const ff_array *in, uint32_t
     return FF_OK;
 }
 
-/* Reads a series over the stations, or one for each of several engagements. Returns the number of
+/* Reads a series over the stations, or one such series for each engagement. Sets the number of
    engagements. */
 static ff_status read_series(const ff_host *host, const ff_array *in, uint32_t row, size_t n,
                              double least, const double **series, size_t *engagements)
@@ -176,8 +176,8 @@ static ff_status read_stations(const ff_host *host, const ff_array *in,
     return status == FF_OK ? read_engagements(host, wanted, p) : status;
 }
 
-/* Sets the mean force of all pairs of these flanks. Those that the mean load presses carry it and
-   what the others carry. */
+/* Sets the mean force of all pairs on these flanks. The flanks that carry the mean load also
+   balance the mean force on the opposite flanks. */
 static void read_mean_force(const ff_array *in, int back, contact_tooth_path *p)
 {
     const double *force = in[CONTACT_TOOTH_LINE_FORCE].data,

@@ -8,8 +8,8 @@
 
 #include <flankfilm/plugin.h>
 
-/* A pair of flanks that the mean load presses reads the rows from CONTACT_TOOTH_FIRST on; a pair of
-   the other flanks reads all but the last two rows. */
+/* The model of the flanks that carry the mean load reads the rows from CONTACT_TOOTH_FIRST on; the
+   model of the opposite flanks reads all rows but the last two. */
 enum {
     CONTACT_TOOTH_BACK_TOOTH_FORCE, /* this row and the next one, the gap */
     CONTACT_TOOTH_FIRST = CONTACT_TOOTH_BACK_TOOTH_FORCE + 2,
@@ -46,16 +46,17 @@ typedef struct contact_tooth_path {
     double pitch;              /* roll angle from one pair to the next, rad */
     double face_width, ratio;  /* ratio: omega2 / omega1 */
     double speed, reduced_modulus;
-    double mean_force;          /* of all pairs, N; 0: unknown */
-    int both_bear;              /* whether the load presses both flanks in turn */
+    double mean_force;          /* mean of the total force of all pairs, N; 0: unknown */
+    int both_bear;              /* whether both flanks of a tooth carry load, at different times */
     numerics_exchange exchange; /* the pair whose driving flanks carry the load */
     ff_array in[CONTACT_TOOTH_INPUTS];
-    uint32_t force_row;  /* of the inputs */
+    uint32_t force_row;  /* row of the tooth force in `in` */
     const ff_array *oil; /* two inputs */
 } contact_tooth_path;
 
-/* Reads and checks the inputs of the flanks that the mean load presses, or with `back` of the
-   others. `p` must stay where it is. The caller closes it, also after an error. */
+/* Reads and checks the inputs of the flanks that carry the mean load, or of the opposite flanks if
+   `back` is set. `p` points into itself, so it must not be moved. The caller closes `p`, also after
+   an error. */
 ff_status contact_tooth_path_read(const ff_host *host, const ff_array *in, int back,
                                   contact_engagement_choice wanted, contact_tooth_path *p);
 void contact_tooth_path_close(contact_tooth_path *p);

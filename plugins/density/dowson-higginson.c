@@ -53,7 +53,7 @@ static ff_status ready(void *self)
 
 FF_DENSITY_LAW(density_dowson_higginson, dowson_higginson, eval, .id = "density/dowson-higginson",
                .version = "1.0.0",
-               .summary = "density of mineral oil under pressure, at most 35 % denser",
+               .summary = "density of mineral oil under pressure, with an increase of at most 35 %",
                .reference = "Dowson & Higginson 1966, Elasto-hydrodynamic Lubrication, Pergamon",
                .bibtex = BIB_DowsonHigginson1966 "\n" BIB_Anderson1967,
                .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),

@@ -132,7 +132,7 @@ static expansion expansion_at(const ff_liquid *liquid, const density_softening *
 }
 
 /* For n <= BLOCK points, with rho and by_p for rho0 = 1 at `at`; `s` is (rho0(at)/rho0)^n of
-   (6.26). Below ambient pressure the tangent of the law is bent. */
+   (6.26). Below ambient pressure density_tension keeps the density positive. */
 static void scale(const density_shape *shape, double exponent, size_t n, const double *p,
                   const double *rho0, const double *slope, const double *s, double *rho,
                   double *by_p, double *by_T)

@@ -31,8 +31,7 @@ typedef struct density_softening {
         FF_QUANTITY_OR("auto", "at", "degC", type, member.at, 0, "auto", NULL, -150, 500, -20,     \
                        150,                                                                        \
                        "temperature for which the constants of the law are given; auto: they "     \
-                       "hold at any, which "                                                       \
-                       "K0_decay contradicts")
+                       "hold at every temperature; required with K0_decay")
 /* Refuses a decay without `at`. Replaces an unset `at` by a number, and sets the decay to 0 if no
    oil is wired. */
 ff_status density_softening_ready(const void *law, density_softening *softening);
@@ -54,8 +53,8 @@ typedef struct density_ambient {
 
 density_ambient density_begin(const void *law, size_t n, const double *T);
 
-/* Evaluates rho at n points with one rho0, and its slope over p, for p >= 0; for other p, any
-   finite numbers. The arrays do not overlap. */
+/* Evaluates rho and its slope over p at n points with one rho0, for p >= 0; for p < 0 the results
+   may be any finite numbers. The arrays do not overlap. */
 typedef void density_curve(const void *law, double rho0, size_t n, const double *p, double *rho,
                            double *drho_dp);
 /* A law whose tangent at ambient pressure is 1 + p/K0, valid up to the pressure `highest`. */

@@ -47,7 +47,7 @@ static const ff_param params[] = {
     FF_QUANTITY("K0", "GPa", tait, K0, FF_REQUIRED, NULL, NULL, 0.01, 1000, 0.5, 3,
                 "bulk modulus at ambient pressure"),
     FF_QUANTITY("K0_prime", "1", tait, K0_prime, FF_REQUIRED, NULL, NULL, 0, 100, 8, 13,
-                "derivative of the bulk modulus over pressure"),
+                "derivative K0' of the bulk modulus over pressure, at ambient pressure"),
     DENSITY_SOFTENING_ROWS(tait, softening),
 };
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Runs the ranks of an MPI job as a task farm. Rank 0 leads, and also works like the others. Each
-   rank has as many tasks as slots, and gets a new task whenever one is finished. No rank blocks
-   inside MPI, since that would keep a core busy. */
+/* Runs the ranks of an MPI job as a task farm. Rank 0 distributes the tasks, and also runs tasks
+   itself. Each rank runs as many tasks at a time as it has slots, and gets a new task whenever one
+   is finished. No rank blocks inside MPI, since that would keep a core busy. */
 #include <flankfilm/author.h>
 #include <flankfilm/executor.h>
 
@@ -22,11 +22,11 @@ typedef struct farm {
 typedef struct leader {
     const farm *f;
     const ff_tasks *t;
-    int *slots;  /* by rank: number of tasks it can run at a time */
-    int *busy;   /* by rank: number of tasks it is running */
+    int *slots;  /* number of tasks that each rank can run at a time */
+    int *busy;   /* number of tasks that each rank is running */
     int working; /* sum of `busy` */
-    bool ended;  /* no tasks are left */
-    bool lost;   /* a rank has lost its workers and their tasks */
+    bool ended;  /* whether no tasks are left */
+    bool lost;   /* whether the workers of a rank have died, with their tasks */
 } leader;
 
 static void send_next(leader *w, int rank)
@@ -74,8 +74,8 @@ static bool receive(leader *w)
     MPI_Get_count(&message, MPI_BYTE, &size);
     char *answer = malloc((size_t)size + 1);
     if (!answer)
-        MPI_Abort(MPI_COMM_WORLD, 1); /* without memory for the message, this rank cannot be told
-                                         to end */
+        MPI_Abort(MPI_COMM_WORLD, 1); /* without memory for the message, this rank cannot end the
+                                         job in order */
     MPI_Recv(answer, size, MPI_BYTE, rank, tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
     if (tag == LOST)
         drop_rank(w, rank);
@@ -85,8 +85,8 @@ static bool receive(leader *w)
     return true;
 }
 
-/* Checks for an answer of a task in this process. Waits up to 1 ms, longer the longer nothing has
-   happened. */
+/* Takes the answer of a finished task in this process. Sleeps up to 1 ms if there is none; the
+   sleep is short while answers arrive often. */
 static int32_t poll_worker(const ff_tasks *t, bool busy, int *idle, size_t *task,
                            const void **answer, size_t *size)
 {
@@ -103,7 +103,7 @@ static void hand_out(leader *w)
     int idle = 0, most = 1;
     for (int k = 0; k < w->f->ranks; k++)
         most = w->slots[k] > most ? w->slots[k] : most;
-    for (int n = 0; n < most; n++) /* first one task for each rank, then a second one, ... */
+    for (int n = 0; n < most; n++) /* each round hands out one task per rank */
         for (int k = 0; k < w->f->ranks; k++)
             if (n < w->slots[k])
                 send_next(w, k);
@@ -131,11 +131,11 @@ static ff_status lead(const farm *f, const ff_tasks *t, int *slots)
     if (!w.busy)
         return FF_NOMEM;
     return w.lost ? f->host->fail(f->host->ctx, FF_NOCONV, NULL,
-                                  "a rank lost its workers; the same command goes on")
+                                  "the workers of a rank have died; repeat the command to continue")
                   : FF_OK;
 }
 
-/* Runs the tasks that rank 0 sends until it sends END; on the other ranks. */
+/* Runs on all ranks but 0: runs the tasks that rank 0 sends, until it sends END. */
 static void follow(const ff_tasks *t)
 {
     int working = 0, idle = 0, there;

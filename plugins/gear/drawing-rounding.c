@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-/* One unit of the last digit on a drawing: of a measured length, m; of a profile shift
+/* One unit of the last digit that drawings give: for a length, in m, and for a profile shift
    coefficient. */
 static const double length = 1e-6, shift = 1e-4;
 
@@ -45,17 +45,17 @@ void gear_rounding_say(const gear_spur_pair *p, double moved_start, char *text, 
     if (p->moved_backlash > rounding_error)
         used = snprintf(text, size,
                         "the teeth overlap by %.3g um along the line of action, less than the "
-                        "%.3g um of the digits of the drawing; the backlash is moved to %.6g um",
+                        "rounding of the drawing, %.3g um; the backlash is changed to %.6g um",
                         1e6 * p->moved_backlash, 1e6 * p->rounding_of_backlash, 1e6 * p->backlash);
     for (int i = 0; i < 2; i++)
         if (p->moved_root[i] > 0 && (size_t)used < size)
             used += snprintf(text + used, size - (size_t)used,
-                             "%sthe root diameter of gear %d is moved by -%.3g um, on to the tip "
-                             "of its mate",
+                             "%sthe root diameter of gear %d is reduced by %.3g um, to the tip of "
+                             "the mating gear",
                              used > 0 ? "; " : "", i + 1, 2e6 * p->moved_root[i]);
     if (moved_start > 0 && (size_t)used < size)
         snprintf(text + used, size - (size_t)used,
-                 "%sthe start of a relief is moved by %.3g deg of roll angle, on to the end of the "
+                 "%sthe start of a relief is moved by %.3g deg of roll angle, to the end of the "
                  "flank",
                  used > 0 ? "; " : "", moved_start * 180 / M_PI);
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tolerances for the rounding of drawings. A drawing gives lengths and coefficients with a few
-   digits, so gears typed from it may overlap or exceed a limit by a rounding error. Every check of
-   given dimensions against each other takes its tolerance from here. It moves a dimension to the
-   limit, so that later calculations fit exactly. */
+   digits, so gears typed from it may overlap or exceed a limit by a rounding error. Every
+   comparison of given dimensions uses a tolerance of this file. A dimension that exceeds a limit by
+   less than its tolerance is moved to the limit, so that later calculations are consistent. */
 #ifndef GEAR_DRAWING_ROUNDING_H
 #define GEAR_DRAWING_ROUNDING_H
 
@@ -21,8 +21,8 @@ double gear_rounding_of_backlash(const gear_spur_spec *spec, const gear_spur_pai
    distance. */
 double gear_rounding_of_clearance(const gear_spur_spec *spec);
 
-/* Writes into `text` which dimensions were moved because of rounding, with the largest move of a
-   relief's start in rad; "" if none was moved. */
+/* Writes into `text` which dimensions were moved because of rounding; "" if none was moved.
+   `moved_start`: largest move of a relief's start, rad. */
 void gear_rounding_say(const gear_spur_pair *pair, double moved_start, char *text, size_t size);
 
 #endif

@@ -11,9 +11,13 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Steps of a curved profile. Straight lines between the points follow a parabola of height A to
- * within A/(4 PROFILE_STEPS^2). */
-enum { PROFILE_STEPS = 2048, MORE_POINTS = 8 /* at most, for the starts and ends of reliefs */ };
+/* Steps of a curved profile. Straight lines between the points deviate from a parabola of height A
+   by at most A/(4 PROFILE_STEPS^2). */
+enum {
+    PROFILE_STEPS = 2048,
+    MORE_POINTS = 8 /* largest number of additional points, for the starts
+                       and ends of reliefs */
+};
 
 static const double degree = M_PI / 180;
 
@@ -48,8 +52,9 @@ static const relief_end back_end = {true, "back_relief_start", "back_relief_diam
 static const relief_end root_end = {false, "root_relief_start", "root_relief_diameter",
                                     "root_relief_length"};
 
-/* The start of a relief as the drawing gives it, the two ends of the flank in the same terms, and
-   the rounding of the drawing; `unit` converts all four for messages. */
+/* The start of a relief as the drawing gives it (`value`), the two ends of the flank as the same
+   quantity (`from`, `to`), and the rounding of the drawing (`open`). For messages all four are
+   multiplied by `scale`, which gives the unit `unit`. */
 typedef struct stated_start {
     const char *item, *what, *unit;
     double value, from, to, open, scale;
@@ -108,7 +113,7 @@ static ff_status set_start(const ff_host *host, gear_flanks *f, const gear_relie
         if (!(s.value >= s.from - s.open && s.value <= s.to + s.open))
             return ff_failf(host, FF_INVALID, s.item,
                             "gear %d: the relief starts at the %s %.4f %s, but its flank is in "
-                            "contact from %.4f to %.4f %s; the relief must lie on it",
+                            "contact from %.4f to %.4f %s; the relief must start there",
                             g + 1, s.what, s.value * s.scale, s.unit, s.from * s.scale,
                             s.to * s.scale, s.unit);
         *start = fmin(fmax(roll, f->low[g]), f->high[g]);
@@ -116,8 +121,8 @@ static ff_status set_start(const ff_host *host, gear_flanks *f, const gear_relie
     }
     if (ff_of_both(&relief->amount, g) > 0 && fabs(last - *start) <= same_roll)
         return ff_failf(host, FF_INVALID, s.item,
-                        "gear %d: the relief starts where it ends, at the roll angle %.4f deg; "
-                        "give %s a place inside the flank, from %.4f to %.4f deg",
+                        "gear %d: the relief starts where it ends, at the roll angle %.4f deg; set "
+                        "%s to a point on the flank, between %.4f and %.4f deg",
                         g + 1, *start / degree, s.item, f->low[g] / degree, f->high[g] / degree);
     return FF_OK;
 }
@@ -261,8 +266,9 @@ static ff_status check_index(const ff_host *host, const gear_flank_spec *s,
     for (int g = 0; g < 2; g++)
         if ((double)s->index[g].count > ff_of_both(&gears->teeth, g))
             return ff_failf(host, FF_INVALID, items[g],
-                            "%zu index deviations for the %g teeth of gear %d", s->index[g].count,
-                            ff_of_both(&gears->teeth, g), g + 1);
+                            "%zu index deviations for the %g teeth of gear %d: give at most one "
+                            "per tooth",
+                            s->index[g].count, ff_of_both(&gears->teeth, g), g + 1);
     return FF_OK;
 }
 

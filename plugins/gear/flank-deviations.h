@@ -26,7 +26,7 @@ typedef struct gear_flank_spec {
     ff_reals slope;    /* f_H_alpha: rise from the lowest contact to the tip, m; one value or two */
     ff_reals index[2]; /* deviations of the first teeth, m; those of the other teeth are 0 */
     const char *file;  /* may be NULL */
-    bool back;         /* true for back flanks, whose tip relief has its own parameters */
+    bool back;         /* true for back flanks whose tip relief is given by its own parameters */
 } gear_flank_spec;
 
 /* The flanks built from a specification; angles in rad, deviations in m. */

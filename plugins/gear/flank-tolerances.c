@@ -13,8 +13,8 @@ static const double modules[] = {0.5, 2, 3.5, 6, 10, 16, 25, 40, 70};
 static const double diameters[] = {5,    20,   50,   125,  280,  560,  1000,
                                    1600, 2500, 4000, 6000, 8000, 10000};
 
-/* Returns the geometric mean of the limits of the range that contains the value; 0: no range
-   does. */
+/* Returns the geometric mean of the limits of the range that contains the value; 0 if no range
+   contains it. */
 static double range_mean(const double *ends, size_t count, double value)
 {
     const double slack = 1 + 1e-9;

@@ -39,8 +39,8 @@ static const ff_param params[] = {
             "tooth; left out: a root form with the bottom clearance of 0.25, and 0.38 for the "
             "stiffness"),
     FF_LIST("protuberance", "um", spur, spec.protuberance, 0, NULL, NULL, 0, 1e3, 0, 0, 1, 2,
-            "protuberance of the tool's tip beyond its flank, normal to the flank; it determines "
-            "where the involute begins"),
+            "protuberance of the tool's tip beyond the tool's flank, normal to the flank; it "
+            "determines where the involute begins"),
     FF_LIST("machining_allowance", "um", spur, spec.machining_allowance, 0, NULL, NULL, 0, 1e3, 0,
             0, 1, 2,
             "stock ground off the flank after cutting, normal to the flank; a protuberance "
@@ -68,8 +68,8 @@ static const ff_param params[] = {
     FF_LIST("bore_diameter", "mm", spur, bore, 0, "0 mm", NULL, 0, 1e9, 0, 0, 1, 2,
             "bore diameters, 0: none"),
     FF_LIST("inertia", "kg m2", spur, given_inertia, 0, NULL, NULL, 1e-20, 1e20, 0, 0, 1, 2,
-            "polar moments of inertia; left out: discs of working pitch diameter and face width, "
-            "less the bore"),
+            "polar moments of inertia; left out: discs of working pitch diameter and face "
+            "widthminus the bore"),
     FF_ONE_OF(GEAR_MATERIALS, "material", spur, material.name[0], 0, "steel",
               "material of the gears: gives modulus, Poisson's ratio, density, heat data, hardness "
               "and yield strength, as far as they are known"),
@@ -84,14 +84,18 @@ static const ff_param params[] = {
     FF_LIST("thermal_conductivity", "W/(m K)", spur, material.conductivity, 0, NULL, NULL, 1e-3,
             1e4, 0, 0, 1, 2,
             "thermal conductivities of the gears; left out: those of the material, unless a given "
-            "elastic_modulus or density differs from the material's"),
+            "elastic_modulus or density differs from that of the material"),
     FF_LIST("specific_heat", "J/(kg K)", spur, material.specific_heat, 0, NULL, NULL, 1, 1e5, 0, 0,
-            1, 2, "specific heats of the gears; left out: as for thermal_conductivity"),
-    FF_LIST("hardness", "GPa", spur, material.hardness, FF_MIN_OPEN, NULL, NULL, 0, 1e3, 0, 0, 1, 2,
-            "indentation hardness of the flanks as a pressure: 7 GPa is 700 HV; left out: as for "
+            1, 2,
+            "specific heats of the gears; left out: the same rule as for "
             "thermal_conductivity"),
+    FF_LIST("hardness", "GPa", spur, material.hardness, FF_MIN_OPEN, NULL, NULL, 0, 1e3, 0, 0, 1, 2,
+            "indentation hardness of the flanks as a pressure: 7 GPa is 700 HV; left out: the same "
+            "rule as for thermal_conductivity"),
     FF_LIST("yield_strength", "MPa", spur, material.yield, FF_MIN_OPEN, NULL, NULL, 0, 1e4, 0, 0, 1,
-            2, "yield strengths of the flanks in tension; left out: as for thermal_conductivity"),
+            2,
+            "yield strengths of the flanks in tension; left out: the same rule as for "
+            "thermal_conductivity"),
     FF_COUNT("stations", spur, stations, FF_TUNABLE, "800", NULL, 8, 100000, 0, 0,
              "approximate number of intervals of the path of contact"),
     FF_LIST("tip_relief", "um", spur, flank_spec.tip.amount, 0, "0 um", NULL, 0, 1e4, 0, 0, 1, 2,
@@ -188,8 +192,8 @@ static ff_status set_discs(spur *s)
     return FF_OK;
 }
 
-/* Tells the engine which parameters affect only a few outputs. It then warns of them if only other
-   outputs are requested. */
+/* Declares parameters that affect only some outputs. The engine warns if one of them is given but
+   only other outputs are requested. */
 static void tell_servings(const spur *s)
 {
     static const char back[] = "back_profile_roll|back_profile_deviation",
@@ -255,11 +259,11 @@ static ff_status check_tools(const spur *s)
     const gear_spur_spec *g = &s->spec;
     if (g->span.count > 0 && g->span_teeth.count == 0)
         return ff_failf(s->host, FF_INVALID, "span",
-                        "span needs span_teeth, the number of teeth that it goes over");
+                        "span needs span_teeth, the number of teeth over which it was measured");
     for (size_t i = 0; i < g->span_teeth.count; i++)
         if (g->span_teeth.data[i] != floor(g->span_teeth.data[i]))
             return ff_failf(s->host, FF_INVALID, "span_teeth",
-                            "a whole number of teeth is needed, this is %g", g->span_teeth.data[i]);
+                            "span_teeth must be a whole number, but is %g", g->span_teeth.data[i]);
     if (g->over_pins.count > 0 && g->pin_diameter.count == 0)
         return ff_failf(s->host, FF_INVALID, "over_pins",
                         "over_pins needs pin_diameter, the diameter of the pins");
@@ -313,16 +317,17 @@ static void report_quality(const spur *s)
     report_rounding(s);
     host->quality(host->ctx, "pitch_error", p->pitch_error, 1e-9,
                   p->pitch_error <= 1e-9 ? FF_GOOD : FF_BAD,
-                  "tooth thicknesses and backlash fill the working pitch");
+                  "relative difference between the working pitch and the sum of tooth thicknesses "
+                  "and backlash");
     host->quality(host->ctx, "tip_thickness", tip, 0.2, tip >= 0.2 ? FF_GOOD : FF_RANGE,
-                  "least tooth thickness at a tip, in modules; below 0.2 a tip is weak");
+                  "smallest tooth thickness at a tip, in modules; below 0.2 a tip is weak");
     host->quality(host->ctx, "tip_clearance", p->clearance / m, 0.1,
                   p->clearance >= 0.1 * m ? FF_GOOD : FF_RANGE,
-                  "least gap between tip and mating root, in modules");
+                  "smallest gap between tip and mating root, in modules");
     host->quality(host->ctx, "involute_margin", p->form_margin / m, 0,
                   p->form_margin >= -1e-9 * m ? FF_GOOD : FF_RANGE,
-                  "distance from the end of the involute to the nearest contact, in modules; below "
-                  "0 a tip may touch a fillet");
+                  "distance from the lower end of the involute to the nearest contact, in modules; "
+                  "if negative, a tip may touch a fillet");
 }
 
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)

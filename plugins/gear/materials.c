@@ -1,27 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Values and sources, which docs/guide/your-gear.md repeats:
- * - steel: modulus, ratio and density as gear standards use them; heat data of case-hardened
- * steel as quoted from ISO/TR 13989-2, clause 5.3 (50 W/(m K) and 3.8 MJ/(m3 K), which gives the
- * B_M of 13.780 that gfsReboucas/Drivetrain, stage_03.rtf, prints); hardness 700 HV. Heat data
- * and hardness serve for all steels without their own.
- * - E, nu, rho of the other steels and of castings, and the yield strength of castings:
- * FreeCAD's material cards (src/Mod/Material/Resources/Materials/Standard/Metal/Steel, by M.
- * Muench, which name EN 10084, EN 10083, EN 1563 and EN 1561). Its case-hardening steels
- * (15CrNi6, 17CrNiMo6 = 18CrNiMo7-6, 20NiCrMo2) share one modulus, ratio and density; 16MnCr5
- * and 20MnCr5 are given the same values here. 42CrMo4 and 31CrMoV9 have those of its
- * heat-treatable steels (34CrNiMo6, 30CrNiMo8, C60E).
- * - 42CrMo4: yield strength EN 10083, quenched and tempered, 40 to 100 mm, from a data sheet
- * (Key to Metals); conductivity from a data sheet (Meusburger, 1.7225); hardness the middle of
- * 271 to 331 HBW for that size (Lucefin, ISO 683-2). 31CrMoV9: 800 HV nitrided, from a data
- * sheet.
- * - Castings: conductivity and hardness from data sheets (iron-foundry.com, EN 1563; MakeItFrom,
- * EN-JL 1040); specific heat, and the conductivity of EN-GJS-700-2, by EN 1563 from memory.
- * Hardness is the middle of the range.
- * - CuSn12Ni2: MakeItFrom, EN CC484K.
- * - POM, PA66: the material library of cfernandesFEUP/GEARpie; yield strength of POM from
- * FreeCAD's card (copolymer). PEEK: FreeCAD's card; Poisson's ratio from memory.
- * Case-hardening and nitriding steels have no yield strength here: tables print that of the
- * core, but the hard layer carries the load of a flank, so the user must give it. */
+/* Values and sources, which docs/guide/your-gear.md repeats: - steel: modulus, Poisson's ratio and
+   density as in gear standards; heat data of case-hardened steel as quoted from ISO/TR 13989-2,
+   clause 5.3 (50 W/(m K) and 3.8 MJ/(m3 K), which agrees with the B_M of 13.780 printed in
+   gfsReboucas/Drivetrain, stage_03.rtf); hardness 700 HV. Heat data and hardness are used for all
+   steels without their own. - E, nu, rho of the other steels and of castings, and the yield
+   strength of castings: FreeCAD's material cards
+   (src/Mod/Material/Resources/Materials/Standard/Metal/Steel, by M. Muench, which name EN 10084, EN
+   10083, EN 1563 and EN 1561). Its case-hardening steels (15CrNi6, 17CrNiMo6 = 18CrNiMo7-6,
+   20NiCrMo2) share one modulus, ratio and density; 16MnCr5 and 20MnCr5 are given the same values
+   here. 42CrMo4 and 31CrMoV9 have those of its heat-treatable steels (34CrNiMo6, 30CrNiMo8, C60E).
+   - 42CrMo4: yield strength EN 10083, quenched and tempered, 40 to 100 mm, from a data sheet (Key
+   to Metals); conductivity from a data sheet (Meusburger, 1.7225); hardness the middle of 271 to
+   331 HBW for that size (Lucefin, ISO 683-2). 31CrMoV9: 800 HV nitrided, from a data sheet. -
+   Castings: conductivity and hardness from data sheets (iron-foundry.com, EN 1563; MakeItFrom,
+   EN-JL 1040); specific heat, and the conductivity of EN-GJS-700-2, by EN 1563 from memory.
+   Hardness is the middle of the range. - CuSn12Ni2: MakeItFrom, EN CC484K. - POM, PA66: the
+   material library of cfernandesFEUP/GEARpie; yield strength of POM from FreeCAD's card
+   (copolymer). PEEK: FreeCAD's card; Poisson's ratio from memory. Case-hardening and nitriding
+   steels have no yield strength here: tables print that of the core, but the hard layer carries the
+   load of a flank, so the user must give it. */
 #include "materials.h"
 
 #include <flankfilm/author.h>
@@ -48,8 +45,8 @@ static const gear_material materials[] = {
     {3.88e9, 0.4, 1340, 0.299, 1410, 0, 97.1e6},  /* PEEK */
 };
 
-/* Whether modulus and density agree with those of a material: within a tenth for metals, within a
-   third for polymers, since the grades of a polymer differ by that much. */
+/* Returns whether modulus and density agree with those of the named material: within 10 % for
+   metals, and within 30 % for polymers, whose grades differ by that much. */
 static bool is_alike(const gear_material *m, const gear_material *named)
 {
     const double alike = named->modulus < 10e9 ? 0.3 : 0.1;

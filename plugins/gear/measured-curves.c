@@ -8,7 +8,7 @@
 const ff_param gear_curve_columns[GEAR_CURVE_COLUMNS] = {
     {.name = "gear",
      .unit = "1",
-     .doc = "1 or 2",
+     .doc = "number of the gear, 1 or 2",
      .type = FF_REALS,
      .flags = FF_REQUIRED | FF_WHOLE,
      .min = 1,
@@ -42,7 +42,7 @@ ff_status gear_curves_read(const ff_host *host, const char *item, const char *pa
         double roll = t->columns[GEAR_CURVE_ROLL][i];
         if (c->count > 0 && !(roll > c->roll[c->count - 1]))
             return ff_table_failf(host, t, i, GEAR_CURVE_ROLL,
-                                  "the roll angles of a gear must rise");
+                                  "the roll angles of a gear must increase");
         c->roll[c->count] = roll;
         c->deviation[c->count++] = t->columns[GEAR_CURVE_DEVIATION][i];
     }

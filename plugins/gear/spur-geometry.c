@@ -19,7 +19,7 @@ static const double addendum = 1.0, clearance = 0.25;
    profile shift, have 0.006. */
 static const double harmless_undercut = 0.01;
 
-/* In base pitches; closer places on the path of contact are treated as equal. */
+/* Points on the path of contact closer than this, in base pitches, are treated as equal. */
 static const double same_place = 1e-9;
 
 /* Contact ratios of this value or above are refused. */
@@ -49,8 +49,8 @@ static ff_status mount(const ff_host *host, const gear_spur_spec *g, gear_spur_p
     } else {
         if (!(tight > 0))
             return ff_failf(host, FF_INVALID, "profile_shift",
-                            "the profile shifts %g and %g sum to too little for these teeth to "
-                            "mesh; the sum must exceed %.3f, or give centre_distance",
+                            "the sum of the profile shifts %g and %g is too small for these teeth "
+                            "to mesh; it must exceed %.3f, or give centre_distance",
                             ff_of_both(&g->shift, 0), ff_of_both(&g->shift, 1),
                             -numerics_involute(g->pressure_angle) *
                                 (ff_of_both(&g->teeth, 0) + ff_of_both(&g->teeth, 1)) /
@@ -89,8 +89,8 @@ static ff_status refuse_jam(const ff_host *host, const gear_spur_spec *g, const 
 {
     if (!isnan(g->backlash))
         return ff_failf(host, FF_INVALID, "backlash",
-                        "backlash %g mm is less than the %.4f mm that teeth of these profile "
-                        "shifts have at centre_distance %g mm; state the backlash of the "
+                        "backlash %g mm is less than %.4f mm, the backlash of full teeth with "
+                        "these profile shifts at centre_distance %g mm; give the backlash of the "
                         "mounted pair, or leave it out",
                         1e3 * g->backlash, 1e3 * full / backlash_unit(g, p),
                         1e3 * p->centre_distance);
@@ -105,9 +105,8 @@ static ff_status refuse_jam(const ff_host *host, const gear_spur_spec *g, const 
                         1e3 * p->allowance[0], 1e3 * p->allowance[1], -1e3 * backlash,
                         1e3 * p->centre_distance, 1e3 * full / cos(g->pressure_angle));
     return ff_failf(host, FF_INVALID, "centre_distance",
-                    "at centre_distance %g mm teeth of these profile shifts do not fit into "
-                    "each other; it must be at least %.4f mm, or give thickness_allowance, "
-                    "span, over_pins or backlash",
+                    "at centre_distance %g mm teeth with these profile shifts jam; it must be at "
+                    "least %.4f mm, or give thickness_allowance, span, over_pins or backlash",
                     1e3 * p->centre_distance,
                     1e3 * (p->base_radius[0] + p->base_radius[1]) /
                         cos(numerics_involute_inverse(tight_involute(g))));
@@ -130,8 +129,8 @@ static ff_status set_backlash(const ff_host *host, const gear_spur_spec *g, gear
     for (int i = 0; i < 2 && !stated; i++)
         if (g->allowance.count > 0 || g->span.count > 0 || g->over_pins.count > 0)
             p->allowance[i] = gear_measured_allowance(g, p, i);
-    /* excess of the backlash over its minimum: that of full teeth if the backlash is given,
-     * otherwise 0 */
+    /* excess of the backlash over its minimum; the minimum is the backlash of full teeth if the
+       backlash is given, otherwise 0 */
     const double spare =
         stated ? p->backlash - full : full - (p->allowance[0] + p->allowance[1]) * cosine;
     p->rounding_of_backlash = gear_rounding_of_backlash(g, p);
@@ -156,8 +155,9 @@ static ff_status set_clearance(const ff_host *host, const gear_spur_spec *g, gea
             return ff_failf(host, FF_INVALID,
                             ff_of_both(&g->root_diameter, root) > 0 ? "root_diameter"
                                                                     : "tip_diameter",
-                            "the tip of gear %d (diameter %g mm) strikes the root of gear %d (%g "
-                            "mm) at centre distance %g mm; tip and root radius must sum to less",
+                            "the tip of gear %d (diameter %g mm) touches the root of gear %d (%g "
+                            "mm) at centre distance %g mm; the sum of tip and root radius must be "
+                            "less than this distance",
                             tip + 1, 2e3 * p->tip_radius[tip], root + 1, 2e3 * p->root_radius[root],
                             1e3 * p->centre_distance);
         p->moved_root[root] = fmax(-gap, 0);
@@ -214,7 +214,7 @@ static double residual_undercut(const gear_spur_spec *g, int i)
     return fmax(taken - ground, 0);
 }
 
-/* Returns how far the straight flank of the rack extends below its middle, in modules. */
+/* Returns the depth of the straight flank of the rack below the middle of the rack, in modules. */
 static double straight_depth(const gear_spur_spec *g, int i)
 {
     double round = g->tool_tip_radius.count > 0
@@ -260,8 +260,8 @@ static double least_shift(const gear_spur_spec *g, int i)
 }
 
 /* Returns the radius of curvature up to which undercut or a protuberance removes the involute of
- * gear i; 0: none. It is the outermost place where the path of the tool's tip crosses the
- * involute. */
+   gear i; 0: none. It is the outermost point at which the path of the tool's tip crosses the
+   involute. */
 static double undercut_of(const gear_spur_spec *g, const gear_spur_pair *p, int i)
 {
     enum { STEPS = 400 };
@@ -295,16 +295,16 @@ static ff_status check_undercut(const ff_host *host, const gear_spur_spec *g, ge
         p->undercut[i] = undercut_of(g, p, i);
         if (p->undercut[i] > 0 && lowest < p->undercut[i] && residual_undercut(g, i) > 0)
             return ff_failf(host, FF_INVALID, "protuberance",
-                            "gear %d: the protuberance takes the flank off up to %.6g mm of "
-                            "diameter, and it meshes from %.6g mm on; less protuberance, more "
-                            "machining_allowance or a deeper tool (dedendum) leaves it",
+                            "gear %d: the protuberance removes the flank up to a diameter of %.6g "
+                            "mm, but the flank meshes from %.6g mm on; reduce the protuberance, or "
+                            "increase machining_allowance or dedendum",
                             i + 1, 2e3 * hypot(p->base_radius[i], p->undercut[i]),
                             2e3 * hypot(p->base_radius[i], lowest));
         if (p->undercut[i] > 0 && lowest < p->undercut[i])
             return ff_failf(host, FF_INVALID, "profile_shift",
                             "gear %d with %g teeth and profile shift %g is undercut where its "
-                            "flank meshes; its "
-                            "profile_shift must be at least %.3f, or it needs more teeth",
+                            "flank meshes; it needs a profile_shift of at least %.3f, or more "
+                            "teeth",
                             i + 1, ff_of_both(&g->teeth, i), ff_of_both(&g->shift, i),
                             least_shift(g, i));
     }

@@ -15,7 +15,7 @@ typedef struct gear_spur_spec {
     double module;
     double pressure_angle;                /* of the basic rack */
     ff_reals shift;                       /* profile shift coefficients */
-    double centre_distance;               /* not given: that of a mesh without backlash */
+    double centre_distance;               /* not given: the distance without backlash */
     ff_reals tip_diameter, root_diameter; /* not given: from the basic rack */
     /* The tool: depth of its tip below the middle of the basic rack and radius of that tip, in
        modules; metal that its protuberance removes from the flank, and stock ground off later, in
@@ -33,13 +33,13 @@ typedef struct gear_spur_spec {
 typedef struct gear_spur_pair {
     double reference_radius[2], base_radius[2], pitch_radius[2], tip_radius[2], root_radius[2];
     double thickness[2];     /* arc at the reference circle for teeth of full thickness */
-    double allowance[2];     /* actual arc minus that of full thickness */
+    double allowance[2];     /* actual arc minus the arc of full thickness */
     double tip_thickness[2]; /* actual arc at the tip circle */
     double centre_distance, working_angle;
     double backlash; /* along the line of action */
     double base_pitch;
     double line_length;           /* length of the common tangent of the base circles */
-    double sap, pitch_point, tip; /* places on the path of contact */
+    double sap, pitch_point, tip; /* positions on the path of contact */
     double lpstc, hpstc; /* ends of the zone with the fewest pairs in contact, which is one pair
                             if the contact ratio is below 2 */
     double contact_ratio;

@@ -87,7 +87,7 @@ const ff_port gear_spur_outputs[GEAR_SPUR_OUTPUTS] = {
      .max = INFINITY},
     {.name = "inertia",
      .unit = "kg m2",
-     .doc = "polar moments of inertia",
+     .doc = "polar moments of inertia J",
      .dims = "gear",
      .max = INFINITY},
     {.name = "equivalent_mass",
@@ -156,8 +156,8 @@ const ff_port gear_spur_outputs[GEAR_SPUR_OUTPUTS] = {
      .dims = "gear"},
     {.name = "span_teeth",
      .unit = "1",
-     .doc = "numbers of teeth over which `span` is measured: span_teeth, or the number that "
-            "touches nearest to the middle of the flank; 0: no span touches both flanks",
+     .doc = "numbers of teeth over which `span` is measured: span_teeth, or the number for which "
+            "the span touches nearest to the middle of the flank; 0: no span touches both flanks",
      .dims = "gear"},
     {.name = "span",
      .unit = "m",
@@ -165,8 +165,8 @@ const ff_port gear_spur_outputs[GEAR_SPUR_OUTPUTS] = {
      .dims = "gear"},
     {.name = "pin_diameter",
      .unit = "m",
-     .doc = "diameters of the pins over which `over_pins` is measured: pin_diameter, or one that "
-            "touches near the middle of the flank; 0: no pin does",
+     .doc = "diameters of the pins over which `over_pins` is measured: pin_diameter, or a pin that "
+            "touches near the middle of the flank; 0: no pin touches both flanks",
      .dims = "gear"},
     {.name = "over_pins",
      .unit = "m",
@@ -179,7 +179,7 @@ const ff_port gear_spur_outputs[GEAR_SPUR_OUTPUTS] = {
      .max = INFINITY},
     {.name = "active_root_radius",
      .unit = "m",
-     .doc = "radii of the lowest contact, which is with the mating tip",
+     .doc = "radii of the lowest contact, where the tip of the mating gear touches",
      .dims = "gear"},
     {.name = "yield_strength",
      .unit = "Pa",

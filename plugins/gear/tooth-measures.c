@@ -8,10 +8,10 @@
 
 #include <math.h>
 
-/* A tooth of gear i whose arc at the reference circle is `arc`. */
+/* A tooth, with its thickness as an angle at the base circle. */
 typedef struct tooth {
     double teeth, base, pitch; /* number of teeth, base radius, base pitch */
-    double half; /* half of its angle at the base circle, s/(2 r) + inv a (DIN 3960) */
+    double half; /* half of the thickness angle at the base circle, s/(2 r) + inv a (DIN 3960) */
 } tooth;
 
 static tooth tooth_of(const gear_spur_spec *g, const gear_spur_pair *p, int i, double arc)
@@ -23,8 +23,8 @@ static tooth tooth_of(const gear_spur_spec *g, const gear_spur_pair *p, int i, d
                        arc / (2 * p->reference_radius[i]) + numerics_involute(g->pressure_angle)};
 }
 
-/* W = (k - 1) p_b + s_b, where the arc at the base circle is s_b = 2 r_b (s/(2 r) + inv a) (DIN
- * 3960). */
+/* Returns the span over k teeth, W = (k - 1) p_b + s_b, with the arc at the base circle s_b = 2 r_b
+   (s/(2 r) + inv a) (DIN 3960). */
 static double span_over(const tooth *t, double count)
 {
     return (count - 1) * t->pitch + 2 * t->base * t->half;
@@ -36,8 +36,8 @@ static double span_radius(const tooth *t, double span)
     return hypot(t->base, span / 2);
 }
 
-/* Returns the angle between the line through both pins and a diameter: pi/(2 z) for an odd number
-   of teeth (DIN 3960), else 0. */
+/* Returns the cosine of the angle between the line from the gear axis to a pin and the measuring
+   direction: pi/(2 z) for an odd number of teeth (DIN 3960), else 0. */
 static double off_diameter(const tooth *t)
 {
     return fmod(t->teeth, 2) == 1 ? cos(M_PI / (2 * t->teeth)) : 1;
@@ -92,15 +92,14 @@ ff_status gear_check_measure(const ff_host *host, const gear_spur_spec *g, const
     if (radius > t.base && radius < p->tip_radius[i])
         return FF_OK;
     return ff_failf(host, FF_INVALID, spans ? "span" : "over_pins",
-                    "gear %d: %s touches the tooth at diameter %.4f mm, and its flank lies between "
-                    "%.4f and %.4f mm; "
-                    "take %s",
+                    "gear %d: %s touches the tooth at diameter %.4f mm, but its flank lies between "
+                    "%.4f and %.4f mm; choose %s",
                     i + 1, spans ? "the span" : "the pin", 2e3 * radius, 2e3 * t.base,
                     2e3 * p->tip_radius[i],
                     spans ? "another number of teeth in span_teeth" : "another pin_diameter");
 }
 
-/* Returns the radius r + x m, which is near the middle of the flank. */
+/* Returns the radius r + x m, near the middle of the flank. */
 static double middle_of(const gear_spur_spec *g, const gear_spur_pair *p, int i)
 {
     return fmax(p->reference_radius[i] + ff_of_both(&g->shift, i) * g->module,
@@ -113,9 +112,9 @@ static double usual_count(const tooth *full, double middle)
     return fmax(2, round((span - 2 * full->base * full->half) / full->pitch + 1));
 }
 
-/* Returns the diameter of the pin that touches a full tooth at the pressure angle a_v: a_K = tan
-   a_v - (s/(2 r) + inv a - pi/z) follows from D = 2 r_b (tan a_K - tan a_v) and from inv a_K. It is
-   rounded up to a multiple of 0.25 mm, or of 0.05 mm for small modules. */
+/* Returns the diameter D = 2 r_b (tan a_K - tan a_v) of the pin that touches a full tooth at the
+   pressure angle a_v. With the equation for inv a_K above pin_axis, a_K = tan a_v - (s/(2 r) + inv
+   a - pi/z). It is rounded up to a multiple of 0.25 mm, or of 0.05 mm for small modules. */
 static double usual_pin(const tooth *full, double middle, double module)
 {
     double touches = sqrt((middle - full->base) * (middle + full->base)) / full->base;

@@ -16,7 +16,7 @@ static const double least_agreement = 0.67, most_agreement = 1.5;
 
 static const double high_friction = 0.12; /* above all measurements of lubricated gears */
 static const double most_friction = 0.2;  /* lower end for dry steel */
-static const double loaded = 0.01;        /* of the largest load; friction at smaller loads is not
+static const double loaded = 0.01;        /* share of the largest load below which friction is not
                                              judged */
 
 double losses_friction_mean(const losses_mesh *m)
@@ -58,17 +58,16 @@ static double factor_of_base(double base, bool *guessed)
     return *guessed ? 1 : factor[(int)base];
 }
 
-/* Load F_bt/b: torque over base radius and face width, N/mm. Sum of speeds v_SC and radius of
-   curvature rho_C (mm): at the pitch point. eta: at the oil temperature, mPa s. Ra: mean of both
-   flanks, um.
-   ISO/TR 14179-2 (Schlenk): mu = 0.048 (F_bt/b/(v_SC rho_C))^0.2 eta^-0.05 Ra^0.25 X_L
-   ISO/TR 15144-1: mu = 0.045 (F_bt/b/(v_SC rho_C))^0.2 eta^-0.05 X_R X_L, X_R = 2.2 (Ra/rho_C)^0.25
- */
+/* Friction coefficient by two standards, with the load F_bt/b: torque over base radius and face
+   width, N/mm; sum of surface speeds v_SC (m/s) and equivalent radius rho_C (mm) at the pitch
+   point; viscosity eta at the oil temperature, mPa s; roughness Ra, mean of both flanks, um. ISO/TR
+   14179-2 (Schlenk): mu = 0.048 (F_bt/b/(v_SC rho_C))^0.2 eta^-0.05 Ra^0.25 X_L ISO/TR 15144-1: mu
+   = 0.045 (F_bt/b/(v_SC rho_C))^0.2 eta^-0.05 X_R X_L, X_R = 2.2 (Ra/rho_C)^0.25 */
 losses_formula losses_formula_of(const losses_mesh *m, int32_t formula, double oil_factor)
 {
     const size_t last = m->stations - 1;
     const double line = m->radius[0][0] + m->radius[1][0];
-    /* share of the line of action at radius 1 */
+    /* share of radius 1 in the line of action */
     const double share = m->omega[1] / (m->omega[0] + m->omega[1]);
     const double base_radius =
         (m->radius[0][last] - m->radius[0][0]) / (m->station[last] - m->station[0]);
@@ -114,8 +113,9 @@ static void report_bound(const ff_host *host, const losses_mesh *m)
     const double highest = highest_friction(m, &at);
     snprintf(
         text, sizeof text,
-        "highest friction coefficient under more than 1 %% of the largest load, at roll angle %.3g "
-        "rad; lubricated gears have less than 0.12, and above 0.2 the rheology law does not hold",
+        "highest friction coefficient where the load exceeds 1 %% of its maximum, at roll angle "
+        "%.3g rad; lubricated gears have less than 0.12, and above 0.2 the rheology law does not "
+        "hold",
         m->shown[at]);
     host->quality(host->ctx, "friction_bound", highest, high_friction,
                   highest > most_friction   ? FF_BAD
@@ -143,22 +143,22 @@ void losses_report_friction(const ff_host *host, const losses_mesh *m, const los
     const bool within = f->pitch_speed >= slowest && f->pitch_speed <= fastest &&
                         f->roughness >= smoothest && f->roughness <= roughest;
     snprintf(text, sizeof text,
-             "m/s at the pitch line, with Ra %.3g um; the formula is fitted to losses measured at "
-             "2 to 20 m/s with Ra 0.1 to 0.8 um%s",
+             "pitch line speed in m/s, with Ra %.3g um; the formula is fitted to losses measured "
+             "at 2 to 20 m/s with Ra 0.1 to 0.8 um%s",
              1e6 * f->roughness,
-             f->pitch_speed < slowest
-                 ? ", and at lower speeds lies above the boundary friction that was measured"
-                 : "");
+             f->pitch_speed < slowest ? ", and at lower speeds exceeds measured boundary friction"
+                                      : "");
     host->quality(host->ctx, "friction_formula_range", f->pitch_speed,
                   f->pitch_speed < slowest ? slowest : fastest,
                   within || !wanted ? FF_GOOD : FF_RANGE, text);
     const double ratio = f->film / f->coefficient;
     const bool agrees = ratio >= least_agreement && ratio <= most_agreement;
     snprintf(text, sizeof text,
-             "friction coefficient of the film over that of the formula, %.3g and %.3g%s%s",
-             f->film, f->coefficient,
+             "friction coefficient of the film, %.3g, over that of the formula, %.3g%s%s", f->film,
+             f->coefficient,
              f->oil_is_guessed ? " for a mineral oil, since the base oil is unknown" : "",
-             !within  ? "; outside the range of the formula, so that it proves nothing here"
+             !within  ? "; the gear is outside the range of the formula, so the ratio proves "
+                        "nothing"
              : agrees ? "; the formula is fitted to measured losses of gears"
                       : "; the formula is fitted to measured losses of gears: check the laws of "
                         "the oil at high pressure, and the roughness");

@@ -19,11 +19,11 @@ typedef struct losses_formula {
     bool oil_is_guessed; /* X_L is that of a mineral oil, since the base oil is unknown */
 } losses_formula;
 
-/* Returns int |tau| |u_s| over int w |u_s|: the sliding loss relative to that at a friction
-   coefficient of 1. */
+/* Returns the mean friction coefficient int |tau| |u_s| / int w |u_s|, with the friction force per
+   width tau and the load per width w. */
 double losses_friction_mean(const losses_mesh *m);
 
-/* Evaluates a formula. `oil_factor` NaN: it follows from the base oil. */
+/* Evaluates a formula. If `oil_factor` is NaN, it follows from the base oil. */
 losses_formula losses_formula_of(const losses_mesh *m, int32_t formula, double oil_factor);
 
 /* Reports whether the contact ratio is in the range of the loss factor. */

@@ -20,7 +20,7 @@ static ff_status read_row(const ff_host *host, const ff_array *in, uint32_t row,
     size_t length = in[row].rank ? in[row].shape[0] : 1;
     if (!in[row].data || in[row].rank > 1 || length != count)
         return ff_failf(host, FF_INVALID, losses_inputs[row].name,
-                        "%s holds %zu numbers; %zu are needed", losses_inputs[row].name,
+                        "%s has %zu numbers; %zu are needed", losses_inputs[row].name,
                         in[row].data ? length : 0, count);
     for (size_t i = 0; i < count; i++)
         if (!(in[row].data[i] >= least && in[row].data[i] <= most))
@@ -82,7 +82,7 @@ static ff_status check_rising(const ff_host *host, uint32_t row, size_t n, const
                             losses_inputs[row].name, i);
     if (!(n >= 2 && x[n - 1] > x[0]))
         return ff_failf(host, FF_INVALID, losses_inputs[row].name,
-                        "%s must hold an engagement: at least 2 values that rise",
+                        "%s must cover an engagement: at least 2 increasing values",
                         losses_inputs[row].name);
     return FF_OK;
 }
@@ -112,7 +112,8 @@ static ff_status find_engagements(const ff_host *host, losses_mesh *m)
         double pitches = (e.roll[e.n - 1] - e.roll[0]) / m->pitch;
         if (pitches > most_pitches)
             return ff_failf(host, FF_INVALID, "ehl.roll_angle",
-                            "the engagement covers %g pitches; it must be that of one tooth pair",
+                            "the engagement covers %g pitches; it must be the engagement of one "
+                            "tooth pair",
                             pitches);
     }
     return FF_OK;
@@ -162,7 +163,7 @@ static ff_status read_oil(const ff_host *host, const ff_liquid *oil, losses_mesh
         ff_status status =
             oil->eval(oil->self, rows[i].property, 1, &m->oil_temperature, &value, NULL);
         if (status < 0 && status != FF_UNSUPPORTED)
-            return ff_failf(host, status, "oil", "the oil does not answer at %g degC",
+            return ff_failf(host, status, "oil", "the oil gives no viscosity at %g degC",
                             m->oil_temperature - 273.15);
         *rows[i].to = status < 0 ? NAN : value;
     }
@@ -181,7 +182,7 @@ static int direction_of(const ff_array *roll)
     return i < n ? (roll->data[i] > roll->data[0]) - (roll->data[i] < roll->data[0]) : 0;
 }
 
-/* Reads the losses of the other flanks. */
+/* Reads the losses of the opposite flanks. */
 static ff_status read_back(const ff_host *host, const ff_array *in, losses_mesh *m)
 {
     const ff_array *roll = &in[IN_BACK_ROLL_ANGLE], *mean = &in[IN_BACK_LOSS_MEAN];
@@ -190,13 +191,13 @@ static ff_status read_back(const ff_host *host, const ff_array *in, losses_mesh 
         return FF_OK;
     if (m->other)
         return ff_failf(host, FF_INVALID, "back",
-                        "these flanks are the ones that the mean load does not press: wire their "
-                        "losses to the stage of the flanks that it presses");
+                        "these flanks are opposite to those that carry the mean load: wire their "
+                        "losses to the losses stage of the flanks that carry it");
     const int way = direction_of(roll);
     if (!mean->data || way == 0)
         return ff_failf(host, FF_INVALID, "back",
                         "needs the losses of the other flanks: name a losses stage");
-    if (way > 0) /* of the exchanged pair, whose driving flanks these are */
+    if (way > 0) /* the roll angles are those of the exchanged pair */
         return ff_failf(
             host, FF_INVALID, "back",
             "is the loss of the same flanks: wire the losses of a film whose contact is "
@@ -254,19 +255,20 @@ void losses_report_flanks(const ff_host *host, const losses_mesh *m, double forc
     char text[240];
     if (m->other) {
         snprintf(text, sizeof text,
-                 "roll_angle of the film %s: these losses are of the flanks that the mean load "
-                 "does not press%s",
+                 "roll_angle of the film %s: these losses arise on the flanks opposite to those "
+                 "that carry the mean load%s",
                  m->exchange.back ? "falls" : "rises",
-                 heated ? ", and their bulk temperature lacks the heat of the other flanks: give "
-                          "bulk_temperature, as it is there"
+                 heated ? ", and their bulk temperature lacks the heat of the other flanks: set "
+                          "bulk_temperature to the value found there"
                         : "");
         host->quality(host->ctx, "other_flank", 1, 0, heated ? FF_DOUBTFUL : FF_GOOD, text);
     } else if (!m->back[0] && force > 0 && share > limit) {
         host->quality(
             host->ctx, "other_flank", share, limit, FF_RANGE,
-            "share of the mean force of these flanks beyond that of the torque: other flanks "
-            "bear, whose losses the means and the efficiency lack (add them as \"back\"), "
-            "or the damper of the motion pulls flanks that are apart (damping: clipped)");
+            "share of the mean force of these flanks that the torque does not explain: either the "
+            "opposite flanks also carry load, and means and efficiency lack their losses (wire "
+            "these as \"back\"), or the damper of the motion pulls separated flanks (set damping: "
+            "clipped)");
     }
 }
 

@@ -16,9 +16,10 @@ typedef struct losses_mesh {
     size_t n, stations;
     numerics_exchange exchange; /* the pair whose driving flanks have the film; all data below refer
                                    to it */
-    bool other;                 /* whether these are the flanks that the mean load does not press;
-                                   torque is then 0 */
-    const double *back[1 + PARTS]; /* mean losses of the other flanks, W; NULL: not wired */
+    bool other;                 /* whether these flanks are opposite to those that carry the mean
+                                   load; torque is then 0 */
+    const double *back[1 + PARTS]; /* mean losses of the opposite flanks, W: total and parts; NULL:
+                                      not wired */
     const double *shown;           /* roll angles of gear 1 at the steps, as written to outputs */
     const double *roll, *power, *traction, *friction;
     const double *part[PARTS], *engagement; /* NULL: the film does not give it */
@@ -26,12 +27,13 @@ typedef struct losses_mesh {
     const double *station, *radius[2];
     double face_width, modulus, contact_ratio, torque, oil_temperature;
     double omega[2], pitch;
-    double roughness; /* Ra, mean of both flanks, m; 0: unknown */
-    double viscosity,
-        oil_base; /* viscosity at the oil temperature, Pa s; base as FF_BASE_...; NaN: unknown */
-    bool heats;   /* the gears give their thermal data */
+    double roughness;            /* Ra, mean of both flanks, m; 0: unknown */
+    double viscosity, oil_base;  /* viscosity at the oil temperature, Pa s, and base oil as
+                                    FF_BASE_...; NaN:  unknown */
+    bool heats;                  /* the gears give their thermal data */
     numerics_heat heat[2];       /* thermal data of the gears */
-    double *loss, *load, *flash; /* at the steps, in W, N/m, K */
+    double *loss, *load, *flash; /* loss in W, load per width in N/m and flash temperature in K at
+                                    the steps */
     double *half_width;
     size_t hottest;
 } losses_mesh;
@@ -48,12 +50,12 @@ void losses_motion_at(const losses_mesh *m, double roll, double radius[2], doubl
 /* Returns the base radius of the driving gear, m. */
 double losses_base_radius(const losses_mesh *m);
 
-/* Reports which flanks these are if the mean load does not press them, and what these losses lack
-   of the others. `force` is the mean mesh force of the film, N; `heated`: the bulk temperature
-   follows from the loss. */
+/* Reports flanks that do not carry the mean load, and losses of opposite flanks that are missing in
+   the means. `force` is the mean mesh force of the film, N; `heated`: the bulk temperature follows
+   from the loss. */
 void losses_report_flanks(const ff_host *host, const losses_mesh *m, double force, bool heated);
 
-/* Returns the steps of engagement k with their loss. */
+/* Returns roll angles and losses of engagement k. */
 losses_engagement losses_engagement_at(const losses_mesh *m, size_t k);
 
 #endif

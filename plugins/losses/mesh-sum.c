@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-/* In pitches; closer phases are treated as equal. */
+/* phases closer than this, in pitches, are treated as equal */
 static const double slack = 1e-9;
 
 double losses_interpolate(const double *x, const double *y, size_t i, double at)

@@ -11,7 +11,7 @@ enum {
     OUT_PHASE,
     OUT_MESH_POWER_LOSS,
     OUT_POWER_LOSS_MEAN,
-    OUT_SLIDING_LOSS_MEAN, /* this and the next three rows: in the order of the inputs */
+    OUT_SLIDING_LOSS_MEAN, /* this and the next three rows have the order of the inputs */
     OUT_ROLLING_LOSS_MEAN,
     OUT_SQUEEZE_LOSS_MEAN,
     OUT_ASPERITY_LOSS_MEAN,
@@ -60,10 +60,10 @@ enum {
     IN_RQ_1,
     IN_RQ_2,
     IN_OIL,
-    IN_HEAT, /* of the gears; three rows */
+    IN_HEAT, /* three rows: thermal data of the gears */
     IN_BACK_ROLL_ANGLE = IN_HEAT + NUMERICS_HEAT_INPUTS,
-    IN_BACK_LOSS_MEAN, /* of the other flanks, in the order of the outputs from OUT_POWER_LOSS_MEAN
-                          on; five rows */
+    IN_BACK_LOSS_MEAN, /* five rows: mean losses of the back flanks, in the order of the outputs
+                          from OUT_POWER_LOSS_MEAN on */
     LOSSES_INPUTS = IN_BACK_LOSS_MEAN + OUT_ASPERITY_LOSS_MEAN - OUT_POWER_LOSS_MEAN + 1
 };
 

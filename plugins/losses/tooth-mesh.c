@@ -13,7 +13,7 @@
 
 static const double blok = 1.11;      /* factor for a Hertzian heat source, Blok 1937 */
 static const double least_peclet = 5; /* Peclet number of a fast-moving heat source, Jaeger 1942 */
-static const double most_loss = 0.1;  /* share of the power; real gears lose less */
+static const double most_loss = 0.1;  /* share of the input power; real gears lose less */
 static const double least_half_width = 1e-3; /* relative to the largest half width; the heat of a
                                                 narrower contact is ignored */
 
@@ -35,11 +35,19 @@ static const ff_param params[] = {
     NUMERICS_LIST_UNLESS(
         "gear.thermal_conductivity", "thermal_conductivity", "W/(m K)", tooth_mesh, conductivity,
         NUMERICS_STEEL_CONDUCTIVITY, 1e-3, 1e4,
-        "of gear 1 and gear 2, or one value for both, if the gear stage gives none; steel: 50"),
+        "thermal conductivity of gear 1 and gear 2, or one value for both, if the gear stage gives "
+        "none; steel: 50"),
     NUMERICS_LIST_UNLESS("gear.density", "density", "kg/m3", tooth_mesh, density,
-                         NUMERICS_STEEL_DENSITY, 1, 1e5, "likewise; steel 7850"),
+                         NUMERICS_STEEL_DENSITY, 1, 1e5,
+                         "density of gear 1 and gear 2, or one "
+                         "value for both, if the gear stage gives "
+                         "none; steel: 7850"),
     NUMERICS_LIST_UNLESS("gear.specific_heat", "specific_heat", "J/(kg K)", tooth_mesh,
-                         specific_heat, NUMERICS_STEEL_HEAT, 1, 1e5, "likewise; steel 484"),
+                         specific_heat, NUMERICS_STEEL_HEAT, 1, 1e5,
+                         "specific heat of gear 1 and "
+                         "gear 2, or one value for "
+                         "both, if the gear stage "
+                         "gives none; steel: 484"),
     FF_QUANTITY_OR(
         "auto", "bulk_temperature", "degC", tooth_mesh, bulk_temperature, 0, "auto", NULL, -150,
         1000, 0, 0,
@@ -100,14 +108,15 @@ static ff_status set_series(const tooth_mesh *s, losses_mesh *m)
         losses_motion_at(m, m->roll[i], radius, speed);
         double R = radius[0] * radius[1] / (radius[0] + radius[1]);
         m->loss[i] = m->power[i] * m->face_width;
-        /* in pure rolling the load does not follow from the friction coefficient, but there is no
-           heat either */
+        /* in pure rolling the load cannot be computed from the friction coefficient; it is not
+           needed, since there is no heat */
         m->load[i] = fabs(m->friction[i]) > 0 ? m->traction[i] / m->friction[i] : 0;
         m->half_width[i] = sqrt(8 * fmax(m->load[i], 0) * R / (M_PI * m->modulus));
         widest = fmax(widest, m->half_width[i]);
         if (!(fabs(m->load[i]) < 1e18))
             return ff_failf(s->host, FF_INVALID, "ehl.friction_coefficient",
-                            "traction over friction coefficient is not a load at roll angle %g rad",
+                            "traction over friction coefficient gives no valid load at roll angle "
+                            "%g rad",
                             m->shown[i]);
     }
     for (size_t i = 0; i < m->n; i++) {
@@ -240,8 +249,8 @@ static void report_engagements(const tooth_mesh *s, const losses_mesh *m, const 
         return;
     snprintf(
         text, sizeof text,
-        "standard deviation of the loss between engagements, relative to its mean; %zu engagements "
-        "range from %.3g to %.3g W, which gives the mean of a longer motion to within %.2g W",
+        "standard deviation of the loss of an engagement, relative to the mean; %zu engagements "
+        "range from %.3g to %.3g W, so the mean of a longer motion is known to %.2g W",
         m->count, of->least, of->most, of->deviation / sqrt((double)m->count));
     s->host->quality(s->host->ctx, "engagement_scatter",
                      fabs(of->mean) > 0 ? of->deviation / fabs(of->mean) : 0, 0, FF_GOOD, text);
@@ -370,10 +379,11 @@ static ff_status write_outputs(const tooth_mesh *s, const losses_mesh *m, uint64
         if (wanted & FF_BIT(row) & of_transmission && !(input > 0))
             return ff_failf(s->host, FF_UNSUPPORTED, losses_outputs[row].name,
                             m->other
-                                ? "the mean load does not press these flanks: ask the losses of "
-                                  "the others, with \"back\" wired to this stage"
-                                : "the torque is 0, so that no power goes through the gears, and "
-                                  "this output has no value");
+                                ? "these flanks do not carry the mean load: request this output "
+                                  "from the losses stage of the opposite flanks, with \"back\" "
+                                  "wired to this stage"
+                                : "the torque is 0: the gears transmit no power, so this output "
+                                  "has no value");
     for (uint32_t row = OUT_FRICTION_FORMULA; row <= OUT_FRICTION_AGREEMENT; row++)
         if (wanted & FF_BIT(row) && !(f.coefficient > 0))
             return ff_failf(s->host, FF_UNSUPPORTED, losses_outputs[row].name,
@@ -408,7 +418,7 @@ static ff_status write_outputs(const tooth_mesh *s, const losses_mesh *m, uint64
     for (size_t i = 0; i < sizeof scalars / sizeof scalars[0] && status == FF_OK; i++) {
         if (!isfinite(scalars[i].value))
             return ff_failf(s->host, FF_INVALID, losses_outputs[scalars[i].row].name,
-                            "%s is too large for a number: the inputs are not those of a gear",
+                            "%s overflows: the inputs do not describe a gear",
                             losses_outputs[scalars[i].row].name);
         if (wanted & FF_BIT(scalars[i].row))
             status = ff_put_scalar(s->host, scalars[i].row, scalars[i].value);
@@ -477,13 +487,13 @@ static ff_status ready(void *self)
     if (s->bulk_temperature > 0 && beside)
         return ff_failf(
             s->host, FF_INVALID, beside,
-            "bulk_temperature is given, and %s tells another one: leave one of them out", beside);
+            "bulk_temperature is given, but %s determines it too: leave one of them out", beside);
     if (s->bulk_rule == LOSSES_CONDUCTANCE && !(s->thermal_conductance > 0))
         return ff_failf(s->host, FF_INVALID, "thermal_conductance",
                         "bulk_rule: conductance needs thermal_conductance");
     if (s->thermal_conductance > 0 && s->bulk_rule >= 0 && s->bulk_rule != LOSSES_CONDUCTANCE)
         return ff_failf(s->host, FF_INVALID, "bulk_rule",
-                        "thermal_conductance is given, and bulk_rule is not conductance: leave one "
+                        "thermal_conductance is given, but bulk_rule is not conductance: leave one "
                         "of them out");
     return FF_OK;
 }

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-/* value + slope (T - at); NaN: no source available. */
+/* The straight line value + slope (T - at); NaN: no source available. */
 typedef struct line {
     double value, slope, at;
 } line;
@@ -45,8 +45,9 @@ static double relative(double density_15)
     return density_15 / 999.1;
 }
 
-/* Petroleum oils, 0 to 150 degC, 10 %: k = 0.1172 (1 - 0.00054 t)/s; t in degC, s the relative
-   density (C. S. Cragoe 1929, Bureau of Standards Misc. Publ. 97). */
+/* Conductivity of petroleum oils, accurate to 10 % from 0 to 150 degC: k = 0.1172 (1 - 0.00054
+   t)/s, with t in degC and the relative density s (C. S. Cragoe 1929, Bureau of Standards Misc.
+   Publ. 97). */
 double lubricant_base_conductivity(int base, double density_15, double T, double *slope)
 {
     if (base != LUBRICANT_MINERAL)
@@ -55,8 +56,8 @@ double lubricant_base_conductivity(int base, double density_15, double T, double
     return on_line((line){k, -0.00054 * k, 273.15}, T, slope);
 }
 
-/* Petroleum oils, 0 to 200 degC, 4 %: c = (0.388 + 0.00045 t)/sqrt(s) Btu/(lb degF), t in degF
- * (Cragoe 1929; 1 Btu/(lb degF) is 4186.8 J/(kg K)). */
+/* Specific heat of petroleum oils, accurate to 4 % from 0 to 200 degC: c = (0.388 + 0.00045
+   t)/sqrt(s) Btu/(lb degF), with t in degF (Cragoe 1929; 1 Btu/(lb degF) is 4186.8 J/(kg K)). */
 double lubricant_base_heat_capacity(int base, double density_15, double T, double *slope)
 {
     if (base != LUBRICANT_MINERAL)

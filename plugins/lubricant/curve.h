@@ -12,7 +12,7 @@ typedef struct lubricant_curve {
     double *square, *cube; /* coefficients from each point to the next */
 } lubricant_curve;
 
-/* Copies n >= 1 points with increasing x. False if memory is short. */
+/* Copies n >= 1 points with increasing x. Returns false if out of memory. */
 bool lubricant_curve_make(lubricant_curve *c, size_t n, const double *x, const double *y);
 void lubricant_curve_free(lubricant_curve *c);
 

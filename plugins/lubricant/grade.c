@@ -13,11 +13,11 @@ static const ff_param params[] = {
               "base oil: viscosity index (95, 150, 150, 200), density at 15 degC (890, 850, 975, "
               "1050 kg/m3), pressure coefficient and thermal data of a typical oil"),
     FF_QUANTITY("nu_100", "cSt", lubricant_oil, nu_100, 0, NULL, NULL, 0.5, 1e4, 1, 500,
-                "kinematic viscosity at 100 degC, instead of the typical one of the base oil"),
+                "kinematic viscosity at 100 degC, instead of the typical value of the base oil"),
     FF_QUANTITY("density_15", "kg/m3", lubricant_oil, density_15, 0, NULL, NULL, 500, 2500, 800,
                 1164,
-                "density at 15 degC, instead of the typical one of the base oil; it falls with "
-                "temperature by ASTM D1250"),
+                "density at 15 degC, instead of the typical density of the base oil; it decreases "
+                "with temperature by ASTM D1250"),
     LUBRICANT_ROWS,
 };
 
@@ -27,7 +27,7 @@ static ff_status ready(void *self)
     oil->expansion = NAN;
     int64_t rank = oil->grade ? lubricant_grade_find(oil->grade) : -1;
     if (rank < 0)
-        return ff_failf(oil->host, FF_INVALID, "grade", "no grade \"%.40s\"; there is %s",
+        return ff_failf(oil->host, FF_INVALID, "grade", "no grade \"%.40s\"; the grades are %s",
                         oil->grade ? oil->grade : "", LUBRICANT_GRADES);
     double nu_40 = lubricant_grade_nu_40(rank);
     double nu_100 = isnan(oil->nu_100) ? lubricant_grade_nu_100(rank, oil->base) : oil->nu_100;

@@ -11,11 +11,10 @@
 
 enum { BLOCK = 256 };
 
-/* K; within this distance from the single temperature of its data, an oil has these data. */
+/* An oil known at one temperature only has its data within this distance of that temperature, K. */
 static const double SAME = 0.01;
 
-/* K; the slopes of an oil decrease to 0 from BEND below the upper end of its range to BEND above
-   it. */
+/* The slopes of an oil decrease to 0 between hottest - BEND and hottest + BEND, K. */
 static const double BEND = 50;
 
 /* A function of T: returns the value, and writes the slope. */
@@ -226,9 +225,10 @@ static property *const properties[LUBRICANT_PROPERTIES] = {
     [FF_LIQUID_CONDUCTIVITY_BEND] = conductivity_bend,
 };
 
-/* Clamps temperatures to the range of ASTM D341, with the slopes of the clamped temperatures over
-   the given ones. Heated films reach the upper end. It is therefore approached on a parabola: the
-   heat of compression depends on the slope of the density, which must not jump. */
+/* Clamps temperatures to the range of ASTM D341, and computes the slopes of the clamped
+   temperatures over the given ones. Heated films reach the upper end of the range. The clamped
+   temperature approaches this end on a parabola, since the heat of compression depends on the slope
+   of the density, which must not jump. */
 FF_SIMD
 static void hold(const lubricant_oil *oil, size_t n, const double *restrict T,
                  double *restrict held, double *restrict by_T)
@@ -242,7 +242,7 @@ static void hold(const lubricant_oil *oil, size_t n, const double *restrict T,
     }
 }
 
-/* Multiplies slopes by those of the clamped temperatures; constants stay constant. */
+/* Multiplies slopes by those of the clamped temperatures. */
 FF_SIMD
 static void hold_slopes(size_t n, const double *restrict by_T, const double *restrict value,
                         double *restrict slope)
@@ -254,7 +254,7 @@ static void hold_slopes(size_t n, const double *restrict by_T, const double *res
     }
 }
 
-/* Values at n <= BLOCK points. */
+/* Evaluates a property at n <= BLOCK points. */
 static void values_at(const lubricant_oil *oil, int32_t what, size_t n, const double *T,
                       double *value, double *slope)
 {
@@ -301,7 +301,7 @@ static void find_limits(lubricant_oil *oil)
     size_t last = c->n - 1;
     oil->coldest = oil->low;
     oil->hottest = oil->high;
-    if (last == 0) { /* the thermal data may reach further */
+    if (last == 0) { /* the thermal data may cover a wider range */
         oil->coldest = fmin(oil->low, 150);
         oil->hottest = fmax(oil->high + BEND, 700);
         return;
@@ -318,11 +318,11 @@ static ff_status find_alpha(lubricant_oil *oil)
     bool given = !isnan(oil->alpha);
     if (given && isnan(oil->alpha_at))
         return ff_failf(oil->host, FF_INVALID, "alpha_at",
-                        "alpha needs the temperature that it holds at: alpha_at");
+                        "alpha needs alpha_at, the temperature at which it is given");
     if (!given && !isnan(oil->alpha_at))
-        return ff_failf(oil->host, FF_INVALID, "alpha_at", "alpha_at stands without alpha");
+        return ff_failf(oil->host, FF_INVALID, "alpha_at", "alpha_at is given without alpha");
     if (given && table_of(oil, FF_LIQUID_PRESSURE_COEFFICIENT))
-        return ff_failf(oil->host, FF_INVALID, "alpha", "the table has a column alpha already");
+        return ff_failf(oil->host, FF_INVALID, "alpha", "the table already has a column alpha");
     oil->alpha_scale = oil->base < 0 ? NAN : 1;
     if (given && oil->base >= 0 && has_viscosity(oil, oil->alpha_at)) {
         alpha = correlated_alpha(oil, oil->alpha_at, &slope);
@@ -358,7 +358,7 @@ ff_status lubricant_oil_ready(lubricant_oil *oil)
     for (size_t i = 0; i < sizeof twice / sizeof *twice; i++)
         if (!isnan(twice[i].given) && table_of(oil, twice[i].what))
             return ff_failf(oil->host, FF_INVALID, twice[i].name,
-                            "the table has a column %s already", twice[i].name);
+                            "the table already has a column %s", twice[i].name);
     oil->run_temperature = NAN;
     oil->service = (ff_liquid){.size = sizeof oil->service, .self = oil, .eval = eval};
     find_limits(oil);

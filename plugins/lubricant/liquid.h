@@ -13,7 +13,7 @@
 
 enum { LUBRICANT_PROPERTIES = FF_LIQUID_CONDUCTIVITY_BEND + 1 };
 
-/* An instance of either model. NaN, -1 and NULL: not given. */
+/* An instance of either model. Parameters that are not given are NaN, -1 or NULL. */
 typedef struct lubricant_oil {
     const ff_host *host;
     ff_liquid service;
@@ -42,8 +42,8 @@ typedef struct lubricant_oil {
 /* The parameters common to both models. */
 #define LUBRICANT_ROWS                                                                             \
     FF_QUANTITY("alpha", "1/GPa", lubricant_oil, alpha, FF_MIN_OPEN, NULL, NULL, 0, 1000, 2, 50,   \
-                "pressure coefficient dln(eta)/dp at ambient pressure and the temperature "        \
-                "alpha_at; it varies with temperature as for the base oil"),                       \
+                "pressure coefficient dln(eta)/dp at ambient pressure and at the temperature "     \
+                "alpha_at; its variation with temperature is that of the base oil"),               \
         FF_QUANTITY("alpha_at", "degC", lubricant_oil, alpha_at, 0, NULL, NULL, -150, 500, -60,    \
                     250, "temperature at which alpha is given"),                                   \
         FF_QUANTITY("conductivity", "W/(m K)", lubricant_oil, conductivity, FF_MIN_OPEN, NULL,     \
@@ -52,10 +52,10 @@ typedef struct lubricant_oil {
                     "base oil"),                                                                   \
         FF_LIST("conductivity_pressure", "1/GPa", lubricant_oil, conductivity_pressure, 0, NULL,   \
                 NULL, 0, 100, 0.1, 5, 1, 2,                                                        \
-                "c1 and c2 of the conductivity under pressure, 1 + c1 p/(1 + c2 p) times that at " \
-                "ambient pressure; left out: the conductivity does not depend on pressure. "       \
-                "Paraffinic oils: 1.72 "                                                           \
-                "and 0.54, naphthenic 1.54 and 0.33, PAO 1.40 and 0.34"),                          \
+                "c1 and c2 of the conductivity under pressure, which is 1 + c1 p/(1 + c2 p) "      \
+                "times the conductivity at ambient pressure; left out: it does not depend on "     \
+                "pressure. Paraffinic oils: 1.72 and 0.54, naphthenic 1.54 and 0.33, PAO 1.40 "    \
+                "and 0.34"),                                                                       \
         FF_QUANTITY("heat_capacity", "J/(kg K)", lubricant_oil, heat_capacity, FF_MIN_OPEN, NULL,  \
                     NULL, 0, 1e5, 1200, 3500,                                                      \
                     "specific heat, used for all temperatures; left out: that of the base "        \
@@ -73,7 +73,7 @@ extern const ff_port lubricant_inputs[1];
 extern const ff_port lubricant_outputs[8];
 
 ff_status lubricant_oil_ready(lubricant_oil *oil);
-/* Sets the viscosity by ASTM D341 from those at 40 and 100 degC, m2/s. */
+/* Sets the viscosity by ASTM D341 from the kinematic viscosities at 40 and 100 degC, m2/s. */
 ff_status lubricant_oil_ready_from(lubricant_oil *oil, double nu_40, double nu_100);
 /* Stores all properties at the temperature of the run. The service only reads them and therefore
    stays pure. */

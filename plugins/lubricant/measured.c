@@ -24,7 +24,7 @@ static const ff_param params[] = {
     FF_QUANTITY("at", "degC", lubricant_oil, at, 0, NULL, NULL, -120, 400, -60, 250,
                 "temperature of eta0"),
     FF_QUANTITY("density_15", "kg/m3", lubricant_oil, density_15, 0, NULL, "density", 500, 2500,
-                800, 1164, "density at 15 degC; it falls with temperature by ASTM D1250"),
+                800, 1164, "density at 15 degC; it decreases with temperature by ASTM D1250"),
     FF_QUANTITY("density", "kg/m3", lubricant_oil, density, 0, NULL, "density", 400, 2500, 700,
                 1164, "density at the temperature `at`; with eta0"),
     FF_QUANTITY("expansion", "1/K", lubricant_oil, expansion, 0, NULL, NULL, 0, 0.01, 4e-4, 1.2e-3,
@@ -42,7 +42,7 @@ enum { TEMPERATURE, VISCOSITY, KINEMATIC, DENSITY };
 static const ff_param columns[] = {
     {.name = "temperature",
      .unit = "degC",
-     .doc = "of the oil",
+     .doc = "temperature of the oil",
      .type = FF_REALS,
      .flags = FF_REQUIRED | FF_INCREASING,
      .min = -120,
@@ -95,7 +95,7 @@ static ff_status density_missing(const lubricant_oil *oil, const char *why)
                     "the density of the oil is missing: give density_15%s", why);
 }
 
-/* Refuses parameters that do not belong to the chosen way of giving the viscosity. */
+/* Refuses parameters that do not belong to the parameters by which the viscosity is given. */
 static ff_status check_companions(const lubricant_oil *oil)
 {
     const ff_host *host = oil->host;
@@ -107,8 +107,8 @@ static ff_status check_companions(const lubricant_oil *oil)
                         "eta0 needs its temperature: give eta0 and at");
     if (!isnan(oil->density) && isnan(oil->at))
         return ff_failf(host, FF_INVALID, "density",
-                        "density is that at the temperature `at`, which belongs to eta0; here "
-                        "give density_15");
+                        "density holds at the temperature `at` of eta0, which is not given: give "
+                        "density_15 instead");
     return FF_OK;
 }
 
@@ -174,7 +174,7 @@ static ff_status take_viscosity(lubricant_oil *oil, const ff_table *file, double
                                   "this temperature appears twice");
         if (i && !(y[i] < y[i - 1]))
             return ff_table_failf(oil->host, file, i, which,
-                                  "the viscosity of an oil falls with temperature");
+                                  "the viscosity of an oil must decrease with temperature");
     }
     return FF_OK;
 }
@@ -190,7 +190,7 @@ static ff_status from_file(lubricant_oil *oil)
         return density_missing(oil, ", or a column density");
     if (file->columns[DENSITY] && !(isnan(oil->density_15) && isnan(oil->expansion)))
         return ff_failf(oil->host, FF_INVALID, isnan(oil->density_15) ? "expansion" : "density_15",
-                        "the table has a column density already");
+                        "the table already has a column density");
     status = take_tables(oil, file);
     if (status == FF_OK && file->columns[DENSITY])
         oil->density_15 = lubricant_density(oil, 288.15);
@@ -221,7 +221,7 @@ static ff_status ready(void *self)
         return ff_failf(oil->host, FF_INVALID, "nu_40",
                         "the viscosity is missing: nu_40 and nu_100, file, or eta0 and at");
     if (isnan(oil->density_15))
-        return density_missing(oil, "; the film is made by eta0 = nu rho");
+        return density_missing(oil, "; the dynamic viscosity is eta0 = nu rho");
     return lubricant_oil_ready_from(oil, oil->nu_40, oil->nu_100);
 }
 

@@ -10,7 +10,7 @@ static const double ZERO = 273.15; /* 0 degC in K */
 
 const ff_port lubricant_inputs[1] = {{.name = "operating.oil_temperature",
                                       .unit = "K",
-                                      .doc = "of the oil in the inlet",
+                                      .doc = "temperature of the oil in the inlet",
                                       .dims = "",
                                       .flags = FF_OPTIONAL,
                                       .from = "operating"}};
@@ -24,7 +24,7 @@ const ff_port lubricant_outputs[8] = {
      .doc = "the oil as a function of temperature",
      .dims = "",
      .service = FF_LIQUID_ID},
-    {.name = "temperature", .unit = "K", .doc = "of the oil in the inlet", .dims = ""},
+    {.name = "temperature", .unit = "K", .doc = "temperature of the oil in the inlet", .dims = ""},
     {.name = "eta0",
      .unit = "Pa s",
      .doc = "viscosity at ambient pressure",
@@ -49,7 +49,11 @@ const ff_port lubricant_outputs[8] = {
      .unit = "1/Pa",
      .doc = "pressure coefficient dln(eta)/dp at ambient pressure",
      .dims = ""},
-    {.name = "expansion", .unit = "1/K", .doc = "-drho0/dT over rho0", .dims = ""},
+    {.name = "expansion",
+     .unit = "1/K",
+     .doc = "thermal expansion coefficient, -drho0/dT over "
+            "rho0",
+     .dims = ""},
 };
 
 static ff_status find_temperature(const lubricant_oil *oil, const ff_array *in, double *T)
@@ -58,8 +62,8 @@ static ff_status find_temperature(const lubricant_oil *oil, const ff_array *in, 
     bool wired = in && in->data, given = !isnan(oil->temperature);
     if (wired && given && fabs(in->data[0] - oil->temperature) > 1e-6)
         return ff_failf(host, FF_INVALID, "temperature",
-                        "the temperature stands in two places: here %g degC, and oil_temperature "
-                        "of the operating stage, %g degC; leave this one out",
+                        "the oil temperature is given twice: here %g degC, and as oil_temperature "
+                        "of the operating stage, %g degC; leave it out here",
                         oil->temperature - ZERO, in->data[0] - ZERO);
     if (!wired && !given)
         return ff_failf(host, FF_INVALID, "temperature",
@@ -68,8 +72,8 @@ static ff_status find_temperature(const lubricant_oil *oil, const ff_array *in, 
     *T = wired ? in->data[0] : oil->temperature;
     if (!(*T >= oil->coldest && *T <= oil->hottest))
         return ff_failf(host, FF_INVALID, wired ? "operating.oil_temperature" : "temperature",
-                        "at %g degC ASTM D341 gives this oil no viscosity: it holds from %.0f to "
-                        "%.0f degC",
+                        "the viscosity of this oil is not known at %g degC: ASTM D341 covers %.0f "
+                        "to %.0f degC",
                         *T - ZERO, oil->coldest - ZERO, oil->hottest - ZERO);
     return FF_OK;
 }
@@ -77,9 +81,11 @@ static ff_status find_temperature(const lubricant_oil *oil, const ff_array *in, 
 static ff_status put(const lubricant_oil *oil, uint32_t output, double T)
 {
     static const char *const missing[] = {
-        [FF_LIQUID_LN_ETA0] = "its viscosity is known at one temperature alone",
-        [FF_LIQUID_CONDUCTIVITY] = "neither conductivity nor a base oil that has one is given",
-        [FF_LIQUID_HEAT_CAPACITY] = "neither heat_capacity nor a base oil that has one is given",
+        [FF_LIQUID_LN_ETA0] = "its viscosity is known at one temperature only",
+        [FF_LIQUID_CONDUCTIVITY] = "neither conductivity nor a base oil with known conductivity is "
+                                   "given",
+        [FF_LIQUID_HEAT_CAPACITY] = "neither heat_capacity nor a base oil with known heat capacity "
+                                    "is given",
         [FF_LIQUID_PRESSURE_COEFFICIENT] = "neither a base oil, nor alpha at this temperature, is "
                                            "given"};
     double value, slope;
@@ -102,7 +108,8 @@ static void judge(const lubricant_oil *oil, double T)
     char text[160];
     snprintf(
         text, sizeof text,
-        "K outside the data of the oil, %.0f to %.0f degC; its viscosity there is extrapolated",
+        "distance of the oil temperature from the range of the data, %.0f to %.0f degC, in K; the "
+        "viscosity is extrapolated",
         oil->low - ZERO, oil->high - ZERO);
     oil->host->quality(oil->host->ctx, "extrapolation", beyond, 0, beyond > 0 ? FF_RANGE : FF_GOOD,
                        beyond > 0 ? text : NULL);
@@ -110,8 +117,8 @@ static void judge(const lubricant_oil *oil, double T)
     if (index < LUBRICANT_LEAST_INDEX || index > LUBRICANT_MOST_INDEX)
         oil->host->quality(oil->host->ctx, "viscosity_index", index,
                            index < 0 ? LUBRICANT_LEAST_INDEX : LUBRICANT_MOST_INDEX, FF_RANGE,
-                           "by ASTM D2270, of the viscosities at 40 and 100 degC; no oil has that: "
-                           "is one of them of another oil, or in another unit?");
+                           "viscosity index by ASTM D2270 from the viscosities at 40 and 100 degC; "
+                           "no oil has this value: check oil and unit of both viscosities");
 }
 
 ff_status lubricant_evaluate(void *self, uint64_t wanted, const ff_array *in)

@@ -44,14 +44,14 @@ static inline double numerics_lane_sum(size_t n, const double *x)
     return sum;
 }
 
-/* Whether all numbers are finite. 0 may also mean that only their sum overflows. */
+/* Returns whether all numbers are finite. The result may also be 0 if only their sum overflows. */
 static inline int numerics_are_finite(size_t n, const double *x)
 {
     return isfinite(numerics_lane_sum(n, x));
 }
 
-/* Stores the fault of a result if it is the first one, and returns the status of the law. If a
-   pressure is not finite, a wrong result is not a fault of the law. */
+/* Stores the first wrong result of a law, and returns the status of the law. A wrong result at a
+   pressure that is not finite is no fault of the law. */
 static inline ff_status numerics_answer_fault(numerics_answers *a, const numerics_answer *x)
 {
     size_t i = 0;
@@ -76,7 +76,7 @@ static inline ff_status numerics_answer_fault(numerics_answers *a, const numeric
         snprintf(many, sizeof many, "%s%s %g", isfinite(x->value[i]) ? "the slope of " : "",
                  x->name, isfinite(x->value[i]) ? x->slopes[i] : x->value[i]);
     if (lawful)
-        snprintf(a->text, sizeof a->text, "it gave %s%s; a law owes finite numbers", many, at);
+        snprintf(a->text, sizeof a->text, "it gave %s%s; a law must give finite numbers", many, at);
     else if (status == FF_NOMEM)
         snprintf(a->text, sizeof a->text, "it ran out of memory%s", at);
     else if (status == FF_NOCONV)

@@ -1,10 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Finds a root between two points with values of different sign by false position. The Illinois
- * variant (Dowell & Jarratt 1971, A modified regula falsi method, BIT 11, 168-174) halves the value
- * at an end that is retained twice, so that both ends converge to the root. For models of every
- * kind.
- */
+/* Finds a root between two points with values of different sign by false position. The Illinois
+   variant (Dowell & Jarratt 1971, A modified regula falsi method, BIT 11, 168-174) halves the value
+   at an end that is retained twice, so that both ends converge to the root. */
 #ifndef NUMERICS_BRACKET_H
 #define NUMERICS_BRACKET_H
 

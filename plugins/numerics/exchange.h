@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * A gear pair with its gears exchanged, for models of every kind. If the torque is negative, the
- * back flanks carry the load and gear 2 drives. Their contact equals that of driving flanks if gear
- * 2 and gear 1 change places. A model that only supports driving flanks reads its inputs through
- * these functions, which exchange them. They also exchange back its results by station, by roll
- * angle or by gear.
- */
+/* A gear pair with its gears exchanged. If the torque is negative, the back flanks carry the load
+   and gear 2 drives. Contact of the back flanks equals contact of driving flanks after gear 1 and
+   gear 2 have changed places. A model that only supports driving flanks reads its inputs through
+   these functions, which exchange the gears. The functions also convert results by station, by roll
+   angle or by gear back to the original gears. */
 #ifndef NUMERICS_EXCHANGE_H
 #define NUMERICS_EXCHANGE_H
 
@@ -20,9 +18,9 @@ typedef struct numerics_exchange {
     int back;           /* true: gear 2 drives */
     double ratio;       /* z_1/z_2 */
     double top;         /* roll angle of gear 2 = ratio (top - roll angle of gear 1), rad */
-    double sap;         /* roll_sap of the exchanged pair, rad: roll angle of gear 2 at the first
-                           whole number of mesh cycles after SAP of gear 1 that is not before the
-                           end of the path */
+    double sap;         /* roll_sap of the exchanged pair, rad: the roll angle of gear 2 at which
+                           gear 1 has passed its SAP by the smallest whole number of mesh cycles
+                           that reaches the end of the path */
     ff_array *arrays;
     double *room;
 } numerics_exchange;
@@ -72,7 +70,8 @@ static inline void numerics_reverse(double *x, size_t n, size_t width)
         }
 }
 
-/* Whether this is the last of the dimensions, also as that of another wire ("gear.station"). */
+/* Returns whether `last` is the last of the dimensions, with or without the name of a wire
+   ("gear.station"). */
 static inline int numerics_exchange_ends(const char *dims, const char *last)
 {
     const size_t n = strlen(dims), m = strlen(last);
@@ -171,8 +170,8 @@ static inline size_t numerics_exchange_partner(const ff_port *ports, size_t coun
     return i;
 }
 
-/* Sets x->in from the inputs of a model, for the driving flanks or with `back` for the back flanks;
-   may return FF_NOMEM. The caller closes x, also after an error. */
+/* Sets x->in from the inputs of a model: as they are for the driving flanks, exchanged if `back` is
+   set. May return FF_NOMEM. The caller closes x, also after an error. */
 static inline ff_status numerics_exchange_open_flank(const ff_port *ports, size_t count,
                                                      const ff_array *in, int back,
                                                      numerics_exchange *x)
@@ -210,15 +209,15 @@ static inline ff_status numerics_exchange_open_flank(const ff_port *ports, size_
     return FF_OK;
 }
 
-/* The same for the flanks that carry the load. */
+/* Does this for the flanks that carry the load. */
 static inline ff_status numerics_exchange_open(const ff_port *ports, size_t count,
                                                const ff_array *in, numerics_exchange *x)
 {
     return numerics_exchange_open_flank(ports, count, in, numerics_flank(ports, count, in) < 0, x);
 }
 
-/* Refuses negative tooth forces: their source has treated a negative line force as one on driving
-   flanks. `row` is that of the tooth forces. */
+/* Refuses negative tooth forces: their source has treated a negative line force as a force on
+   driving flanks. `row` is the row of the tooth forces. */
 static inline ff_status numerics_exchange_check(const ff_host *host, const ff_port *ports,
                                                 const numerics_exchange *x, size_t row)
 {

@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-/* Steel, for presets, in the user's notation. */
+/* Data of steel, as presets of parameters. */
 #define NUMERICS_STEEL_CONDUCTIVITY "50 W/(m K)"
 #define NUMERICS_STEEL_DENSITY      "7850 kg/m3"
 #define NUMERICS_STEEL_HEAT         "484 J/(kg K)"
@@ -48,12 +48,16 @@ enum { NUMERICS_HEAT_INPUTS = 3 };
 #define NUMERICS_HEAT_PARAMS(when, type)                                                           \
     FF_QUANTITY_UNLESS("gear.thermal_conductivity", "flank_conductivity", "W/(m K)", type,         \
                        flank_conductivity, 0, NUMERICS_STEEL_CONDUCTIVITY, NULL, 1e-3, 1e4, 0, 0,  \
-                       when ": of both flanks, if no gear gives it; steel: 50"),                   \
+                       when ": thermal conductivity of both flanks, if no gear gives it; steel: "  \
+                            "50"),                                                                 \
         FF_QUANTITY_UNLESS("gear.density", "flank_density", "kg/m3", type, flank_density, 0,       \
-                           NUMERICS_STEEL_DENSITY, NULL, 1, 1e5, 0, 0, "likewise; steel 7850"),    \
+                           NUMERICS_STEEL_DENSITY, NULL, 1, 1e5, 0, 0,                             \
+                           "density of both flanks, "                                              \
+                           "if no gear gives it; "                                                 \
+                           "steel: 7850"),                                                         \
         FF_QUANTITY_UNLESS("gear.specific_heat", "flank_heat_capacity", "J/(kg K)", type,          \
                            flank_heat_capacity, 0, NUMERICS_STEEL_HEAT, NULL, 1, 1e5, 0, 0,        \
-                           "likewise; steel 484")
+                           "specific heat of both flanks, if no gear gives it; steel: 484")
 
 typedef struct numerics_heat {
     double conductivity, density, specific_heat; /* SI */
@@ -96,9 +100,9 @@ static inline ff_status numerics_heat_of(const ff_host *host, const ff_array *in
         if (!(value[k] > 0 && isfinite(value[k])))
             return ff_failf(
                 host, FF_INVALID, item[k],
-                "%s of gear %d is not given, and its modulus or density is not that of its "
-                "material, steel unless another is named; give the gear its "
-                "thermal_conductivity and specific_heat, or the name of its material",
+                "%s of gear %d is unknown, since its modulus or density differs from that of its "
+                "material (default: steel); give thermal_conductivity and specific_heat to the "
+                "gear stage, or name the material",
                 name[k], g + 1);
     }
     *h = (numerics_heat){value[0], value[1], value[2]};

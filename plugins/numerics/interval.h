@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Finds where a value lies among sorted ones; for the models of every kind. */
+/* Finds the interval of a sorted array that contains a value. */
 #ifndef NUMERICS_INTERVAL_H
 #define NUMERICS_INTERVAL_H
 

@@ -29,8 +29,8 @@
         .flags = FF_OPTIONAL, .from = "lubricant"                                                  \
     }
 
-/* A viscosity law evaluated at T, for callers that pass no temperature. Stores its wrong
-   results. */
+/* A viscosity law that is evaluated at T if its caller passes no temperature. Wrong results of the
+   law are stored in `answers`. */
 typedef struct numerics_viscosity_at {
     ff_viscosity service;
     const ff_viscosity *law;
@@ -90,7 +90,8 @@ static inline ff_status numerics_density_eval_at(const void *self, size_t n, con
                                 &(numerics_answer){"density", "rho", status, n, p, rho, drho_dp});
 }
 
-/* Returns the law at T, which is valid as long as *at; T NaN: at its reference temperature. */
+/* Returns the law for the temperature T; if T is NaN, for the reference temperature of the law. The
+   result is valid as long as *at. */
 static inline const ff_viscosity *numerics_viscosity_make(numerics_viscosity_at *at,
                                                           const ff_viscosity *law, double T,
                                                           numerics_answers *answers)
@@ -124,7 +125,7 @@ static inline ff_status numerics_hold_against(const ff_host *host, const char *w
         return FF_OK;
     return ff_failf(host, FF_INVALID, wire,
                     "the law and the oil contradict each other: at %g degC %s is %.4g %s by the "
-                    "law and %.4g %s by the oil; wire the oil to the law, or leave it out here "
+                    "law and %.4g %s by the oil; wire the oil to the law, or disconnect it here "
                     "(oil: none)",
                     T - 273.15, name, by_law, unit, by_oil, unit);
 }

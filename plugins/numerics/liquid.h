@@ -20,14 +20,15 @@ static inline double numerics_reference_temperature(const ff_liquid *liquid)
     return T;
 }
 
-/* Whether the liquid has the property at its reference temperature. */
+/* Returns whether the liquid has the property at its reference temperature. */
 static inline int numerics_is_known(const ff_liquid *liquid, int32_t property)
 {
     double T = numerics_reference_temperature(liquid), value = NAN;
     return liquid->eval(liquid->self, property, 1, &T, &value, NULL) >= 0 && isfinite(value);
 }
 
-/* Whether all points have the same temperature, so that one evaluation of the liquid suffices. */
+/* Returns whether all points have the same temperature, so that one evaluation of the liquid
+   suffices. */
 static inline int numerics_is_uniform(size_t n, const double *T)
 {
     return !T || n < 2 || !memcmp(T, T + 1, (n - 1) * sizeof *T);
@@ -39,10 +40,10 @@ static inline ff_status numerics_worse(ff_status a, ff_status b)
     return a == FF_OK || (a == FF_DOMAIN && b != FF_OK) ? b : a;
 }
 
-/* Evaluates a property and its slope at n <= NUMERICS_POINTS temperatures; equal ones are evaluated
-   once. Without T: at the reference temperature, with FF_DOMAIN. An unknown value or slope is
-   replaced by 0, with FF_DOMAIN, since a law must give finite numbers. If a liquid fails or gives
-   infinite numbers, returns its status or FF_BUG, and all numbers are 0. */
+/* Evaluates a property and its slope at n <= NUMERICS_POINTS temperatures; equal temperatures are
+   evaluated once. If T is NULL, evaluates at the reference temperature and returns FF_DOMAIN. An
+   unknown value or slope is replaced by 0, with FF_DOMAIN, since a law must give finite numbers. If
+   a liquid fails or gives infinite numbers, returns its status or FF_BUG, and all numbers are 0. */
 static inline ff_status numerics_liquid_values(const ff_liquid *liquid, int32_t property, size_t n,
                                                const double *T, double *value, double *slope)
 {

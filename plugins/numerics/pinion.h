@@ -26,7 +26,7 @@ static inline ff_status numerics_pinion(const ff_host *host, const ff_array *in,
     *pinion = in->data ? in->data[0] > 1.5 : teeth[1] < teeth[0];
     if (in->data && !(fabs(in->data[0] - 1 - *pinion) <= 0))
         return ff_failf(host, FF_INVALID, "gear.pinion",
-                        "the pinion is gear 1 or gear 2, this is %g", in->data[0]);
+                        "the pinion must be gear 1 or gear 2, but is %g", in->data[0]);
     return FF_OK;
 }
 

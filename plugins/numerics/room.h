@@ -5,8 +5,8 @@
 
 #include <stdlib.h>
 
-/* Whether that much memory is available: allocates and frees it. The library then gets it, unless
-   another thread takes it in between. */
+/* Returns whether so many bytes are available: allocates and frees them. A library can then
+   allocate them, unless another thread is faster. */
 static inline int numerics_has_room(size_t bytes)
 {
     void *volatile probe = malloc(bytes); /* volatile, since the compiler would otherwise remove

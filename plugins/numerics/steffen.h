@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Slopes of the piecewise cubic that stays between neighbouring values: M. Steffen 1990, Astron.
-   Astrophys. 239, 443-450; for the models of every kind. */
+   Astrophys. 239, 443-450. */
 #ifndef NUMERICS_STEFFEN_H
 #define NUMERICS_STEFFEN_H
 
@@ -15,8 +15,8 @@ static inline double numerics_steffen_inner(double h0, double s0, double h1, dou
     return (copysign(1, s0) + copysign(1, s1)) * bound;
 }
 
-/* Eqs (24) to (27): slope at the end of the last interval, h0 and s0, whose neighbour has h1 and
-   s1. */
+/* Eqs (24) to (27): slope at the outer end of an end interval with length h0 and secant s0; its
+   neighbour has h1 and s1. */
 static inline double numerics_steffen_end(double h0, double s0, double h1, double s1)
 {
     double p = s0 + (s0 - s1) * h0 / (h0 + h1);

@@ -25,10 +25,12 @@ typedef struct steady {
     FF_LIST(name ".amplitude", unit, steady, member.amplitude, FF_MIN_OPEN, NULL, NULL, 0, most,   \
             0, 0, 0, 32, doc),                                                                     \
         FF_LIST(name ".order", "1", steady, member.order, FF_WHOLE, NULL, NULL, 1, 1000, 0, 0, 0,  \
-                0, "order: periods per turn of gear 1, a whole number for each amplitude"),        \
+                0,                                                                                 \
+                "orders, one whole number per amplitude: periods of the fluctuation per turn "     \
+                "of gear 1"),                                                                      \
         FF_LIST(name ".phase", "deg", steady, member.phase, 0, NULL, NULL, -360, 360, 0, 0, 0, 0,  \
-                "phase in amplitude cos(order angle + phase); angle of gear 1, 0 when a pair is "  \
-                "at SAP; default: 0")
+                "phases of the terms amplitude cos(order angle + phase); the angle of gear 1 is "  \
+                "0 when a pair is at SAP; default: 0")
 
 static const ff_param params[] = {
     FF_QUANTITY("torque", "N m", steady, torque, FF_REQUIRED, NULL, NULL, -1e12, 1e12, -1e7, 1e7,
@@ -72,7 +74,7 @@ static const ff_port inputs[] = {
      .from = "gear"},
     {.name = "gear.inertia",
      .unit = "kg m2",
-     .doc = "moments of inertia, for a speed fluctuation",
+     .doc = "moments of inertia, needed for a speed fluctuation",
      .dims = "gear",
      .flags = FF_OPTIONAL,
      .from = "gear"},
@@ -118,15 +120,15 @@ static const ff_port outputs[] = {
      .dims = "fluctuation"},
     {.name = "fluctuation_cosine",
      .unit = "N",
-     .doc = "for each order: cosine amplitude of the line force over order times angle of gear 1",
+     .doc = "amplitude of cos(order angle) in the line force, for each order; angle of gear 1",
      .dims = "fluctuation"},
     {.name = "fluctuation_sine",
      .unit = "N",
-     .doc = "for each order: sine amplitude of the line force, a quarter of a period later",
+     .doc = "amplitude of sin(order angle) in the line force, for each order",
      .dims = "fluctuation"},
     {.name = "fluctuation_period",
      .unit = "1",
-     .doc = "number of mesh cycles after which force and mesh repeat together",
+     .doc = "number of mesh cycles after which line force and mesh repeat together",
      .dims = ""},
     {.name = "driven_mass",
      .unit = "kg",
@@ -144,7 +146,7 @@ static const char no_temperature[] =
     "oil_temperature is missing: give the temperature of the oil that enters the mesh";
 
 static const char no_inertia[] =
-    "speed_fluctuation needs a gear that offers inertia: it swings the mass of gear 2";
+    "speed_fluctuation needs a gear that offers inertia, since it accelerates gear 2";
 
 #define FLUCTUATES                                                                                 \
     "largest_force|fluctuation_order|fluctuation_cosine|fluctuation_sine|fluctuation_period"
@@ -215,15 +217,15 @@ static ff_status from_gear(const steady *s, const ff_array *in, const char *inpu
     return FF_OK;
 }
 
-/* The fluctuation of the line force: the amplitudes F cos(order phi) and F sin(order phi) of each
-   term. */
+/* The fluctuation of the line force: the sum of cosine cos(order phi) + sine sin(order phi). */
 typedef struct swings {
     size_t count;
     double order[MOST_SWINGS], cosine[MOST_SWINGS], sine[MOST_SWINGS];
     double period; /* mesh cycles */
 } swings;
 
-/* Adds terms. `quarter`: phase lead of the force over the fluctuation, rad. */
+/* Adds the terms of a fluctuation, `newton` per unit of amplitude. `quarter`: phase lead of the
+   force over the fluctuation, rad. */
 static void add_swings(const fluctuation *f, double newton, double quarter, swings *to)
 {
     for (size_t i = 0; i < f->amplitude.count; i++, to->count++) {
@@ -234,8 +236,9 @@ static void add_swings(const fluctuation *f, double newton, double quarter, swin
     }
 }
 
-/* Mesh cycles after which the fluctuation and the teeth repeat together. For each order this number
-   divides the number of teeth, so their least common multiple does, too. */
+/* Returns the number of mesh cycles after which the fluctuation and the teeth repeat together. It
+   is the least common multiple of the numbers for the single orders, which divide the number of
+   teeth; thus it divides the number of teeth, too. */
 static double period_of(const swings *w, double teeth)
 {
     uint64_t common = (uint64_t)teeth;
@@ -294,8 +297,8 @@ static ff_status find_swings(const steady *s, const ff_array *in, swings *w, dou
             most += s->of_speed.amplitude.data[i];
         if (!(most < omega))
             return ff_failf(s->host, FF_INVALID, "speed_fluctuation.amplitude",
-                            "the amplitudes sum to %.6g rpm, and the speed is %.6g rpm: gear 1 "
-                            "must not turn back",
+                            "the amplitudes sum to %.6g rpm, but the speed is %.6g rpm: gear 1 "
+                            "must not turn backwards",
                             most * 30 / M_PI, omega * 30 / M_PI);
         const size_t first = w->count;
         add_swings(&s->of_speed, *mass * base * omega, M_PI / 2, w);
@@ -322,8 +325,8 @@ static ff_status put_swings(const steady *s, uint64_t wanted, const swings *w)
             to[i] = series[k][i];
     }
     snprintf(text, sizeof text,
-             "torque or speed fluctuates: force and mesh repeat themselves together after %g mesh "
-             "cycles, which is the least period of a motion",
+             "torque or speed fluctuates: line force and mesh repeat together after %g mesh "
+             "cycles, the shortest possible period of a motion",
              w->period);
     if (w->count > 0)
         s->host->quality(s->host->ctx, "fluctuation_period", w->period, 0, FF_GOOD, text);
@@ -353,9 +356,9 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     if (s->torque < 0)
         s->host->quality(
             s->host->ctx, "flank", -1, 0, FF_GOOD,
-            "the torque is below 0: gear 2 drives, and tooth forces, films, losses "
-            "and ratings are of the back flanks; roll angles stay those of gear 1, "
-            "and fall in time; relief as back_relief says, or as on the driving flank");
+            "the torque is below 0: gear 2 drives, so tooth forces, films, losses and ratings "
+            "refer to the back flanks; roll angles refer to gear 1 and decrease with time; the "
+            "relief is back_relief if given, otherwise that of the driving flank");
     int other = s->speed > 0 ? OUT_MESH_FREQUENCY : OUT_SPEED;
     if (wanted & FF_BIT(other)) {
         status = from_gear(s, &in[IN_TEETH], "gear.teeth", outputs[other].name, &gear);

@@ -13,7 +13,7 @@
 
 static const double celsius = 273.15;
 static const double highest_ratio =
-    2; /* method B does not hold from this contact ratio on, clause 8.2 */
+    2; /* contact ratio from which method B does not hold (clause 8.2) */
 
 typedef struct micropitting {
     const ff_host *host;
@@ -44,8 +44,9 @@ static const ff_param params[] = {
         "whether the tip relief is adequate for the load, which lowers the tooth temperature"),
     RATING_HEAT_ROWS(micropitting),
     FF_QUANTITY("test_lambda", "1", micropitting, test_lambda, 0, NULL, NULL, 1e-4, 100, 0, 0,
-                "lambda_GFT: lambda_gf_min of the test gear FZG C-GF/8.3/90 at the failure load "
-                "stage of the oil, by the same formulas (configs/fzg-cgf-micropitting.yaml)"),
+                "limiting specific film thickness lambda_GFT: lambda_gf_min of the test gear FZG "
+                "C-GF/8.3/90 at the failure load stage of the oil, by the same formulas "
+                "(configs/fzg-cgf-micropitting.yaml)"),
     FF_QUANTITY("test_own_lambda", "1", micropitting, test_own_lambda, 0, NULL, NULL, 1e-4, 100, 0,
                 0, "own_lambda_gf_min of the same test gear run, from the film of this program"),
     FF_QUANTITY("material_factor", "1", micropitting, material_factor, 0, "1", NULL, 0.1, 3, 0.5,
@@ -179,7 +180,7 @@ static double alpha_at_38(const micropitting *s, double viscosity)
     return of[s->base].factor * pow(viscosity, of[s->base].power);
 }
 
-/* Formula 8. */
+/* Returns the pressure coefficient at T, 1/Pa (formula 8). */
 static double alpha_at(const rating *r, double T)
 {
     return r->alpha_38 * (1 + 516 * (1 / T - 1.0 / 311));
@@ -274,7 +275,7 @@ static ff_status rate(const micropitting *s, const rating_pair *p, point *points
         status = rate_at(s, p, r, place, &points[i]);
         if (status == FF_OK && !(isfinite(points[i].film) && points[i].film > 0))
             return ff_failf(s->host, FF_INVALID, outputs[OUT_FILM].name,
-                            "the film is no number: the inputs are not those of a gear");
+                            "the film is not a finite number: the inputs do not describe a gear");
         if (status == FF_OK && points[i].film / p->roughness < r->least) {
             r->least = points[i].film / p->roughness;
             r->least_at = rating_roll(p, place);
@@ -325,7 +326,8 @@ static ff_status ready(void *self)
     return FF_OK;
 }
 
-/* Writes a ratio. It is only given together with the permissible value of the same method. */
+/* Writes the ratio of lambda to its permissible value by the same method. Refuses the output if the
+   test value is not given. */
 static ff_status write_ratio(const micropitting *s, uint64_t wanted, uint32_t row, double lambda,
                              double of_test, const char *text)
 {
@@ -388,11 +390,11 @@ static void report(const micropitting *s, const rating_pair *p, const rating *r)
     rating_report_draft(host, "ISO/TR 15144-1", "they agree with three published reports");
     host->quality(host->ctx, "contact_ratio", ratio, highest_ratio,
                   ratio <= highest_ratio ? FF_GOOD : FF_RANGE,
-                  "the closed formulas hold below 2 only (clause 8.2)");
+                  "contact ratio; the closed formulas hold below 2 only (clause 8.2)");
     host->quality(host->ctx, "pitch_speed", p->pitch_speed, 2,
                   p->pitch_speed >= 2 && p->pitch_speed <= 60 ? FF_GOOD : FF_RANGE,
-                  "m/s at the pitch circle; the method was developed for 8 to 60 m/s and agrees "
-                  "with others above 2 m/s");
+                  "speed of the pitch circle, m/s; the method was developed for 8 to 60 m/s and "
+                  "agrees with others above 2 m/s");
     const double yield = isnan(s->yield) ? p->yield : s->yield;
     if (!isnan(yield))
         host->quality(host->ctx, "shear_over_yield", 2 * r->shear / yield, 1,

@@ -132,7 +132,7 @@ static ff_status read_two(const ff_host *host, const ff_array *in, const char *n
         to[i] = in->data && in->rank == 1 && in->shape[0] > i ? in->data[i] : NAN;
         if (!isfinite(to[i]) || to[i] < 0)
             return ff_failf(host, FF_INVALID, name,
-                            "gear %zu: a number of at least 0 is needed, this is %g", i + 1, to[i]);
+                            "gear %zu: the value must not be negative, but is %g", i + 1, to[i]);
     }
     return FF_OK;
 }
@@ -141,11 +141,11 @@ static ff_status read_one(const ff_host *host, const ff_array *in, const char *n
 {
     *to = in->data ? in->data[0] : NAN;
     if (!(isfinite(*to) && *to > 0))
-        return ff_failf(host, FF_INVALID, name, "a number above 0 is needed, this is %g", *to);
+        return ff_failf(host, FF_INVALID, name, "the value must be above 0, but is %g", *to);
     return FF_OK;
 }
 
-/* Reads the tip reliefs: the missing metal at the last points of the profiles. */
+/* Reads the tip reliefs: the metal removed at the last points of the profiles. */
 static void read_relief(const ff_array *in, double relief[2])
 {
     if (!in->data || in->rank != 2 || in->shape[0] < 2 || in->shape[1] < 1)
@@ -170,8 +170,10 @@ static ff_status read_materials(const ff_host *host, const char *standard, const
         numerics_heat of_gear = {0};
         if (!(modulus[i] >= least_steel && modulus[i] <= most_steel))
             return ff_failf(host, FF_INVALID, "gear.elastic_modulus",
-                            "%s covers gears of steel, %g to %g GPa; gear %d has %g GPa", standard,
-                            1e-9 * least_steel, 1e-9 * most_steel, i + 1, 1e-9 * modulus[i]);
+                            "%s covers gears of steel, with Young's moduli of %g to %g GPa; gear "
+                            "%d has %g GPa",
+                            standard, 1e-9 * least_steel, 1e-9 * most_steel, i + 1,
+                            1e-9 * modulus[i]);
         status = numerics_heat_of(host, &in[RATING_IN_HEAT], said, i, &of_gear);
         p->contact[i] = numerics_heat_contact(&of_gear);
     }
@@ -207,8 +209,8 @@ static ff_status read_pair(const ff_host *host, const char *standard, const ff_a
         status = read_two(host, &in[twos[i].row], twos[i].name, twos[i].to);
     if (status == FF_OK && in[RATING_IN_FORCE].data && in[RATING_IN_FORCE].data[0] == 0)
         return ff_failf(host, FF_UNSUPPORTED, "operating.line_force",
-                        "the torque is 0, and flanks without load neither scuff nor pit: there is "
-                        "nothing to rate");
+                        "the torque is 0: there is nothing to rate, since flanks without load "
+                        "neither scuff nor pit");
     for (size_t i = 0; i < sizeof ones / sizeof ones[0] && status == FF_OK; i++)
         status = read_one(host, &in[ones[i].row], ones[i].name, ones[i].to);
     if (status == FF_OK && in[RATING_IN_DYNAMIC_FACTOR].data)
@@ -227,7 +229,7 @@ static ff_status read_pair(const ff_host *host, const char *standard, const ff_a
     for (int i = 0; i < 2; i++)
         p->yield = yield[i] > 0 ? fmin(p->yield, yield[i]) : p->yield;
     p->grade = fmax(grade[0], grade[1]);
-    /* Ra, for Gaussian heights */
+    /* Ra = sqrt(2/pi) Rq for Gaussian heights */
     p->roughness = (roughness[0] + roughness[1]) / 2 * sqrt(2 / M_PI);
     if (!(p->roughness > 0))
         return ff_failf(
@@ -243,7 +245,7 @@ static ff_status read_pair(const ff_host *host, const char *standard, const ff_a
     p->end = sqrt((p->tip[0] - p->base[0]) * (p->tip[0] + p->base[0]));
     if (!(p->sap > 0 && p->end > p->sap && p->end < p->line && p->base_pitch < p->end - p->sap))
         return ff_failf(host, FF_INVALID, "gear.tip_radius",
-                        "these radii give no path of contact of at least one pitch");
+                        "with these radii the path of contact is shorter than one base pitch");
     return FF_OK;
 }
 

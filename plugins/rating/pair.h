@@ -2,8 +2,8 @@
 /* Inputs of the ratings from gear, operating point, motion and oil, and shared quantities along the
    path of contact. In SI; a place on the path is the radius of curvature of flank 1. The texts of
    ISO/TR 13989-1 and -2 and ISO/TR 15144-1 (today ISO/TS 6336-20, -21 and -22) were not available.
-   Formulas and numbers are quoted from a public implementation; where it contradicts itself, a
-   comment gives the choice made here. */
+   Formulas and numbers are quoted from a public implementation; where this implementation
+   contradicts itself, a comment states the choice made here. */
 #ifndef RATING_PAIR_H
 #define RATING_PAIR_H
 
@@ -39,20 +39,21 @@ enum {
     RATING_INPUTS
 };
 
-/* The rows are: the film of micropitting, the common inputs, the losses of scuffing. Micropitting
-   uses the rows from the first one on, scuffing those from the second one on. */
+/* The rows: the film thickness for micropitting, the common inputs, and the contact temperature for
+   scuffing. Micropitting omits the last row, scuffing the first. */
 extern const ff_port rating_inputs[1 + RATING_INPUTS + 1];
 
 typedef struct rating_pair {
     double teeth[2], base[2], pitch[2], tip[2];
     double ratio; /* z2/z1 */
-    int back;     /* gear 2 drives; it then has index 0 here, and the flanks are the back flanks */
+    int back;     /* whether gear 2 drives; index 0 then means gear 2, and the flanks are the back
+                     flanks */
     int pinion;   /* index of the pinion; a standard gives it index 1, unless a formula depends
                      on the driving gear */
     double centre_distance, working_angle, pressure_angle, width, modulus;
     double roughness;     /* Ra, mean of both flanks */
     double tip_relief[2]; /* 0: none, or unknown */
-    double yield;         /* of the weaker flank; NaN: unknown */
+    double yield;         /* yield strength of the weaker flank; NaN: unknown */
     double grade;         /* the coarser of both flanks' classes of ISO 1328-1; 0: unknown */
     double contact[2];    /* B = sqrt(k rho c) of the gears, J/(m2 K s^0.5) */
     double force;         /* force along the line of action */
@@ -71,7 +72,7 @@ typedef struct rating_heat {
 #define RATING_HEAT_ROWS(type)                                                                     \
     FF_QUANTITY_UNLESS("gear.thermal_conductivity", "thermal_conductivity", "W/(m K)", type,       \
                        heat.conductivity, 0, NUMERICS_STEEL_CONDUCTIVITY, NULL, 1e-3, 1e4, 0, 0,   \
-                       "of both gears, if they give none"),                                        \
+                       "thermal conductivity of both gears, if the gear stage gives none"),        \
         FF_QUANTITY_UNLESS("gear.density", "density", "kg/m3", type, heat.density, 0,              \
                            NUMERICS_STEEL_DENSITY, NULL, 1, 1e5, 0, 0, "likewise"),                \
         FF_QUANTITY_UNLESS("gear.specific_heat", "specific_heat", "J/(kg K)", type,                \
@@ -97,9 +98,9 @@ double rating_roll(const rating_pair *p, double place);
 double rating_radius(const rating_pair *p, double place);
 /* Returns the surface speed of flank `gear` at a place on the path. */
 double rating_speed(const rating_pair *p, int gear, double place);
-/* Returns the share of the load on unmodified spur teeth, X_Gamma (ISO/TR 13989-1, clause 9.2) and
-   X_Y (ISO/TR 15144-1, formulas 46 to 48). It is (Q - 2)/15 at both ends of the path, rises by up
-   to 1/3 towards single contact, and is 1 in single contact. */
+/* Returns the load share of a pair of unmodified spur teeth, X_Gamma (ISO/TR 13989-1, clause 9.2)
+   and X_Y (ISO/TR 15144-1, formulas 46 to 48). With the tolerance class Q it is (Q - 2)/15 at both
+   ends of the path, rises by up to 1/3 towards single contact, and is 1 in single contact. */
 double rating_load_share(const rating_pair *p, const rating_load *load, double place);
 /* Returns the load per width with all factors, N/m. */
 double rating_line_load(const rating_pair *p, const rating_load *load);
@@ -110,8 +111,8 @@ double rating_addendum_ratio(const rating_pair *p, int gear);
 ff_status rating_oil_at(const ff_host *host, const rating_pair *p, double T, double *viscosity,
                         double *density);
 
-/* Reports that the text of the standard itself was not available. `held` says with what the results
-   were compared. */
+/* Reports that the text of the standard was not available. `held` names the results with which the
+   formulas were compared. */
 void rating_report_draft(const ff_host *host, const char *standard, const char *held);
 
 #endif

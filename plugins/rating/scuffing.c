@@ -12,11 +12,12 @@
 #include <stdlib.h>
 
 static const double celsius = 273.15;
-static const double lowest_load = 150;  /* N/mm, for the friction of the integral method */
-static const double highest_speed = 50; /* m/s, for the friction of both methods */
-static const double highest_ratio =
-    2.5;                           /* contact ratio for which the standard states its equations */
-static const double demanded = 50; /* K, the margin named in clause 10.5 */
+static const double lowest_load = 150;   /* N/mm; below it the friction formula of the integral
+                                            method uses this load */
+static const double highest_speed = 50;  /* m/s, for the friction of both methods */
+static const double highest_ratio = 2.5; /* highest contact ratio for which the standard gives its
+                                            equations */
+static const double demanded = 50;       /* margin demanded by clause 10.5, K */
 
 typedef struct scuffing {
     const ff_host *host;
@@ -186,8 +187,8 @@ static double supply_factor(const scuffing *s)
     return factor[s->supply];
 }
 
-/* Returns the approach factor X_J, formulas 45 and 46: a driven tip with too little relief strikes
-   its mate before the pitch point. */
+/* Returns the approach factor X_J, formulas 45 and 46: before the pitch point, the tip of the
+   driven tooth strikes the driving flank if its relief is too small. */
 static double approach_factor(const rating_pair *p, double place, double best_relief)
 {
     double before = (p->pitch_point - place) / (p->end - p->sap);
@@ -277,8 +278,9 @@ static double contact_ratio_factor(double e1, double e2)
     return k * (0.70 * (e1 * e1 + e2 * e2) - 0.22 * all + 0.52 - 0.60 * e1 * e2);
 }
 
-/* Approach factor X_Q: the driven gear enters contact with its addendum, the driving gear leaves
-   contact with its addendum. */
+/* Approach factor X_Q, from the addendum contact ratios of the driving and the driven gear. The
+   driven gear enters contact with its addendum, and the driving gear leaves contact with its
+   addendum. */
 static double ingoing_factor(double driving, double driven)
 {
     const double ratio = driven / driving;
@@ -334,7 +336,7 @@ static ff_status rate_by_integral(const scuffing *s, const rating_pair *p, ratin
                  oil = p->oil_temperature - celsius;
     r->integral = oil + 0.7 * mean * supply_factor(s) + 1.5 * mean; /* formulas 20 and 17 */
     const double torque =
-        3.726 * (double)s->stage * (double)s->stage; /* of the test gear, N m: formula 97 */
+        3.726 * (double)s->stage * (double)s->stage; /* torque of the test gear, N m: formula 97 */
     const double viscosity_of_test = 1e6 * viscosity_40 / density_40; /* mm2/s */
     r->permissible[INTEGRAL_METHOD] = 80 + 0.23 * torque * lubricant_factor(s) +
                                       s->structural * 1.5 * 0.2 * torque *
@@ -351,14 +353,14 @@ static void report(const scuffing *s, const rating_pair *p, const rating *r)
                         "they were not compared with a published example");
     host->quality(host->ctx, "margin", r->margin, demanded,
                   r->margin >= demanded ? FF_GOOD : FF_RANGE,
-                  "K between the highest contact temperature and the scuffing temperature; 13989-1 "
-                  "demands 50 K");
+                  "margin between the highest contact temperature and the scuffing temperature, K; "
+                  "13989-1 demands 50 K");
     host->quality(host->ctx, "contact_ratio", ratio, highest_ratio,
                   ratio <= highest_ratio ? FF_GOOD : FF_RANGE,
-                  "the equations are for contact ratios up to 2.5");
+                  "contact ratio; the equations hold up to 2.5");
     host->quality(host->ctx, "pitch_speed", p->pitch_speed, 1,
                   p->pitch_speed >= 1 && p->pitch_speed <= highest_speed ? FF_GOOD : FF_RANGE,
-                  "m/s at the pitch circle; the friction is for 1 to 50");
+                  "speed of the pitch circle, m/s; the friction formula holds from 1 to 50 m/s");
 }
 
 static ff_status write_series(const scuffing *s, const rating_pair *p, const double *flash,
@@ -393,7 +395,7 @@ static ff_status write_methods(const scuffing *s, const rating *r, uint64_t want
 }
 
 static const char no_losses[] =
-    "this output needs a stage of the kind losses, whose contact temperature it is";
+    "this output needs the contact temperature of a stage of the kind losses";
 static const char no_test[] =
     "this output needs test_contact_temperature, which configs/fzg-a-scuffing.yaml gives";
 
@@ -429,7 +431,7 @@ static ff_status write_own(const scuffing *s, const rating_pair *p, const ff_arr
         return s->host->fail(s->host->ctx, FF_UNSUPPORTED, outputs[OUT_OWN_SAFETY].name, no_test);
     if (!(own > p->oil_temperature))
         return ff_failf(s->host, FF_INVALID, "losses.contact_temperature_max",
-                        "the flanks are no warmer than the oil");
+                        "the flanks are not warmer than the oil, so this ratio is not defined");
     return ff_put_scalar(s->host, OUT_OWN_SAFETY,
                          (s->test_temperature - p->oil_temperature) / (own - p->oil_temperature));
 }
@@ -450,7 +452,7 @@ static ff_status write_outputs(const scuffing *s, const rating_pair *p, const ff
     for (size_t i = 0; i < sizeof scalars / sizeof scalars[0]; i++) {
         if (!isfinite(scalars[i].value))
             return ff_failf(s->host, FF_INVALID, outputs[scalars[i].row].name,
-                            "%s is no number: the inputs are not those of a gear",
+                            "%s is not a finite number: the inputs do not describe a gear",
                             outputs[scalars[i].row].name);
         if (wanted & FF_BIT(scalars[i].row) &&
             ff_put_scalar(s->host, scalars[i].row, scalars[i].value) != FF_OK)

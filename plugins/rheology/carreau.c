@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Carreau 1972 in the form of Bair: tau = eta g [1 + (eta g/G)^2]^((n - 1)/2), g = u_s/h. The
- * pressure flow in the direction of sliding depends on the slope of this curve, as with
- * Ree-Eyring: psi = dg/dtau = (1 + S^2)^((3 - n)/2) / (eta (1 + n S^2)), S = eta g/G. At a
- * point, the rate g is the one whose stress is tau. */
+   pressure flow in the direction of sliding depends on the slope of this curve, as with Ree-Eyring:
+   psi = dg/dtau = (1 + S^2)^((3 - n)/2) / (eta (1 + n S^2)), S = eta g/G. At a point, the rate g is
+   found from the stress tau. */
 #include "law.h"
 #include "references.h"
 
@@ -142,7 +142,7 @@ static ff_status shear(const void *self, size_t n, const double *p, const double
     return shear_at(self, n, p, NULL, ln_eta, h, u_s, tau);
 }
 
-/* ln(tau/G) as a function of y = ln S, and its first two derivatives. */
+/* ln(tau/G) as a function of y = ln S, with its first (slope) and second derivative (bend). */
 typedef struct stress {
     double ln, slope, bend;
 } stress;
@@ -155,8 +155,9 @@ static stress stress_at(double n, double y)
                     .bend = 2 * (n - 1) * share * (1 - share)};
 }
 
-/* Returns ln S for the stress ln_T. The curve rises, is concave and lies below both asymptotes.
-   Newton steps that start from the larger asymptote therefore never overshoot. */
+/* Returns y = ln S for the stress ln(tau/G) = ln_T. The stress rises with y, is concave, and lies
+   below both asymptotes. Newton steps from the larger root of the asymptotes therefore never
+   overshoot. */
 static double find_ln_strain(double n, double ln_T)
 {
     double y = fmax(ln_T, ln_T / n), step = 1;
@@ -168,8 +169,8 @@ static double find_ln_strain(double n, double ln_T)
     return y;
 }
 
-/* The rate for a stress, and its derivatives. Above RHEOLOGY_RATE_MAX the rate continues along its
-   tangent. This limit is at ln S = most, which depends on ln(eta). */
+/* The rate for a stress, and its derivatives. Above RHEOLOGY_RATE_MAX, where ln S = most, the rate
+   continues along its tangent; `most` depends on ln(eta). */
 typedef struct sheared {
     double rate, by_tau, by_ln_eta;
     int held;
@@ -248,7 +249,7 @@ static ff_status ready(void *self)
         rheology_eyring_ready(c->host, &c->eyring, "G", c->limiting_stress_coefficient);
     if (status == FF_OK && fabs(c->n - fitted_n) > 0.01)
         return ff_failf(c->host, FF_UNSUPPORTED, "G",
-                        "auto follows the Eyring stress with n = %g alone, not with %g; give G",
+                        "G: auto fits the Eyring stress for n = %g only, but n is %g; give G",
                         fitted_n, c->n);
     return status;
 }

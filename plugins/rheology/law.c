@@ -8,7 +8,7 @@
 const ff_port rheology_inputs[RHEOLOGY_INPUTS] = {
     [RHEOLOGY_IN_VISCOSITY] = {.name = "viscosity",
                                .unit = "",
-                               .doc = "viscosity of the oil; needed for a stress that is auto",
+                               .doc = "viscosity of the oil; needed if the stress is auto",
                                .dims = "",
                                .service = FF_VISCOSITY_ID,
                                .flags = FF_OPTIONAL},
@@ -31,7 +31,7 @@ const ff_port rheology_outputs[RHEOLOGY_OUTPUTS] = {
      .service = FF_RHEOLOGY_2_ID},
     {.name = "at_pressure",
      .unit = "",
-     .doc = "the law, with stresses that depend on pressure and temperature",
+     .doc = "the law, with stresses as functions of pressure and temperature",
      .dims = "",
      .service = FF_RHEOLOGY_3_ID},
 };
@@ -73,8 +73,9 @@ ff_status rheology_eyring_ready(const ff_host *host, rheology_eyring *e, const c
 }
 
 /* Computes the stress from the secant of ln(eta) over p. Below 1 MPa, where the secant loses
- * digits, the mean of the slopes at both ends is used, with an error of p^2/12 times the third
- * derivative. A viscosity that does not rise gives no such stress. */
+   digits, the mean of the slopes at both ends is used, with an error of p^2/12 times the third
+   derivative. If the viscosity does not rise with pressure, the stress is so large that it has no
+   effect. */
 FF_SIMD
 static void fill_stress(double twice, size_t n, const double *restrict p,
                         const double *restrict ln_eta, const double *restrict slope,
@@ -108,7 +109,7 @@ ff_status rheology_eyring_stress(const rheology_eyring *e, size_t n, const doubl
         first[i] = first[0];
     }
     fill_stress(2 * e->coefficient, n, p, ln_eta, slope, ambient, first, stress, by_p);
-    /* an extrapolated viscosity is reported to the caller of the viscosity law */
+    /* the direct caller of the viscosity law is told if the viscosity is extrapolated */
     return status == FF_DOMAIN ? FF_OK : status;
 }
 

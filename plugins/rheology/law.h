@@ -36,8 +36,8 @@ FF_SIMD_INLINE double rheology_film(double h)
     return h > RHEOLOGY_FILM_MIN ? h : RHEOLOGY_FILM_MIN;
 }
 
-/* Pa, the minimum of the limiting stress if the oil gives none: that of a PAO at ambient pressure.
-   A limit proportional to p alone would cut off the Newtonian stress in the inlet. */
+/* Minimum of the limiting stress, Pa: the value of a PAO at ambient pressure. A limit proportional
+   to p alone would cut off the Newtonian stress in the inlet. */
 static const double RHEOLOGY_LIMIT_LEAST = 4e6;
 
 /* Limiting shear stress of Bair & Winer 1979: clips the stress at tau_L = coefficient p, but not
@@ -52,9 +52,9 @@ FF_SIMD_INLINE double rheology_limited(double tau, double p, double coefficient,
 /* Bounds of flankfilm.rheology/2. Inside them stresses and viscosities follow the law, up to the
    rate RHEOLOGY_RATE_MAX; above it the rate continues along its tangent, which stays finite. */
 static const double RHEOLOGY_TAU_MAX = 1e100;      /* Pa */
-static const double RHEOLOGY_LN_ETA_MIN = -200;    /* of eta in Pa s */
+static const double RHEOLOGY_LN_ETA_MIN = -200;    /* lower bound of ln(eta), eta in Pa s */
 static const double RHEOLOGY_RATE_MAX = 1e30;      /* 1/s */
-static const double RHEOLOGY_STRESS_LEAST = 1e-30; /* Pa, of tau0 and G */
+static const double RHEOLOGY_STRESS_LEAST = 1e-30; /* lower bound of tau0 and G, Pa */
 
 /* A coefficient of a limiting stress; `on` is 0 if there is none, otherwise 1. */
 typedef struct rheology_limit {
@@ -66,8 +66,8 @@ static inline rheology_limit rheology_limit_of(double coefficient)
     return coefficient > 0 ? (rheology_limit){1, coefficient} : (rheology_limit){0, 1};
 }
 
-/* The rate that the limiting stress adds: a slip rate of 1e7 1/s, typical of films, at 1 % above
-   tau_L; it grows with the square of the excess. */
+/* Returns the slip rate that the limiting stress tau_L adds: 1e7 1/s, typical of films, at 1 %
+   above tau_L; it grows with the square of the excess. */
 FF_SIMD_INLINE double rheology_slip(double size, double p, rheology_limit limiting, double *slope)
 {
     const double least = RHEOLOGY_LIMIT_LEAST, steep = 1e7 / (0.01 * 0.01), far = 1e9;
@@ -89,16 +89,16 @@ ff_status rheology_rates(rheology_rate *curve, const void *law, size_t n, const 
                          const double *ln_eta, const double *tau, double *rate, double *by_tau,
                          double *by_ln_eta);
 
-/* The stress at which shear thinning begins, if it is `auto`. It depends on pressure and
-   temperature: tau_E = 2 Lambda/alpha, where alpha = ln(eta/eta0)/p is the secant of the wired
-   viscosity law. */
+/* The stress at which shear thinning begins, if it is `auto`: tau_E = 2 Lambda/alpha, where alpha =
+   ln(eta/eta0)/p is the secant of the wired viscosity law, and Lambda the ratio of limiting stress
+   to pressure. */
 typedef struct rheology_eyring {
     const ff_viscosity *viscosity; /* NULL: not wired */
     const ff_liquid *oil;          /* NULL: not wired */
     double coefficient;            /* Lambda; set by rheology_eyring_ready */
 } rheology_eyring;
 
-/* The inputs of such laws, and their `wire` function. */
+/* The inputs of laws with this stress, and their `wire` function. */
 enum { RHEOLOGY_IN_VISCOSITY, RHEOLOGY_IN_OIL, RHEOLOGY_INPUTS };
 extern const ff_port rheology_inputs[RHEOLOGY_INPUTS];
 ff_status rheology_eyring_wire(rheology_eyring *e, uint32_t input, const void *service);
@@ -126,9 +126,9 @@ ff_status rheology_flow_at(rheology_stresses *stresses, rheology_some *some, con
                            const double *h, double u_s, double *psi, double *dpsi_dp,
                            double *dpsi_dln_eta, double *dpsi_dh);
 
-/* `flow` of rheology/1, by means of the `flow` of rheology/3. The caller gives no pressure, so
-   the stress at ambient pressure is used; the result is FF_DOMAIN if the stress `moves` with
-   pressure. */
+/* Implements `flow` of rheology/1 by the `flow` of rheology/3. The caller gives no pressure, so the
+   stress at ambient pressure is used; the result is FF_DOMAIN if the stress varies with pressure
+   (`moves`). */
 typedef ff_status rheology_flow_3(const void *self, size_t n, const double *p, const double *T,
                                   const double *ln_eta, const double *h, double u_s, double *psi,
                                   double *by_p, double *by_ln_eta, double *by_h);

@@ -98,7 +98,7 @@ static ff_status flow(const void *self, size_t n, const double *ln_eta, const do
 }
 
 /* asinh S = ln(1 + u), u = S + S^2/(1 + sqrt(1 + S^2)). ln(1 + u) is computed as u ln(v)/(v - 1),
-   where v is 1 + u after rounding; this loses no digits. */
+   where v is 1 + u after rounding; this form loses no digits. */
 FF_SIMD_INLINE double arsinh(double S)
 {
     double square = S * S, u = S + square / (1 + sqrt(1 + square)), v = 1 + u;
@@ -171,8 +171,8 @@ FF_SIMD_INLINE double flat_sinh(double x)
 
 /* The rate is tau0 sinh(x)/eta, x = |tau|/tau0, up to x = y, where it reaches RHEOLOGY_RATE_MAX;
    above, it continues along its tangent. y >= 1 depends on ln(eta), since tau0 e^y/eta is constant;
-   the derivative over ln(eta) includes this. `flat` and `steep` tell whether points below FLAT and
-   above it occur. */
+   the derivative over ln(eta) includes this. `flat` and `steep`: whether points below and above
+   FLAT occur. */
 FF_SIMD_INLINE int64_t rates_of(rheology_limit limit, size_t n, const double *restrict tau_0,
                                 const double *restrict ln_tau0, const double *restrict p,
                                 const double *restrict ln_eta, const double *restrict tau,
@@ -281,7 +281,7 @@ static ff_status ready(void *self)
 RHEOLOGY_3_LAW(
     rheology_ree_eyring, ree_eyring, flow, shear, rate, flow_at, shear_at,
     .id = "rheology/ree-eyring", .version = "1.0.0",
-    .summary = "shear thinning by a thermally activated flow",
+    .summary = "shear thinning as thermally activated flow",
     .reference = "Johnson & Tevaarwerk 1977, Proc. R. Soc. A 356, 215-236; Li & Kahraman 2011, "
                  "Proc. IMechE J, 740-753; " RHEOLOGY_LIMITING_STRESS_REFERENCE,
     .bibtex = BIB_JohnsonTevaarwerk1977 "\n" BIB_LiKahraman2011 "\n" BIB_BairWiner1979,

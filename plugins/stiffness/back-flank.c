@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Curves of the back flanks over the phase of the driving ones. */
+/* Curves of the back flanks over the phase of the driving flanks. */
 #include "back-flank.h"
 
 #include "outputs.h"
@@ -28,16 +28,16 @@ double stiffness_back_offset(const stiffness_gears *g)
     return offset - floor(offset);
 }
 
-/* A node of a mirrored curve: the fraction `part` of the way from node `low` of the flank to the
- * next one. */
+/* A node of a mirrored curve, at `phase` of the driving flanks. Its value lies between the nodes
+   `low` and `low` + 1 of the flank, at the fraction `part` of the interval. */
 typedef struct node {
     double phase;
     size_t low;
     double part;
 } node;
 
-/* Adds the nodes of the flank from phase `to` down to phase `from`, each at `shift` minus its
- * phase. */
+/* Adds the nodes of the flank from phase `to` down to phase `from`; the phase of each new node is
+   `shift` minus the phase of the flank. */
 static size_t add_falling(const stiffness_cycle *c, double from, double to, double shift,
                           node *nodes)
 {
@@ -68,8 +68,8 @@ static node node_at(const stiffness_cycle *c, double phase, int side)
     return (node){0, i, (phase - c->phase[i]) / (c->phase[i + 1] - c->phase[i])};
 }
 
-/* Lists the nodes over the phase of the driving flanks, from 0 to 1. Phase 0 and 1 of the flank
- * meet at `offset`, where both are given. */
+/* Lists the nodes over the phase of the driving flanks, from 0 to 1. At the phase `offset` there
+   are two nodes: phase 0 and phase 1 of the flank. */
 static size_t list_nodes(const stiffness_cycle *c, double offset, node *nodes)
 {
     const int whole =

@@ -21,7 +21,8 @@ static int by_phase(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Sorts by phase and merges equal breakpoints; the merged one is a jump if any of them is. */
+/* Sorts by phase and merges equal breakpoints; a merged breakpoint is a jump if any of the equal
+   breakpoints is. */
 static void sort(stiffness_breakpoint_list *b)
 {
     size_t n = 0;
@@ -70,7 +71,7 @@ static bool same_state(const stiffness_loaded *a, const stiffness_loaded *b)
     return a->loaded == b->loaded && a->first == b->first;
 }
 
-/* Returns the phase between low and high at which the contact state first differs from that at
+/* Returns the first phase between low and high at which the contact state differs from the state at
    low. */
 static double change_of_state(const stiffness_source *s, const stiffness_loaded *at_low, double low,
                               double high)

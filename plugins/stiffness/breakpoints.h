@@ -24,7 +24,7 @@ typedef struct stiffness_breakpoint_list {
 void stiffness_breakpoints_known(const stiffness_source *s, stiffness_breakpoint_list *b);
 
 /* Adds the phases at which a pair gains or loses load, or at which a different pair is the first to
-   touch. False if memory is short. */
+   touch. Returns false if out of memory. */
 bool stiffness_breakpoints_find(const stiffness_source *s, stiffness_breakpoint_list *b);
 
 #endif

@@ -4,7 +4,7 @@
 
 #include <flankfilm/author.h>
 
-/* The words are `worst` and `all`. */
+/* The value is a number or one of the words `worst` and `all`. */
 stiffness_mesh_cycles stiffness_mesh_cycles_set(const ff_value *value)
 {
     if (!value->text)
@@ -19,8 +19,8 @@ static ff_status check_cycle(const ff_host *host, const stiffness_deviations *d,
     if (cycle == 0 || cycle < period)
         return FF_OK;
     return ff_failf(host, FF_INVALID, "mesh_cycle",
-                    "the teeth meet again after %zu mesh cycles: the last one is number %zu, not "
-                    "%zu",
+                    "the same teeth meet again after %zu mesh cycles: the last mesh cycle is "
+                    "number %zu, not %zu",
                     period, period - 1, cycle);
 }
 

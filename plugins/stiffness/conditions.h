@@ -11,8 +11,9 @@
 typedef struct stiffness_conditions {
     stiffness_path path;
     stiffness_deviations deviations;
-    stiffness_deviations back; /* of the flanks that the line force does not press */
-    bool same_back;            /* whether these are those of the others */
+    stiffness_deviations back; /* deviations of the flanks opposite to those that carry the line
+                                  force */
+    bool same_back;            /* whether `back` equals `deviations` */
     stiffness_gears gears;
 } stiffness_conditions;
 

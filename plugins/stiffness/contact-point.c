@@ -39,7 +39,7 @@ static bool meet_corner(const stiffness_gears *g, int tip, double age, double ro
         return false;
     roll[tip] = corner->roll_tip;
     roll[1 - tip] = sqrt(ratio * ratio - 1);
-    /* the flank turns further until it passes the corner */
+    /* the gap is the rotation by which the flank reaches the corner, times the base radius */
     *gap = flank->base_radius * (atan2(x, y) + numerics_involute_at_roll(roll[1 - tip]) -
                                  stiffness_gears_roll(g, 1 - tip, age));
     return true;

@@ -6,10 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_PIECES = 256, LEAST_SAMPLES = 4 /* in one piece */ };
+enum { MOST_PIECES = 256, LEAST_SAMPLES = 4 /* per piece */ };
 
-/* Weight of the straightness of the pieces against the fit to the samples; it matters only if
-   samples are few. */
+/* Weight of the penalty on the curvature of the pieces, relative to the fit to the samples. The
+   penalty matters only if a piece has few samples. */
 static const double straightness = 1e-4;
 
 /* A breakpoint between two pieces, and the indices of the unknowns on its lower and upper side. */
@@ -24,8 +24,8 @@ typedef struct equations {
     const bool *corner;
     size_t nodes, unknowns;
     node *node;
-    double *matrix, *x; /* lower triangle of the normal equations, by rows; right-hand side, later
-                           the solution */
+    double *matrix, *x; /* matrix: lower triangle of the normal equations, by rows; x: right-hand
+                           side, replaced by the solution */
 } equations;
 
 /* Places nodes at corners and jumps, and at every stride-th breakpoint in between. */
@@ -50,7 +50,7 @@ static bool place_nodes(equations *s, size_t stride)
     return true;
 }
 
-/* Adds (weight (sum of c x - y))^2 to the minimised function. */
+/* Adds (weight (sum c[k] x[at[k]] - y))^2 to the function that is minimised. */
 static void add_row(equations *s, const size_t at[4], const double c[4], double y, double weight)
 {
     for (int a = 0; a < 4; a++) {

@@ -26,7 +26,7 @@ typedef struct stiffness_breakpoint {
 } stiffness_breakpoint;
 
 /* Creates `points` equal steps and inserts the `count` breaks, which must be in increasing order.
-   False if memory is short. */
+   Returns false if out of memory. */
 bool stiffness_cycle_make(stiffness_cycle *cycle, size_t points, size_t count,
                           const stiffness_breakpoint *breaks);
 void stiffness_cycle_free(stiffness_cycle *cycle);
@@ -41,13 +41,14 @@ double stiffness_cycle_mean(const stiffness_cycle *cycle, const double *value);
    pi i n phi) dphi|. */
 double stiffness_cycle_amplitude(const stiffness_cycle *cycle, const double *value, int n);
 
-/* Whether a pair that was at SAP `age` mesh cycles ago is in contact, on this side of `age`. */
+/* Returns whether a pair that was at SAP `age` mesh cycles ago is in contact; `side` selects the
+   limit from below or above. */
 bool stiffness_touches(double contact_ratio, double age, int side);
 /* Counts the pairs in contact. The youngest has the age `phase`, the next one phase + 1, and so
    on. */
 size_t stiffness_pairs(double contact_ratio, double phase, int side);
-/* Returns the phase in [0, 1] at which a pair has `age`: 1 rather than 0 for the limit from
- * below. */
+/* Returns the phase in [0, 1] at which a pair has `age`. At a whole number of mesh cycles it is 1
+   for the limit from below, otherwise 0. */
 double stiffness_phase_of(double age, int side);
 
 #endif

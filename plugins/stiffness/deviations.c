@@ -25,7 +25,8 @@ static bool all_finite(size_t n, const double *x)
     return true;
 }
 
-/* The profiles of the back flanks, which are those of the driving ones if none are wired. */
+/* Reads the profiles of the driving flanks, or of the back flanks if `back` is set. If no back
+   profiles are wired, they equal those of the driving flanks. */
 static ff_status read_profiles(const ff_host *host, const ff_array *in, bool back,
                                stiffness_deviations *d)
 {
@@ -46,7 +47,7 @@ static ff_status read_profiles(const ff_host *host, const ff_array *in, bool bac
         d->profile[g] = profile->data + (size_t)g * d->points;
         if (!increasing(d->points, d->roll[g]))
             return ff_failf(host, FF_INVALID, "gear.profile_roll",
-                            "gear %d: the roll angles of the profile must rise", g + 1);
+                            "gear %d: the roll angles of the profile must increase", g + 1);
         if (!all_finite(d->points, d->profile[g]))
             return ff_failf(host, FF_INVALID, "gear.profile_deviation",
                             "gear %d: a deviation is not finite", g + 1);
@@ -70,16 +71,16 @@ ff_status stiffness_deviations_read(const ff_host *host, const ff_array *in,
         if (index->rank != 1 || index->shape[0] != (size_t)lround(teeth) ||
             !all_finite(index->shape[0], index->data))
             return ff_failf(host, FF_INVALID, names[g],
-                            "one finite deviation for each of the %g teeth is needed", teeth);
+                            "one finite deviation is needed for each of the %g teeth", teeth);
         d->teeth[g] = index->shape[0];
         for (size_t i = 0; i < d->teeth[g]; i++)
             if (fabs(index->data[i]) > 0)
                 d->index[g] = index->data;
         if (d->index[g] && in[STIFFNESS_IN_FORCE].data[0] < 0)
             return ff_failf(host, FF_UNSUPPORTED, names[g],
-                            "index deviations are followed on the driving flanks alone, and the "
-                            "torque is below 0: write gear 2 of the file as gear 1, with a torque "
-                            "above 0, or leave pitch_error out");
+                            "index deviations are supported on driving flanks only, but the torque "
+                            "is below 0: write gear 2 of the file as gear 1, with a torque above "
+                            "0, or leave pitch_error out");
     }
     return read_profiles(host, in, in[STIFFNESS_IN_FORCE].data[0] < 0, d);
 }

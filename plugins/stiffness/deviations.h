@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Deviations of the flanks from perfect involutes, given by the gear stage: along the normal over
    the flank's own roll angle, and index deviations of single teeth; positive where there is more
-   metal. The metal missing on both flanks of a pair is the gap of the pair. The smallest gap of all
-   pairs is the transmission error without load. Lengths in m, angles in rad. */
+   metal. The gap of a pair is minus the sum of the deviations of both flanks. The smallest gap of
+   all pairs is the transmission error without load. Lengths in m, angles in rad. */
 #ifndef STIFFNESS_DEVIATIONS_H
 #define STIFFNESS_DEVIATIONS_H
 
@@ -20,8 +20,8 @@ typedef struct stiffness_deviations {
 ff_status stiffness_deviations_read(const ff_host *host, const ff_array *in,
                                     stiffness_deviations *d);
 
-/* Reads the profiles of the back flanks; `same`: they equal those of the driving flanks, `d`. Their
- * index deviations are not known. */
+/* Reads the profiles of the back flanks, without index deviations, which are not known. Sets `same`
+   if the profiles equal those of the driving flanks, `d`. */
 ff_status stiffness_deviations_read_back(const ff_host *host, const ff_array *in,
                                          const stiffness_deviations *d, stiffness_deviations *back,
                                          bool *same);

@@ -110,8 +110,8 @@ static ff_status fail_ring(const stiffness_elasticity *m, int gear, int result)
                     "gear %d: the stiffness matrix of the elements is singular", gear + 1);
 }
 
-/* The error is estimated from a mesh with half as many elements; it decreases at least in
-   proportion to their number. */
+/* Computes the ring of a gear, and estimates its error from a mesh with half as many elements; the
+   error decreases at least in proportion to the number of elements. */
 static ff_status make_ring(const stiffness_elasticity *m, int gear, stiffness_body *b)
 {
     const stiffness_body_data *r = &b->data;
@@ -145,8 +145,8 @@ static ff_status make_body(const stiffness_elasticity *m, const stiffness_gears 
         return ff_failf(m->host, FF_INVALID, "gear.root_radius", "gear %d: %s", gear + 1, why);
     if (wanted.material.plane_strain && !(wanted.material.poisson_ratio < nearly_incompressible))
         return ff_failf(m->host, FF_INVALID, "plane",
-                        "gear %d: plane strain of a material with Poisson's ratio %g is out of "
-                        "reach of these elements; use plane stress",
+                        "gear %d: these elements do not support plane strain of a material with "
+                        "Poisson's ratio %g; use plane stress",
                         gear + 1, wanted.material.poisson_ratio);
     if (m->compliance != STIFFNESS_ANALYTICAL) {
         ff_status status = make_ring(m, gear, b);

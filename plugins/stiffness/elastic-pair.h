@@ -9,7 +9,8 @@
 #include "equilibrium.h"
 #include "tooth-beam.h"
 
-/* The data that determine the compliance of a gear; instances are compared bytewise. */
+/* The data that determine the compliance of a gear. They are compared bytewise, to find gears with
+   equal data. */
 typedef struct stiffness_body_data {
     stiffness_contour_data contour;
     stiffness_material material;
@@ -26,7 +27,7 @@ typedef struct stiffness_body {
         mesh_error; /* relative change of the compliance at mid-flank with half as many elements */
 } stiffness_body;
 
-/* The compliance by finite elements; or by beams, without coupling of teeth. */
+/* Method for the compliance: finite elements, or beams without coupling of teeth. */
 enum { STIFFNESS_FINITE_ELEMENT, STIFFNESS_ANALYTICAL };
 enum { STIFFNESS_STRAIN, STIFFNESS_STRESS };
 

@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-/* N. Without load, the stiffness is evaluated under this force. */
+/* The force under which the stiffness is evaluated without load, N. */
 static const double least_force = 1e-6;
 
 double stiffness_source_force(const stiffness_source *s)
@@ -15,15 +15,15 @@ double stiffness_source_force(const stiffness_source *s)
     return fmax(s->conditions->path.line_force, least_force);
 }
 
-/* Finds the gap of a pair along the line of action, m. False if the tip corner does not meet a
-   flank. */
+/* Finds the gap of a pair along the line of action, m. Returns false if the tip corner does not
+   meet a flank. */
 static bool find_gap(const stiffness_source *s, double age, long number, double roll[2],
                      double *gap)
 {
     if (s->corner || (age >= 0 && age <= s->conditions->gears.contact_ratio)) {
         if (!stiffness_gears_contact(&s->conditions->gears, age, roll, gap))
             return false;
-    } else { /* beyond the path, the contact stays at the end of the path */
+    } else { /* beyond the path of contact, the roll angles are those of its end */
         double end = age < 0 ? 0 : s->conditions->gears.contact_ratio;
         stiffness_gears_contact(&s->conditions->gears, end, roll, gap);
     }
@@ -96,7 +96,8 @@ stiffness_loaded stiffness_source_solve(const stiffness_source *s, size_t cycle,
     return r;
 }
 
-/* Returns the whole mesh cycles between this pair and the pair that entered last. */
+/* Returns the number of whole mesh cycles by which this pair is older than the pair that entered
+   last. */
 static int place_of(double age, double phase)
 {
     return (int)lround(age - phase);

@@ -24,7 +24,7 @@ typedef struct stiffness_source {
     size_t points; /* number of equal steps of the mesh cycle */
     stiffness_mesh_cycles cycles;
     bool tangent;         /* k is dF/ds instead of F/(s - e) */
-    bool corner;          /* includes tip corner contact off the line of action */
+    bool corner;          /* tip corner contact off the line of action is included */
     double before, after; /* mesh cycles of contact before SAP and after the tip */
     bool sharp;           /* pairs enter and leave abruptly, so that k jumps */
     size_t slope_changes; /* ages at which the compliance of a pair changes its slope */
@@ -42,7 +42,7 @@ typedef struct stiffness_loaded {
     double stiffness; /* N/m */
     bool solved;      /* false: the pairs cannot carry the force */
     uint64_t loaded;  /* one bit per loaded pair, numbered by its age in whole cycles */
-    int first;        /* the pair that touches first without load, by its age in whole cycles */
+    int first;        /* age in whole mesh cycles of the pair that touches first without load */
 } stiffness_loaded;
 
 /* Solves one phase of one mesh cycle of the hunting period. If pairs enter or leave at that phase,

@@ -21,8 +21,8 @@ static ff_status read_positive(const ff_host *host, const ff_array *in, int row,
     const char *name = stiffness_inputs[row].name;
     ff_status status = stiffness_input_read(host, in, row, gear, value);
     if (status == FF_OK && !(*value > 0))
-        status = ff_failf(host, FF_INVALID, name,
-                          "gear %zu: a positive value is needed, this is %g", gear + 1, *value);
+        status = ff_failf(host, FF_INVALID, name, "gear %zu: the value must be positive, but is %g",
+                          gear + 1, *value);
     return status;
 }
 
@@ -31,7 +31,7 @@ static ff_status check_gear(const ff_host *host, const stiffness_gear *g, const 
 {
     if (!(g->poisson_ratio > -1 && g->poisson_ratio <= 0.5))
         return ff_failf(host, FF_INVALID, "gear.poisson_ratio",
-                        "gear %d: Poisson's ratio lies between -1 and 0.5, this is %g", gear + 1,
+                        "gear %d: Poisson's ratio must lie between -1 and 0.5, but is %g", gear + 1,
                         g->poisson_ratio);
     if (!(g->reference_radius >= g->base_radius))
         return ff_failf(host, FF_INVALID, "gear.reference_radius",
@@ -85,15 +85,16 @@ static ff_status read_gear(const ff_host *host, const ff_array *in, const ff_rea
                     : bore > 0 ? bore
                                : g->root_radius / default_body_ratio;
     g->full_thickness = g->thickness;
-    /* a backlash without given thicknesses is an arc of the base circle, half of it on each gear */
+    /* without thickness_allowance, the backlash, an arc of the base circle, thins both gears
+       equally */
     g->thickness += in[STIFFNESS_IN_ALLOWANCE].data
                         ? allowance
                         : -backlash / 2 * g->reference_radius / g->base_radius;
     if (!(g->thickness > 0))
-        return ff_failf(host, FF_INVALID,
-                        in[STIFFNESS_IN_ALLOWANCE].data ? "gear.thickness_allowance"
-                                                        : "gear.backlash",
-                        "gear %d: it leaves no tooth at the reference circle", gear + 1);
+        return ff_failf(
+            host, FF_INVALID,
+            in[STIFFNESS_IN_ALLOWANCE].data ? "gear.thickness_allowance" : "gear.backlash",
+            "gear %d: with this value no tooth is left at the reference circle", gear + 1);
     return check_gear(host, g, rim, gear);
 }
 
@@ -105,9 +106,9 @@ ff_status stiffness_gears_read(const ff_host *host, const ff_array *in, const st
     double angle = 0;
     ff_status status = stiffness_input_read(host, in, STIFFNESS_IN_ANGLE, 0, &angle);
     if (status == FF_OK && !(angle > 0 && angle < M_PI / 2))
-        status =
-            ff_failf(host, FF_INVALID, "gear.working_pressure_angle",
-                     "the working pressure angle lies between 0 and 90 deg, this is %g rad", angle);
+        status = ff_failf(host, FF_INVALID, "gear.working_pressure_angle",
+                          "the working pressure angle must lie between 0 and 90 deg, but is %g rad",
+                          angle);
     if (status == FF_OK)
         status = read_positive(host, in, STIFFNESS_IN_WIDTH, 0, &g->width);
     for (int i = 0; i < 2 && status == FF_OK; i++) {

@@ -27,7 +27,8 @@ typedef struct stiffness_gears {
 } stiffness_gears;
 
 /* Reads and checks the input rows from STIFFNESS_IN_BASE on. `rim`: the rim radii given by the
-   user; if empty, the bore radius, or without a bore half of the root radius. */
+   user. If `rim` is empty, a rim radius is the bore radius, or half of the root radius for a gear
+   without a bore. */
 ff_status stiffness_gears_read(const ff_host *host, const ff_array *in, const stiffness_path *e,
                                const ff_reals *rim, stiffness_gears *gears);
 

@@ -10,8 +10,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Hertz (Johnson 1985, eq. 4.45) for a line contact: p = sqrt(f Er/(pi R b)), 1/Er = sum of (1 -
- * nu^2)/E. */
+/* Returns the Hertz pressure of a line contact (Johnson 1985, eq. 4.45): p = sqrt(f Er/(pi R b)),
+   1/Er = sum of (1 - nu^2)/E. */
 static double pressure_of(const stiffness_gears *g, double force, double age)
 {
     double softness = 0;
@@ -21,7 +21,7 @@ static double pressure_of(const stiffness_gears *g, double force, double age)
     return sqrt(force / (M_PI * softness * stiffness_gears_curvature(g, age) * g->width));
 }
 
-/* Returns the mesh cycle in which a pair entered contact, if it has this age at this phase of
+/* Returns the mesh cycle in which a pair entered contact that has the age `age` at this phase of
    `cycle`. A pair that is at SAP at the end of `cycle` enters in the next cycle. */
 static size_t entered_in(size_t period, size_t cycle, double age, double phase)
 {
@@ -95,17 +95,17 @@ void stiffness_hunting_report(const stiffness_source *s, const stiffness_hunting
     char text[320];
     double more = h->pressure[h->worst] / h->pressure[number] - 1;
     snprintf(text, sizeof text,
-             "Hertz pressure on the pair of mesh cycle %zu, %.4g MPa, over that of cycle %zu, less "
-             "1: the worst of the %zu mesh cycles in which the teeth meet, tooth %zu of gear 1 "
-             "on tooth %zu of gear 2; mesh_cycle: worst or all shows it",
+             "relative excess of the Hertz pressure in mesh cycle %zu, %.4g MPa, over that in "
+             "cycle %zu. It is the highest of the %zu mesh cycles of the hunting period, of tooth "
+             "%zu of gear 1 and tooth %zu of gear 2; mesh_cycle: worst or all outputs it",
              h->worst, 1e-6 * h->pressure[h->worst], number, h->period, h->teeth[0], h->teeth[1]);
     s->host->quality(s->host->ctx, "worst_pair", more, limit, more <= limit ? FF_GOOD : FF_DOUBTFUL,
                      text);
     double swing = (h->all.high - h->all.low) / fmax(h->narrowest, 1e-300);
     snprintf(text, sizeof text,
-             "swing of the loaded transmission error over all %zu mesh cycles, %.3g um, over the "
-             "smallest of a single one; above 1.1 the teeth's index deviations excite vibrations "
-             "that a motion which repeats one mesh cycle does not have",
+             "range of the loaded transmission error over all %zu mesh cycles, %.3g um, over the "
+             "smallest range within one mesh cycle; above 1.1 the index deviations excite "
+             "vibrations that a motion with the period of one mesh cycle lacks",
              h->period, 1e6 * (h->all.high - h->all.low));
     s->host->quality(s->host->ctx, "index_excitation", swing, alike,
                      swing <= alike ? FF_GOOD : FF_DOUBTFUL, text);

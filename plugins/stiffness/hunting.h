@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* With index deviations, all mesh cycles of the hunting period differ. Finds the load on the pairs
-   of teeth in each of them, and the pair with the highest Hertz pressure. */
+/* With index deviations, all mesh cycles of the hunting period differ. These functions find the
+   load on the pairs of teeth in each mesh cycle, and the pair with the highest Hertz pressure. */
 #ifndef STIFFNESS_HUNTING_H
 #define STIFFNESS_HUNTING_H
 
@@ -26,8 +26,8 @@ typedef struct stiffness_hunting {
 ff_status stiffness_hunting_scan(const stiffness_source *s, const stiffness_cycle *grid,
                                  stiffness_hunting *h);
 
-/* Reports as quality the difference between mesh cycle `number`, which represents all, and the
-   worst one. */
+/* Reports as quality the difference between mesh cycle `number`, whose outputs are written, and the
+   worst mesh cycle. */
 void stiffness_hunting_report(const stiffness_source *s, const stiffness_hunting *h, size_t number);
 
 #endif

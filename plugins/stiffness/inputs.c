@@ -14,7 +14,7 @@ const ff_port stiffness_inputs[STIFFNESS_INPUTS] = {
      .dims = "station"},
     {.name = "gear.roll_sap", .unit = "rad", .doc = "roll angle at SAP", .dims = ""},
     {.name = "gear.roll_tip", .unit = "rad", .doc = "roll angle at the tip", .dims = ""},
-    {.name = "gear.teeth", .unit = "1", .doc = "teeth", .dims = "gear"},
+    {.name = "gear.teeth", .unit = "1", .doc = "numbers of teeth", .dims = "gear"},
     {.name = "operating.line_force",
      .unit = "N",
      .doc = "normal force along the line of action; negative on the back flanks",
@@ -27,7 +27,7 @@ const ff_port stiffness_inputs[STIFFNESS_INPUTS] = {
      .flags = FF_OPTIONAL},
     {.name = "operating.largest_force",
      .unit = "N",
-     .doc = "largest line force during the torque fluctuation; the force levels include it",
+     .doc = "largest line force during the torque fluctuation; the force levels cover it",
      .dims = "",
      .flags = FF_OPTIONAL},
     {.name = "gear.profile_roll",
@@ -43,7 +43,7 @@ const ff_port stiffness_inputs[STIFFNESS_INPUTS] = {
     {.name = "gear.back_profile_roll",
      .unit = "rad",
      .doc = "roll angles on the back flanks at which back_profile_deviation is given; not wired: "
-            "as on the driving flanks",
+            "the back flanks equal the driving flanks",
      .dims = "gear back_profile",
      .flags = FF_OPTIONAL},
     {.name = "gear.back_profile_deviation",
@@ -61,21 +61,21 @@ const ff_port stiffness_inputs[STIFFNESS_INPUTS] = {
      .doc = "index deviations of the teeth of gear 2, positive: more metal",
      .dims = "tooth_2",
      .flags = FF_OPTIONAL},
-    {.name = "gear.base_radius", .unit = "m", .doc = "base circle", .dims = "gear"},
-    {.name = "gear.reference_radius", .unit = "m", .doc = "reference circle", .dims = "gear"},
-    {.name = "gear.root_radius", .unit = "m", .doc = "root circle", .dims = "gear"},
-    {.name = "gear.bore_radius", .unit = "m", .doc = "bore; 0: none", .dims = "gear"},
+    {.name = "gear.base_radius", .unit = "m", .doc = "base circle radii", .dims = "gear"},
+    {.name = "gear.reference_radius", .unit = "m", .doc = "reference circle radii", .dims = "gear"},
+    {.name = "gear.root_radius", .unit = "m", .doc = "root circle radii", .dims = "gear"},
+    {.name = "gear.bore_radius", .unit = "m", .doc = "bore radii; 0: none", .dims = "gear"},
     {.name = "gear.tooth_thickness",
      .unit = "m",
      .doc = "tooth thickness as an arc at the reference circle, without thickness_allowance",
      .dims = "gear"},
     {.name = "gear.working_pressure_angle",
      .unit = "rad",
-     .doc = "pressure angle of the line of action",
+     .doc = "working pressure angle, the angle of the line of action",
      .dims = ""},
-    {.name = "gear.face_width", .unit = "m", .doc = "width in mesh", .dims = ""},
-    {.name = "gear.elastic_modulus", .unit = "Pa", .doc = "modulus of elasticity", .dims = "gear"},
-    {.name = "gear.poisson_ratio", .unit = "1", .doc = "Poisson's ratio", .dims = "gear"},
+    {.name = "gear.face_width", .unit = "m", .doc = "width of the teeth in contact", .dims = ""},
+    {.name = "gear.elastic_modulus", .unit = "Pa", .doc = "Young's moduli", .dims = "gear"},
+    {.name = "gear.poisson_ratio", .unit = "1", .doc = "Poisson's ratios", .dims = "gear"},
     {.name = "gear.backlash",
      .unit = "m",
      .doc = "backlash along the line of action; without thickness_allowance, half of it thins the "
@@ -107,6 +107,6 @@ ff_status stiffness_input_read(const ff_host *host, const ff_array *in, int row,
         return ff_failf(host, FF_INVALID, name, "element %zu is missing", i + 1);
     *value = array->data[i];
     if (!isfinite(*value))
-        return ff_failf(host, FF_INVALID, name, "a finite number is needed, this is %g", *value);
+        return ff_failf(host, FF_INVALID, name, "the value must be finite, but is %g", *value);
     return FF_OK;
 }

@@ -14,7 +14,7 @@ static const char *check(size_t count, const double *phase, size_t *bad)
     for (size_t i = 0; i < count; i++) {
         *bad = i;
         if (!(phase[i] >= 0 && phase[i] <= 1))
-            return "a phase lies between 0 and 1";
+            return "a phase must lie between 0 and 1";
         if ((phase[i] > 0 && phase[i] < STIFFNESS_PHASE_TOLERANCE) ||
             (phase[i] < 1 && phase[i] > 1 - STIFFNESS_PHASE_TOLERANCE))
             return "a phase within 1e-9 of 0 or 1 must be written as 0 or 1";
@@ -23,13 +23,15 @@ static const char *check(size_t count, const double *phase, size_t *bad)
         if (i > 0 && phase[i] > phase[i - 1] && phase[i] < phase[i - 1] + STIFFNESS_PHASE_TOLERANCE)
             return "two phases closer than 1e-9 must be equal, which marks a jump";
         if (i > 1 && !(phase[i] > phase[i - 2]))
-            return "a phase may be given twice at most, for the values before and after a jump";
+            return "a phase may be given at most twice, with the values before and after a jump";
     }
     *bad = count ? count - 1 : 0;
     size_t ends = 0;
     for (size_t i = 0; i < count; i++)
         ends += phase[i] <= 0 || phase[i] >= 1;
-    return ends > 2 ? "phase 1 is phase 0 of the next cycle: at most two values for both" : NULL;
+    return ends > 2 ? "phases 0 and 1 may have at most two values together, since phase 1 is phase "
+                      "0 of the next cycle"
+                    : NULL;
 }
 
 const char *stiffness_table_phases_make(stiffness_table_phases *points, size_t count,
@@ -50,8 +52,8 @@ const char *stiffness_table_phases_make(stiffness_table_phases *points, size_t c
     }
     size_t n = 0, last = count - 1;
     bool at_0 = phase[0] <= 0, at_1 = phase[last] >= 1;
-    /* the value before phase 1 is the first sample there; the value after phase 1 is the last of
-       the samples at 1 and 0 */
+    /* the value before phase 1 is the first sample at phase 1; the value after it is the last
+       sample at phase 0 or, without one, at phase 1 */
     if (at_1) {
         size_t first = count > 1 && phase[last - 1] >= 1 ? last - 1 : last;
         points->phase[n] = 0;

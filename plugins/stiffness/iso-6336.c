@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Mesh stiffness of ISO 6336-1, method B. The single stiffness c' comes from a series fitted to
    gears on solid blanks. The mesh stiffness is c_gamma = c' (0.75 eps + 0.25). This mean is linear
-   in the contact ratio eps if p pairs together have the stiffness c' (0.75 p + 0.25); this gives
-   the variation over the mesh cycle, which the standard leaves open. */
+   in the contact ratio eps if p pairs together have the stiffness c' (0.75 p + 0.25). This
+   assumption gives the variation over the mesh cycle, which the standard does not specify. */
 #include "inputs.h"
 #include "loaded-cycle.h"
 #include "outputs.h"
@@ -36,10 +36,11 @@ static const ff_param params[] = {
     STIFFNESS_DEFINITION_ROW(iso_model),
     FF_ONE_OF(
         "rectangular|trapezoidal", "shape", iso_model, shape, 0, "rectangular",
-        "rectangular: pairs enter and leave abruptly and share the load equally; trapezoidal: they "
-        "enter and leave over a ramp centred on SAP and on the tip, with the same mean"),
+        "rectangular: pairs enter and leave abruptly and share the load equally; trapezoidal: "
+        "their stiffness rises and falls over ramps centred on SAP and on the tip, with the same "
+        "mean"),
     FF_QUANTITY("ramp", "1", iso_model, ramp, FF_MIN_OPEN, "0.2", NULL, 0, 0.5, 0, 0,
-                "length of the trapezoid's ramps in mesh cycles"),
+                "length of the ramps in mesh cycles, for shape: trapezoidal"),
     FF_QUANTITY("blank_factor", "1", iso_model, blank, FF_MIN_OPEN, "1", NULL, 0, 1, 0, 0,
                 "gear blank factor C_R: 1 for solid disc gears, less for thin rims and webs"),
     FF_QUANTITY("correction_factor", "1", iso_model, correction, FF_MIN_OPEN, "0.8", NULL, 0, 1, 0,
@@ -118,17 +119,17 @@ static ff_status set_single(const iso_model *m, const stiffness_gears *g, int pi
                         compliance, rack);
     if (!(load > 0))
         return ff_failf(m->host, FF_INVALID, "operating.line_force",
-                        "ISO 6336-1 lets the stiffness vanish with the load; a torque, or a "
-                        "reference_torque of the duty, is needed");
+                        "in ISO 6336-1 the stiffness vanishes without load: give a torque, or "
+                        "reference_torque of the operating stage");
     *single = per_micron / compliance * m->correction * m->blank * rack * 2 * e1 * e2 /
               ((e1 + e2) * steel) * fmin(load / full_load, 1) * g->width;
     int held =
         x[0] >= x[1] - 1e-9 && x[0] + x[1] >= -0.5 && x[0] + x[1] <= 2 && rack > 0.7 && rack < 1.2;
     m->host->quality(m->host->ctx, "rack_factor", rack, 1, held ? FF_GOOD : FF_RANGE,
-                     held
-                         ? "C_B; profile shifts lie in the range of the standard"
-                         : "C_B; profile shifts x1 >= x2, -0.5 <= x1 + x2 <= 2 or the dedendum lie "
-                           "outside the range of the standard");
+                     held ? "basic rack factor C_B; the profile shifts are in the range of the "
+                            "standard"
+                          : "basic rack factor C_B; the dedendum, or the profile shifts x1 >= x2, "
+                            "-0.5 <= x1 + x2 <= 2, are outside the range of the standard");
     return FF_OK;
 }
 
@@ -149,8 +150,8 @@ static void couple(const iso_pair *f, stiffness_contacts *c)
             c->compliance[i][k] = i == k ? own : shared;
 }
 
-/* Returns the participation of a pair of that age, from 0 to 1 over the ramps. It is never exactly
-   0, so that the compliance stays finite. */
+/* Returns the factor on the stiffness of a pair of that age, which rises from 0 to 1 over a ramp.
+   The factor is at least 1e-9, so that the compliance stays finite. */
 static double part(const iso_pair *f, double age)
 {
     const double least = 1e-9;

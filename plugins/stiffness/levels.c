@@ -15,8 +15,9 @@ typedef struct levels {
     double force[MOST];
 } levels;
 
-/* Forces F (3 i/9)^2 up to 9 F. If the line force fluctuates, the power is larger than 2, so that
-   the highest level exceeds the largest line force by a fifth. */
+/* The forces are F (i/3)^2, i = 0 to 9, up to 9 F. If the line force fluctuates, the exponent may
+   be larger than 2, so that the highest level exceeds the largest line force by at least a
+   fifth. */
 static levels levels_of(const stiffness_source *s)
 {
     static const double above = 1.2, square = (MOST - 1) * (MOST - 1) / (double)(MEAN * MEAN);
@@ -32,9 +33,8 @@ static levels levels_of(const stiffness_source *s)
 static ff_status fail_at(const levels *x, double phase, double force)
 {
     return ff_failf(x->source->host, FF_INVALID, x->source->fault,
-                    "at phase %g the teeth cannot carry %g N, at which the mesh force is wanted, "
-                    "too",
-                    phase, force);
+                    "at phase %g the teeth cannot carry %g N, one of the force levels, too", phase,
+                    force);
 }
 
 static ff_status put_cycle(const levels *x, const stiffness_cycle *cycle, double *error,

@@ -10,8 +10,8 @@
 
 enum { STIFFNESS_MOST_LEVELS = 10 };
 
-/* The levels: errors and stiffnesses by level and point of the cycle, tooth forces by level and
-   station. */
+/* The levels. `error` and `stiffness` have a row per level over the points of the cycle, `teeth`
+   (tooth forces) a row per level over the stations. */
 typedef struct stiffness_level_rows {
     size_t count;
     double *error, *stiffness, *teeth;

@@ -19,10 +19,10 @@
 
 enum {
     NODES = 32
-}; /* nodes of the Gauss-Legendre rule; accurate to rounding (see
+}; /* nodes of the Gauss-Legendre rule; the integrals are accurate to rounding (see
       potential-energy.c) */
 
-/* The largest contact ratio for which the coupled places (ring.h) include all pairs in mesh. */
+/* The largest contact ratio for which STIFFNESS_RING_PLACES couples all pairs in mesh. */
 static const double highest_contact_ratio = 4;
 
 typedef struct distribution {
@@ -49,8 +49,8 @@ static const ff_param params[] = {
               "strain: plane strain, for face widths of about five tooth thicknesses or more; "
               "stress: plane stress, for narrower teeth; the contact stays in plane strain"),
     FF_SWITCH("neighbour_coupling", distribution, teeth.coupling, "true",
-              "whether a loaded tooth displaces its neighbours through the gear body; with finite "
-              "elements only"),
+              "whether a loaded tooth displaces its neighbours through the gear body; for "
+              "compliance: finite-element only"),
     FF_SWITCH("corner_contact", distribution, corner, "false",
               "whether to include tip corner contact under load before SAP and after the tip, off "
               "the line of action"),
@@ -111,7 +111,8 @@ static ff_status check_range(const distribution *m, const stiffness_path *e)
     if (e->contact_ratio <= highest_contact_ratio)
         return FF_OK;
     return ff_failf(m->host, FF_UNSUPPORTED, "gear.roll_tip",
-                    "the contact ratio is %.6g; the coupling of teeth is worked out up to %g",
+                    "the contact ratio is %.6g; the coupling of teeth is computed for contact "
+                    "ratios up to %g",
                     e->contact_ratio, highest_contact_ratio);
 }
 
@@ -122,7 +123,8 @@ static void report_mesh(const distribution *m, const stiffness_elastic_pair *p)
     double reciprocity = fmax(p->body[0]->ring.reciprocity, p->body[1]->ring.reciprocity);
     m->host->quality(m->host->ctx, "stiffness_mesh_error", error, limit,
                      error <= limit ? FF_GOOD : FF_DOUBTFUL,
-                     "relative change of the compliance of a tooth with half as many elements");
+                     "relative change of the compliance of a tooth if the number of elements is "
+                     "halved");
     m->host->quality(m->host->ctx, "reciprocity", reciprocity, 1e-10,
                      reciprocity <= 1e-10 ? FF_GOOD : FF_BAD,
                      "reciprocity: relative difference between the displacements of two flank "
@@ -149,15 +151,15 @@ static void report_contact(const distribution *m, const stiffness_elastic_pair *
     }
     m->host->quality(m->host->ctx, "contact_width", worst, limit,
                      worst <= limit ? FF_GOOD : FF_DOUBTFUL,
-                     "half width of the contact under the whole force over the depth of the "
-                     "tooth's axis; the local approach is that of a half plane");
+                     "half width of the contact under the whole force, over the depth of the "
+                     "tooth's axis; the local approach is computed as for a half plane");
 }
 
 /* A pair in the middle of the path of contact that carries the whole force. */
 typedef struct mid_path {
     double roll[2], curvature;
-    double deflection; /* over the force, m/N */
-    double hertz;      /* the part of the contact in it, m/N */
+    double deflection; /* deflection of the pair over the force, m/N */
+    double hertz;      /* part of the deflection due to the Hertzian contact, m/N */
 } mid_path;
 
 static mid_path at_mid_path(const stiffness_elastic_pair *p, const stiffness_path *e)
@@ -184,7 +186,7 @@ static void report_half_plane(const distribution *m, const stiffness_elastic_pai
     double share = fabs(thin) / at_mid_path(p, e).deflection;
     m->host->quality(
         m->host->ctx, "half_plane", share, limit, share <= limit ? FF_GOOD : FF_RANGE,
-        "share of a pair's deflection due to the difference between tooth and half plane");
+        "share of a pair's deflection that is due to the difference between tooth and half plane");
 }
 
 /* Reports the effect of plane stress in the contact. Only the teeth can be in plane stress: over

@@ -5,8 +5,8 @@
 #include <math.h>
 
 enum {
-    MAX_STEPS = 200 /* of Newton's method */,
-    MAX_SETS = 64 /* iterations of the active set */
+    MAX_STEPS = 200 /* largest number of steps of Newton's method */,
+    MAX_SETS = 64 /* largest number of iterations of the active set */
 };
 
 /* A pair with a smaller share of F is removed from the contact. */
@@ -98,8 +98,9 @@ static bool solve_contacts(sharing_state *s)
             sums[0] += x[0][a];
             sums[1] += x[1][a];
         }
-        double step = (missing + sums[0]) / sums[1]; /* of the approach */
-        bool held = true; /* no force had to be kept positive, and no pair was removed */
+        double step = (missing + sums[0]) / sums[1]; /* Newton step of the approach */
+        bool held = true; /* becomes false if a force had to be kept positive or a pair was
+                             removed */
         s->approach += step;
         for (size_t a = 0; a < s->count; a++) {
             double *force = &s->force[s->member[a]], next = *force + x[1][a] * step - x[0][a];
@@ -119,8 +120,8 @@ static bool solve_contacts(sharing_state *s)
     return false;
 }
 
-/* Adds the pair that overlaps most, among those not in contact, with a small initial force. False
-   if none overlaps. */
+/* Adds the pair with the largest overlap among the pairs not in contact, with a small initial
+   force. Returns false if none overlaps. */
 static bool add_overlapping(sharing_state *s, double tolerance)
 {
     size_t worst = s->contacts->count;
@@ -137,7 +138,7 @@ static bool add_overlapping(sharing_state *s, double tolerance)
     return true;
 }
 
-/* Adds the rounding error of the sum of forces to the largest force. */
+/* Corrects the largest force, so that the sum of forces is exact. */
 static void balance_sum(sharing_state *s)
 {
     size_t largest = s->member[0];

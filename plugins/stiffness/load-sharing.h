@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Load sharing of the pairs of teeth at one mesh position (Conry & Seireg 1973). The forces f >= 0
-   sum to the line force F, and the separations are w = C f + H(f) + gap - s >= 0 with f w = 0. C is
-   the compliance, H the Hertzian approach and s the loaded transmission error. Lengths in m, forces
-   in N. */
+   sum to the line force F; the separations w = C f + H(f) + gap - s are not negative; and f w = 0
+   for each pair. C is the compliance, H the Hertzian approach and s the loaded transmission error.
+   Lengths in m, forces in N. */
 #ifndef STIFFNESS_LOAD_SHARING_H
 #define STIFFNESS_LOAD_SHARING_H
 
@@ -18,7 +18,7 @@ typedef struct stiffness_hertz {
 
 typedef struct stiffness_contacts {
     size_t count;
-    double gap[STIFFNESS_MAX_PAIRS]; /* without load, m */
+    double gap[STIFFNESS_MAX_PAIRS]; /* gap without load, m */
     double compliance[STIFFNESS_MAX_PAIRS][STIFFNESS_MAX_PAIRS];
     stiffness_hertz hertz[STIFFNESS_MAX_PAIRS];
 } stiffness_contacts;
@@ -32,11 +32,11 @@ typedef struct stiffness_sharing {
                         largest overlap of another pair */
 } stiffness_sharing;
 
-/* Solves the load sharing for a positive force. False if there is no solution because the approach
-   of a contact would exceed the depth of its tooth. */
+/* Solves the load sharing for a positive force. Returns false if there is no solution because the
+   approach of a contact would exceed the depth of its tooth. */
 bool stiffness_share(const stiffness_contacts *c, double force, stiffness_sharing *result);
-/* Does the same faster, starting from the solution `near` for another force on the same contacts;
-   NULL: there is none. */
+/* Does the same faster, starting from the solution `near` for another force on the same contacts.
+   `near` may be NULL. */
 bool stiffness_share_near(const stiffness_contacts *c, double force, const stiffness_sharing *near,
                           stiffness_sharing *result);
 

@@ -16,9 +16,9 @@
 
 const double stiffness_corner_reach = 0.45;
 
-/* HUNTING_STEPS: steps per mesh cycle of the transmission error without load. The other two are
-   limits on the number of points over a hunting period, without load and with load; LOADED_MOST
-   points take one or two seconds. */
+/* HUNTING_STEPS: steps per mesh cycle of the transmission error without load. HUNTING_MOST and
+   LOADED_MOST: largest number of points over a hunting period without load and with load;
+   LOADED_MOST points take one or two seconds. */
 enum { HUNTING_STEPS = 32, HUNTING_MOST = 1 << 22, LOADED_MOST = 1 << 19 };
 
 static stiffness_loaded solve(const stiffness_source *s, double phase, int side)
@@ -44,7 +44,8 @@ static double share(const void *self, double age, double phase, int side)
     return share_in(self, &r, age, phase);
 }
 
-/* A pair is in contact in the mesh cycle in which it enters, and in the following ones. */
+/* Returns the share of the pair that enters in mesh cycle `number`. The pair is in contact in this
+   mesh cycle and in the following mesh cycles. */
 static double share_of_pair(const void *self, size_t number, double age, int side)
 {
     double phase = stiffness_phase_of(age, side);
@@ -56,7 +57,7 @@ static double share_of_pair(const void *self, size_t number, double age, int sid
     return share_in(self, &r, age, phase);
 }
 
-/* Values at the points of the cycle. */
+/* Outputs at the points of the cycle. */
 typedef struct samples {
     stiffness_cycle cycle;
     double *stiffness, *error, *loaded, *pairs, *hunting;
@@ -191,8 +192,8 @@ static stiffness_flank flank_of(const samples *v, const stiffness_level_rows *le
     return (stiffness_flank){&v->cycle, v->stiffness, v->error, v->loaded, *levels};
 }
 
-/* Solves the mesh cycle of the back flanks separately. The rows of the levels are in one block,
- * whose start is that of `error`. */
+/* Solves the mesh cycle of the back flanks separately. The rows of the levels are one allocated
+   block, which begins at rows->error. */
 static ff_status solve_back(const stiffness_source *source, samples *v, stiffness_level_rows *rows)
 {
     stiffness_conditions conditions = *source->conditions;
@@ -213,8 +214,8 @@ static ff_status solve_back(const stiffness_source *source, samples *v, stiffnes
     return block ? stiffness_levels_solve(&s, &v->cycle, rows) : FF_NOMEM;
 }
 
-/* Writes the curves of the back flanks. They are those of `v` if both flanks are equal and the
- * levels of `v` are known. */
+/* Writes the curves of the back flanks. If both flanks are equal and the levels of the driving
+   flanks are known, the curves of the driving flanks, `v`, are used. */
 static ff_status publish_back(const stiffness_source *s, uint64_t wanted, const samples *v,
                               const stiffness_level_rows *levels)
 {

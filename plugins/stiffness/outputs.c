@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { HARMONICS = 20 }; /* of k */
+enum { HARMONICS = 20 }; /* number of harmonics of k in the outputs */
 
 const ff_port stiffness_outputs[STIFFNESS_ALL_OUTPUTS] = {
     {.name = "phase",
@@ -121,45 +121,46 @@ const ff_port stiffness_outputs[STIFFNESS_ALL_OUTPUTS] = {
     {.name = "back_phase",
      .unit = "1",
      .doc =
-         "phase of the curves of the flanks that the line force does not press; as phase, empty: "
-         "not known",
+         "phase of the curves of the back flanks, which are opposite to the flanks that carry the "
+         "line force, from 0 to 1; empty: the back flanks are not known",
      .dims = "back_phase"},
     {.name = "back_offset",
      .unit = "1",
      .doc =
-         "sum of the phases at which both flanks of a tooth of gear 1 meet the other gear at one "
-         "roll angle, less whole mesh cycles",
+         "sum of the two phases at which the two flanks of a tooth of gear 1 are in contact at the "
+         "same roll angle, minus whole mesh cycles",
      .dims = ""},
     {.name = "back_stiffness",
      .unit = "N/m",
-     .doc = "mesh stiffness of those flanks",
+     .doc = "mesh stiffness of the back flanks",
      .dims = "back_phase",
      .max = INFINITY},
     {.name = "back_transmission_error",
      .unit = "m",
-     .doc = "their transmission error without load, positive: they meet later",
+     .doc = "transmission error of the back flanks without load, positive: they meet later",
      .dims = "back_phase"},
     {.name = "back_loaded_transmission_error",
      .unit = "m",
-     .doc = "the same under load",
+     .doc = "transmission error of the back flanks under load",
      .dims = "back_phase"},
     {.name = "back_level_error",
      .unit = "m",
-     .doc = "the same under each force_level",
+     .doc = "transmission error of the back flanks under each force_level",
      .dims = "back_level back_phase"},
     {.name = "back_level_stiffness",
      .unit = "N/m",
-     .doc = "slope of their mesh force there",
+     .doc = "slope of the mesh force of the back flanks at each force_level",
      .dims = "back_level back_phase",
      .max = INFINITY},
     {.name = "back_level_tooth_force",
      .unit = "N",
-     .doc = "quasi-static normal force of one pair of them there, at the roll angles of gear 1",
+     .doc = "quasi-static normal force on one pair of back flanks at each force_level, at the roll "
+            "angles of gear 1",
      .dims = "back_level gear.station"},
 };
 
-/* Returns the side of a station. A repeated station is the limit from below, then from above;
- * the tip is the limit from below. */
+/* Returns the side of a station. The first of two equal stations is the limit from below, the
+   second the limit from above; the tip is the limit from below. */
 static int station_side(const stiffness_path *path, size_t i)
 {
     if (i + 1 == path->stations)
@@ -203,7 +204,7 @@ static double start_of_load(const stiffness_result *r, double idle, double loade
     return loaded;
 }
 
-/* Returns the mesh cycles between the first and the last load on a pair; searches 400 steps and
+/* Returns the mesh cycles between the first and the last load on a pair. Searches in 400 steps,
    then bisects. */
 static double loaded_ratio(const stiffness_result *r, const stiffness_path *path)
 {
@@ -346,8 +347,8 @@ static ff_status write_worst(const ff_host *host, uint64_t wanted, const stiffne
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++)
         if (wants(wanted, (int)rows[k]) && !r->pressure)
             return ff_failf(host, FF_UNSUPPORTED, stiffness_outputs[rows[k]].name,
-                            "this output needs index deviations, pitch_error of the gear, and a "
-                            "stiffness that knows them");
+                            "this output needs index deviations (pitch_error of the gear) and a "
+                            "stiffness model that includes them");
     if (wants(wanted, STIFFNESS_OUT_HUNTING_PRESSURE)) {
         double *to = ff_put_series(host, STIFFNESS_OUT_HUNTING_PRESSURE, r->hunting);
         if (!to)
@@ -366,7 +367,7 @@ static ff_status write_worst(const ff_host *host, uint64_t wanted, const stiffne
     return FF_OK;
 }
 
-/* Returns the largest minus the least loaded transmission error. */
+/* Returns the largest minus the smallest loaded transmission error. */
 static double peak_to_peak(const stiffness_result *r, const stiffness_path *path)
 {
     double high = -HUGE_VAL, low = HUGE_VAL;
@@ -430,14 +431,15 @@ static void report_equilibrium(const ff_host *host, const stiffness_result *r,
     double residual = imbalance(r, path);
     int held = residual <= r->balance;
     host->quality(host->ctx, "equilibrium", residual, r->balance, held ? FF_GOOD : FF_DOUBTFUL,
-                  held ? "the tooth forces add up to the line force"
-                       : "the tooth forces do not add up to the line force: the load share does "
-                         "not fit the gear's path of contact");
+                  held ? "relative difference between the sum of the tooth forces and the line "
+                         "force"
+                       : "relative difference between the sum of the tooth forces and the line "
+                         "force: the load share does not fit the gear's path of contact");
 }
 
 /* Reports the mean deviation of k from linear interpolation between the points, over the mean of k.
-   The error of the amplitudes of k is at most twice that. For a parabola, the mean deviation is 2/3
-   of the deviation from the chord in the middle. */
+   The error of the amplitudes of k is at most twice this mean deviation. For a parabola, the mean
+   deviation is 2/3 of the deviation from the chord in the middle. */
 static void report_interpolation(const ff_host *host, const stiffness_result *r)
 {
     const double limit = 1e-3;
@@ -453,8 +455,10 @@ static void report_interpolation(const ff_host *host, const stiffness_result *r)
     double mean = sum / stiffness_cycle_mean(&r->cycle, r->stiffness);
     int held = mean <= limit;
     host->quality(host->ctx, "interpolation_error", mean, limit, held ? FF_GOOD : FF_DOUBTFUL,
-                  held ? "straight lines between the points follow k"
-                       : "straight lines between the points deviate from k: increase points");
+                  held ? "mean deviation of k from straight lines between the points, over the "
+                         "mean of k"
+                       : "mean deviation of k from straight lines between the points, over the "
+                         "mean of k: increase points");
 }
 
 ff_status stiffness_result_publish(const ff_host *host, uint64_t wanted, const stiffness_result *r,

@@ -34,7 +34,8 @@ enum {
     STIFFNESS_OUT_LEVEL_STIFFNESS,
     STIFFNESS_OUT_LEVEL_TOOTH_FORCE,
     STIFFNESS_LEVEL_OUTPUTS,
-    /* of models that know the flanks which the mean load does not press */
+    /* outputs of models that compute the back flanks, opposite to the flanks that carry the mean
+       load */
     STIFFNESS_OUT_BACK_PHASE = STIFFNESS_LEVEL_OUTPUTS,
     STIFFNESS_OUT_BACK_OFFSET,
     STIFFNESS_OUT_BACK_STIFFNESS,
@@ -47,7 +48,7 @@ enum {
 };
 extern const ff_port stiffness_outputs[STIFFNESS_ALL_OUTPUTS];
 
-/* The rows of a model without levels, to be passed instead of FF_TABLE. */
+/* The rows of a model without levels, in place of FF_TABLE(stiffness_outputs). */
 #define STIFFNESS_PLAIN_OUTPUTS stiffness_outputs, STIFFNESS_OUTPUTS, sizeof stiffness_outputs[0]
 
 /* Returns the mesh cycles from SAP to a station, and the limit that applies there. */
@@ -75,11 +76,12 @@ typedef struct stiffness_result {
     size_t engagements;   /* number of engagements whose tooth forces are given; 0 means 1 */
     /* Returns the share of the pair that enters in that mesh cycle, at any age. */
     double (*share_of_pair)(const void *self, size_t number, double age, int side);
-    const double *pressure; /* by mesh cycle: pressure on its pair, Pa; NULL: all pairs are equal */
+    const double *pressure; /* by mesh cycle: Hertz pressure on the pair that enters in it, Pa;
+                               NULL: all pairs are equal */
     size_t worst;           /* the mesh cycle with the highest pressure */
     size_t worst_teeth[2];  /* the teeth that meet in it, counted from 1 */
-    size_t hunting_points;  /* number of points of hunting_error, at equal steps from its start;
-                               NULL: e of this cycle */
+    size_t hunting_points;  /* number of points of hunting_error, at equal steps from the start of
+                               the hunting period */
     const double *hunting_error;
 } stiffness_result;
 

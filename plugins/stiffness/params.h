@@ -19,14 +19,14 @@
 /* The parameter row of the stiffness definition, 1: tangent. The member `definition`. */
 #define STIFFNESS_DEFINITION_ROW(type)                                                             \
     FF_ONE_OF("secant|tangent", "definition", type, definition, 0, "secant",                       \
-              "secant F/(e_l - e) or tangent dF/d(e_l); they differ where deviations of the "      \
-              "flanks keep pairs apart")
+              "definition of the stiffness: secant F/(e_l - e) or tangent dF/d(e_l); they differ " \
+              "where deviations of the flanks separate pairs")
 
-/* Set by stiffness_mesh_cycles_set, since each word has its own meaning. */
+/* The parameter mesh_cycle, which stiffness_mesh_cycles_set sets. */
 #define STIFFNESS_MESH_CYCLE_ROW                                                                   \
     FF_ROW("mesh_cycle", "1",                                                                      \
-           "mesh cycle of the hunting period, from 0, for teeth with index deviations; "           \
-           "worst: the one whose pair has the highest Hertz pressure; all: tooth_force and "       \
+           "mesh cycle of the hunting period, from 0, for teeth with index deviations; worst: "    \
+           "the mesh cycle whose pair has the highest Hertz pressure; all: tooth_force and "       \
            "load_share of the pairs of all mesh cycles, other outputs of mesh cycle 0",            \
            FF_INT, 0, "0", "worst|all", NULL, 0, 1e9, 0, 0, 0, 0, 0)
 

@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-/* More than any gear has; limits the loops over pairs. */
+/* Larger than any contact ratio of real gears; it limits the loops over pairs. */
 static const double highest_contact_ratio = 10;
 
 static ff_status check_stations(const ff_host *host, const stiffness_path *p, double roll_tip)
@@ -20,7 +20,7 @@ static ff_status check_stations(const ff_host *host, const stiffness_path *p, do
         if (!(roll >= p->roll_sap - slack && roll <= roll_tip + slack) ||
             (i > 0 && roll < p->roll[i - 1]))
             return ff_failf(host, FF_INVALID, "gear.roll_angle",
-                            "the roll angles must rise from SAP to the tip, but number %zu is "
+                            "the roll angles must increase from SAP to the tip, but number %zu is "
                             "%.9g rad on a path from %.9g to %.9g rad",
                             i + 1, roll, p->roll_sap, roll_tip);
     }
@@ -61,8 +61,8 @@ ff_status stiffness_path_read(const ff_host *host, const ff_array *in, stiffness
     if (!(p->contact_ratio >= 1 - STIFFNESS_PHASE_TOLERANCE &&
           p->contact_ratio <= highest_contact_ratio))
         return ff_failf(host, FF_INVALID, "gear.roll_tip",
-                        "the path of contact gives a contact ratio of %.6g; a mesh that never "
-                        "loses all pairs needs 1, and at most %g is dealt with",
+                        "the contact ratio is %.6g; it must be at least 1, so that a pair is "
+                        "always in mesh, and at most %g",
                         p->contact_ratio, highest_contact_ratio);
     const ff_array *roll = &in[STIFFNESS_IN_ROLL];
     if (!roll->data || roll->rank != 1 || roll->shape[0] == 0)

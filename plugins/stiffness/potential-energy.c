@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Mesh stiffness of a spur pair from the strain energy of its teeth. Two teeth, two bodies and one
    contact act in series; the pairs act in parallel along the geometric path of contact. A pair does
-   not deform the body below another pair, and contact begins and ends as without load. */
+   not deform the body below another pair, and contact begins and ends at the same points as without
+   load. */
 #include "contact-point.h"
 #include "inputs.h"
 #include "loaded-cycle.h"
@@ -42,7 +43,7 @@ static const ff_param params[] = {
     STIFFNESS_POINTS_ROW(energy_model),
     STIFFNESS_RIM_RADIUS_ROW(energy_model),
     FF_ONE_OF("stress|strain", "plane", energy_model, plane, 0, "stress",
-              "stress: the tooth bends like a narrow beam; strain: like a wide plate, with "
+              "stress: the tooth bends as a narrow beam; strain: it bends as a wide plate, with "
               "E/(1-nu^2) in bending and compression"),
     STIFFNESS_DEFINITION_ROW(energy_model),
     STIFFNESS_MESH_CYCLE_ROW,
@@ -117,7 +118,7 @@ static ff_status check_flank(const energy_model *s, const beam_pair *p, int gear
     if (!(tooth->root_half_angle > 0) || !(high - tooth->half_angle < M_PI / 2) ||
         !(stiffness_tooth_involute(tooth, high).half > 0))
         return ff_failf(s->host, FF_INVALID, "gear.tooth_thickness",
-                        "gear %d: the tooth comes to a point below the end of contact", gear + 1);
+                        "gear %d: the tooth is pointed below the end of contact", gear + 1);
     if (!(low >= tooth->root_roll - slack))
         return ff_failf(s->host, FF_INVALID, "gear.root_radius",
                         "gear %d: contact reaches the roll angle %.6g rad, but the involute "
@@ -153,9 +154,10 @@ static void report_foundation(const energy_model *s, const beam_pair *p)
     }
     int held = worst <= 1;
     s->host->quality(s->host->ctx, "foundation_range", worst, 1, held ? FF_GOOD : FF_RANGE,
-                     held ? "the gear bodies lie in the range that Sainsot et al. fitted"
-                          : "a gear body lies outside the range that Sainsot et al. fitted: root "
-                            "over rim radius 1.4 to 7, half angle of the root 0.01 to 0.12 rad");
+                     held ? "the gear bodies are in the range of the fit by Sainsot et al."
+                          : "a gear body is outside the range of the fit by Sainsot et al.: root "
+                            "radius over rim radius 1.4 to 7, half angle of the root 0.01 to 0.12 "
+                            "rad");
 }
 
 static void report_quadrature(const energy_model *s, const beam_pair *p)
@@ -170,7 +172,8 @@ static void report_quadrature(const energy_model *s, const beam_pair *p)
     }
     s->host->quality(s->host->ctx, "quadrature_error", worst, limit,
                      worst <= limit ? FF_GOOD : FF_DOUBTFUL,
-                     "strain energy against a finer rule, relative");
+                     "relative difference between the strain energy and that of a finer "
+                     "integration rule");
 }
 
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)

@@ -23,17 +23,17 @@ static ff_status check_header(const stiffness_table *t)
     const double *const *column = t->file->columns;
     if (!column[COLUMN_LOADED])
         return ff_table_failf(t->host, t->file, FF_TABLE_ALL, COLUMN_FORCE,
-                              "beside force the header must name loaded_transmission_error, under "
-                              "the force of its row");
+                              "a table with a column force also needs the column "
+                              "loaded_transmission_error, under the force of each row");
     if (column[COLUMN_ERROR])
         return ff_table_failf(t->host, t->file, FF_TABLE_ALL, COLUMN_ERROR,
-                              "beside force the transmission error without load stands in "
-                              "loaded_transmission_error, in the rows of the force 0");
+                              "in a table with a column force, the rows of force 0 give the "
+                              "transmission error without load, as loaded_transmission_error");
     if (column[COLUMN_STIFFNESS] && t->definition == SECANT)
         return ff_table_failf(t->host, t->file, FF_TABLE_ALL, COLUMN_STIFFNESS,
-                              "beside force a stiffness is the slope dF/d(e_l) under the force of "
-                              "its row: say definition: tangent; the secant follows from the "
-                              "errors, so leave it out");
+                              "in a table with a column force, stiffness is the slope dF/d(e_l) "
+                              "under the force of its row: set definition: tangent; leave out a "
+                              "secant stiffness, which follows from the errors");
     return FF_OK;
 }
 
@@ -45,21 +45,21 @@ static ff_status check_row(const stiffness_table *t, size_t i, size_t phases)
     const double *part = t->file->columns[COLUMN_SHARE];
     size_t first = i / phases * phases;
     if (fabs(force[i] - force[first]) > same_force * force[first])
-        return fail_at(t, i, COLUMN_FORCE,
-                       "every force must have as many rows as the first one has", force[i]);
+        return fail_at(t, i, COLUMN_FORCE, "every force must have as many rows as the first force",
+                       force[i]);
     if (i == first && i > 0 && !(force[i] > force[i - 1]))
-        return fail_at(t, i, COLUMN_FORCE, "the forces must rise", force[i]);
+        return fail_at(t, i, COLUMN_FORCE, "the forces must increase", force[i]);
     if (fabs(at[i] - at[i % phases]) > same_phase)
-        return fail_at(t, i, COLUMN_PHASE, "every force must have the phases of the first one",
+        return fail_at(t, i, COLUMN_PHASE, "every force must have the phases of the first force",
                        at[i]);
     if (i >= phases && !(error[i] > error[i - phases]))
         return fail_at(t, i, COLUMN_LOADED,
-                       "the transmission error must exceed that under the force before, in m",
+                       "the transmission error, in m, must exceed that under the previous force",
                        error[i]);
     if (k && !(k[i] > 0))
         return fail_at(t, i, COLUMN_STIFFNESS, "a stiffness must be positive", k[i]);
     if (part && !(part[i] >= 0 && part[i] <= 1))
-        return fail_at(t, i, COLUMN_SHARE, "a load share lies between 0 and 1", part[i]);
+        return fail_at(t, i, COLUMN_SHARE, "a load share must lie between 0 and 1", part[i]);
     return FF_OK;
 }
 
@@ -81,8 +81,9 @@ static ff_status check_slopes(const stiffness_table *t, size_t rows, size_t phas
     if (!k || off > rounded || bend < other)
         return FF_OK;
     return fail_at(t, phases, COLUMN_STIFFNESS,
-                   "in every row this is the chord, the force over the error less that without "
-                   "load; beside force it must be the slope dF/d(e_l): leave it out",
+                   "in every row this is the secant, the force over the error minus that without "
+                   "load; in a table with a column force it must be the slope dF/d(e_l): leave it "
+                   "out",
                    k[phases]);
 }
 
@@ -102,15 +103,15 @@ ff_status stiffness_table_levels_check(stiffness_table *t)
         phases++;
     if (phases == rows)
         return ff_table_failf(t->host, t->file, rows - 1, COLUMN_FORCE,
-                              "behind the force 0 at least one above it is needed");
+                              "at least one force above 0 is needed after the force 0");
     for (size_t i = 0; i < rows && status == FF_OK; i++)
         status = check_row(t, i, phases);
     if (status != FF_OK)
         return status;
     if (rows % phases)
         return ff_table_failf(t->host, t->file, rows - 1, COLUMN_FORCE,
-                              "every force must have as many rows as the first one has, %zu; this "
-                              "one has %zu",
+                              "every force must have as many rows as the first force, %zu; this "
+                              "force has %zu",
                               phases, rows % phases);
     if ((status = check_slopes(t, rows, phases)) != FF_OK)
         return status;
@@ -205,7 +206,8 @@ ff_status stiffness_table_levels_make(const stiffness_table *t, double line_forc
         above++;
     if (above == t->forces)
         return ff_table_failf(t->host, t->file, (t->forces - 1) * t->count, COLUMN_FORCE,
-                              "the table ends at %.9g N, below the line force of %.9g N",
+                              "the largest force of the table is %.9g N, below the line force of "
+                              "%.9g N",
                               force[(t->forces - 1) * t->count], line_force);
     int between = force[above * t->count] > line_force * (1 + same_force);
     l->mean = above;

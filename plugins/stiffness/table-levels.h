@@ -14,16 +14,16 @@ enum { STIFFNESS_TABLE_FORCES = 24 };
 typedef struct stiffness_table_levels {
     size_t count, mean; /* mean: index of the row of the line force */
     double force[STIFFNESS_TABLE_FORCES + 1];
-    double *error, *slope; /* m; and dF/d(error), N/m */
-    double *share;         /* share of the pair that entered last; NULL: rigid */
+    double *error, *slope; /* error, m, and slope dF/d(error), N/m */
+    double *share;         /* load share of the pair that entered last; NULL: equal shares */
 } stiffness_table_levels;
 
 /* Checks the rows of a file with the column force. Sets the samples of `table` to those of force 0,
    and `loaded` to those of the last force. */
 ff_status stiffness_table_levels_check(stiffness_table *table);
 
-/* Computes the levels. FF_INVALID if the table does not reach the line force. The caller frees the
-   levels, also after an error. */
+/* Computes the levels. Returns FF_INVALID if the table does not reach the line force. The caller
+   frees the levels, also after an error. */
 ff_status stiffness_table_levels_make(const stiffness_table *table, double line_force,
                                       stiffness_table_levels *levels);
 void stiffness_table_levels_free(stiffness_table_levels *levels);

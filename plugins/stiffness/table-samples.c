@@ -12,13 +12,13 @@ const ff_param stiffness_table_columns[STIFFNESS_TABLE_COLUMNS] = {
     FF_ROW("phase", "1", "phase in mesh cycles, from 0 to 1", FF_REALS, FF_REQUIRED, NULL, NULL,
            NULL, 0, 0, 0, 0, 0, 100000, 0),
     FF_COLUMN("stiffness", "N/m", 0, NULL, 0, 0, "mesh stiffness"),
-    FF_COLUMN("transmission_error", "um", 0, NULL, 0, 0, "without load"),
+    FF_COLUMN("transmission_error", "um", 0, NULL, 0, 0, "transmission error without load"),
     FF_COLUMN("loaded_transmission_error", "um", 0, NULL, 0, 0,
               "loaded transmission error, under the load of the operating point"),
     FF_COLUMN("load_share", "1", 0, NULL, 0, 0, "load share of the pair that entered last"),
     FF_COLUMN("force", "N", 0, NULL, 0, 0,
               "mesh force for loaded_transmission_error of the row, increasing from 0"),
-    FF_COLUMN("torque", "N m", 0, NULL, 0, 0, "not read: force is wanted"),
+    FF_COLUMN("torque", "N m", 0, NULL, 0, 0, "not used; give the column force instead"),
 };
 
 static ff_status use_lists(stiffness_table *t)
@@ -30,7 +30,7 @@ static ff_status use_lists(stiffness_table *t)
         return ff_failf(t->host, FF_INVALID, "stiffness", "phase is given, stiffness is missing");
     if (t->phase.count != t->stiffness.count)
         return ff_failf(t->host, FF_INVALID, "stiffness",
-                        "%zu values for %zu phases; both lists have the same length",
+                        "%zu values for %zu phases; both lists must have the same length",
                         t->stiffness.count, t->phase.count);
     if (t->load_share == FROM_FILE)
         return ff_failf(t->host, FF_INVALID, "load_share",
@@ -52,8 +52,8 @@ static ff_status use_columns(stiffness_table *t)
     t->share = column[COLUMN_SHARE];
     if (column[COLUMN_TORQUE])
         return ff_table_failf(t->host, t->file, FF_TABLE_ALL, COLUMN_TORQUE,
-                              "the mesh force is wanted, force [N]: the torque divided by the base "
-                              "radius of its gear");
+                              "give the mesh force, force [N], instead: the torque divided by the "
+                              "base radius of its gear");
     if (t->load_share == FROM_FILE && !t->share)
         return ff_failf(t->host, FF_INVALID, "load_share", "the file has no column load_share");
     if (column[COLUMN_FORCE])
@@ -64,15 +64,16 @@ static ff_status use_columns(stiffness_table *t)
                               "loaded_transmission_error");
     if (t->k && t->loaded && t->definition == SECANT)
         return ff_table_failf(t->host, t->file, FF_TABLE_ALL, COLUMN_LOADED,
-                              "the secant stiffness follows from this column: give one of both, or "
-                              "definition: tangent for a stiffness that is the slope dF/d(e_l)");
+                              "the secant stiffness follows from this column: give only one of the "
+                              "two columns, or set definition: tangent if the stiffness is the "
+                              "slope dF/d(e_l)");
     if (!t->k && t->definition == TANGENT)
         return ff_failf(t->host, FF_UNSUPPORTED, "definition",
-                        "transmission errors at one load give the secant stiffness alone");
+                        "from transmission errors at one load only the secant stiffness follows");
     return FF_OK;
 }
 
-/* Reports an error in sample i, with its place in the file or in the list. */
+/* Reports an error in sample i, with its position in the file or in the list. */
 static ff_status fail_at(const stiffness_table *t, const char *list, size_t column, size_t i,
                          const char *why, double value)
 {
@@ -99,8 +100,8 @@ static const double *differs_from_start(const stiffness_table *t, const double *
 }
 
 static const char loaded_jumps[] =
-    "the loaded transmission error is not periodic: at phase 1 it must have the value of phase 0, "
-    "unless ends: jump says that it jumps there";
+    "the loaded transmission error is not periodic: at phase 1 it must have the value of phase 0; "
+    "if it jumps there, set ends: jump";
 
 /* Checks that the table is periodic. The transmission error without load must always be; the
    stiffness may jump at the end of a mesh cycle if the table gives both values. */
@@ -130,7 +131,7 @@ static ff_status check_periodic(const stiffness_table *t)
         return FF_OK;
     return fail_at(t, "stiffness", t->k ? COLUMN_STIFFNESS : COLUMN_LOADED, t->distinct.before[0],
                    t->k ? "the stiffness is not periodic: at phase 1 it must have the value of "
-                          "phase 0, unless ends: jump says that it jumps there"
+                          "phase 0; if it jumps there, set ends: jump"
                         : loaded_jumps,
                    *end);
 }
@@ -143,7 +144,8 @@ static ff_status check_values(const stiffness_table *t)
                            t->k[i]);
         if (t->loaded && !(t->loaded[i] > (t->error ? t->error[i] : 0)))
             return fail_at(t, "file", COLUMN_LOADED, i,
-                           "the loaded transmission error must exceed the unloaded one, in m",
+                           "the loaded transmission error, in m, must exceed the transmission "
+                           "error without load",
                            t->loaded[i]);
         if (t->load_share == FROM_FILE && !(t->share[i] >= 0 && t->share[i] <= 1))
             return fail_at(t, "file", COLUMN_SHARE, i, "a load share lies between 0 and 1",
@@ -179,7 +181,8 @@ ff_status stiffness_table_samples(stiffness_table *t)
     if (t->path) {
         if (t->stiffness.count > 0)
             return ff_failf(t->host, FF_INVALID, "stiffness",
-                            "stiffness belongs to the list phase; with file it comes from there");
+                            "stiffness cannot be given together with file; it belongs to the list "
+                            "phase");
         status =
             ff_table_read(t->host, "file", t->path, stiffness_table_columns,
                           STIFFNESS_TABLE_COLUMNS, sizeof stiffness_table_columns[0], &t->file);

@@ -35,7 +35,8 @@ typedef struct stiffness_table {
     ff_reals corner; /* phases at which the slope of a fit may jump */
     bool *corner_at; /* the corners as a flag for each distinct phase */
     const ff_table *file;
-    size_t forces; /* number of forces in the file; 0: one force, that of the operating point */
+    size_t forces; /* number of forces in the file; 0: no column force, the errors are those under
+                      the line force */
     size_t count;  /* number of samples, in the lists or the file */
     const double *at, *k; /* phases and stiffnesses of the samples; k NULL: transmission errors are
                              given instead */
@@ -45,7 +46,7 @@ typedef struct stiffness_table {
 
 extern const ff_param stiffness_table_columns[STIFFNESS_TABLE_COLUMNS];
 
-/* Finds the samples and their distinct phases. Refuses invalid ones with their place in the
+/* Finds the samples and their distinct phases. Refuses an invalid sample, with its position in the
    file. */
 ff_status stiffness_table_samples(stiffness_table *t);
 

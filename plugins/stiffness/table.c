@@ -24,27 +24,29 @@ typedef struct curve {
 typedef struct table_curves {
     const stiffness_table *table;
     double contact_ratio;
-    double secant_of; /* force, N; the stiffness is this force over the deflection; 0: the curve k
-                         is the stiffness */
+    double secant_of; /* if not 0, the stiffness is this force, N, over the deflection; if 0, the
+                         curve k is the stiffness */
     curve k, error, loaded, share;
 } table_curves;
 
 static const ff_param params[] = {
     FF_PATH("file", stiffness_table, path, FF_REQUIRED, "source",
             "table with the columns phase and stiffness [N/m], or phase, transmission_error [um] "
-            "and loaded_transmission_error [um], from which k = F/(e_l - e). transmission_error is "
-            "also allowed with stiffness; with definition: tangent both errors are. load_share: "
-            "see that parameter. With a column force [N]: rows for increasing forces from 0, with "
-            "loaded_transmission_error and, with definition: tangent, the slope as stiffness"),
+            "and loaded_transmission_error [um], from which k = F/(e_l - e). With stiffness, "
+            "transmission_error is also allowed, and with definition: tangent both errors. The "
+            "column load_share is used if the parameter load_share is file. With a column force "
+            "[N]: rows for increasing forces from 0, with loaded_transmission_error and, with "
+            "definition: tangent, the slope as stiffness"),
     FF_LIST("phase", "1", stiffness_table, phase, FF_REQUIRED | FF_INCREASING, NULL, "source", 0, 1,
             0, 0, 1, 100000,
             "phases of the mesh cycle, 0 = the entering pair at SAP; a repeated phase has the "
-            "values before and after a jump; with ends: jump so do 1 and 0"),
+            "values before and after a jump; with ends: jump, phases 1 and 0 have the values "
+            "before and after a jump"),
     FF_LIST("stiffness", "N/m", stiffness_table, stiffness, FF_MIN_OPEN, NULL, NULL, 0, 1e15, 1e5,
             1e11, 1, 100000, "mesh stiffness along the line of action at these phases"),
     FF_ONE_OF("linear|cubic|fitted", "interpolation", stiffness_table, interpolation, 0, "linear",
               "interpolation between the phases: linear; cubic: the piecewise cubic of Steffen, "
-              "which has a continuous slope between jumps and stays within its two neighbours; "
+              "which has a continuous slope between jumps and stays between neighbouring values; "
               "fitted: least-squares piecewise cubics, for tables of many noisy samples"),
     FF_ONE_OF("rigid|file", "load_share", stiffness_table, load_share, 0, "rigid",
               "rigid: the pairs in contact carry equal shares; file: the column load_share gives "
@@ -54,7 +56,7 @@ static const ff_param params[] = {
              "to the table's own phases"),
     FF_ONE_OF("secant|tangent", "definition", stiffness_table, definition, 0, "secant",
               "definition of the given stiffness: secant F/(e_l - e), or tangent dF/d(e_l). With "
-              "tangent the file may also give loaded_transmission_error; otherwise the tangent is "
+              "tangent the file may also give loaded_transmission_error; without it the tangent is "
               "used as the secant"),
     FF_QUANTITY("tolerance", "1", stiffness_table, tolerance, FF_MIN_OPEN | FF_TUNABLE, "0.01",
                 NULL, 0, 1, 0, 0,
@@ -186,7 +188,7 @@ static size_t list_output_breakpoints(const stiffness_table *t, const double *k,
     return n;
 }
 
-/* Computes k at the samples; from the transmission errors if the table gives these. */
+/* Computes k at the samples, from the transmission errors if the table gives these. */
 static ff_status sample_stiffness(const stiffness_table *t, const stiffness_path *e, double *k)
 {
     for (size_t i = 0; i < t->count; i++)
@@ -258,8 +260,8 @@ static ff_status sample_cycle(const stiffness_table *t, table_work *w)
             w->loaded[i] = curve_at(t, &s->loaded, w->cycle.phase[i], side);
         if (!(w->stiffness[i] > 0))
             return ff_failf(t->host, FF_INVALID, "tolerance",
-                            "the fitted cubics fall to %g N/m at phase %g; a finer tolerance or "
-                            "corners are needed",
+                            "the fitted cubics fall to %g N/m at phase %g; reduce tolerance, or "
+                            "give corners",
                             w->stiffness[i], w->cycle.phase[i]);
     }
     return FF_OK;
@@ -272,9 +274,11 @@ static void report_fit(const stiffness_table *t, const table_curves *s)
     double error = fmax(s->k.fit.error, fmax(s->error.fit.error, s->share.fit.error));
     int held = error <= t->tolerance;
     t->host->quality(t->host->ctx, "fit_error", error, t->tolerance, held ? FF_GOOD : FF_DOUBTFUL,
-                     held ? "distance of the fitted cubics from the samples, over their range"
-                          : "the fitted cubics miss samples: corners or jumps are missing, or the "
-                            "tolerance is below the noise");
+                     held ? "largest distance of the fitted cubics from the samples, over the "
+                            "range of the samples"
+                          : "largest distance of the fitted cubics from the samples, over the "
+                            "range of the samples: corners or jumps are missing, or the tolerance "
+                            "is below the noise");
 }
 
 static ff_status check_sharing(const stiffness_table *t, const stiffness_path *e)
@@ -282,8 +286,8 @@ static ff_status check_sharing(const stiffness_table *t, const stiffness_path *e
     if (t->load_share == RIGID || e->contact_ratio <= 2 + STIFFNESS_PHASE_TOLERANCE)
         return FF_OK;
     return ff_failf(t->host, FF_UNSUPPORTED, "load_share",
-                    "the share of the entering pair settles all shares only up to a contact "
-                    "ratio of 2; it is %.6g",
+                    "the share of the entering pair determines all shares only for contact ratios "
+                    "up to 2; the contact ratio is %.6g",
                     e->contact_ratio);
 }
 

@@ -32,7 +32,7 @@ typedef struct stiffness_beam {
     double bending, axial, shear, width;
 } stiffness_beam;
 
-/* All in m/N. */
+/* Parts of the compliance, m/N. */
 typedef struct stiffness_compliance {
     double bending, shear, axial, foundation;
 } stiffness_compliance;
@@ -44,7 +44,7 @@ double stiffness_compliance_sum(const stiffness_compliance *c);
 void stiffness_beam_add(const stiffness_beam *beam, stiffness_outline outline, const void *shape,
                         double t0, double t1, const stiffness_load *load,
                         const gsl_integration_glfixed_table *rule, stiffness_compliance *c);
-/* Computes the three integrands d(compliance)/dt at one section. */
+/* Computes the integrands d(compliance)/dt of bending, shear and axial load at one section. */
 void stiffness_beam_density(const stiffness_beam *beam, const stiffness_section *at,
                             const stiffness_load *load, double density[3]);
 
@@ -57,17 +57,17 @@ stiffness_sainsot stiffness_sainsot_at(double h, double theta);
 
 typedef struct stiffness_tooth {
     double base_radius, root_radius;
-    double half_angle;      /* of the tooth at the base circle, between its involutes, rad */
+    double half_angle;      /* half angle of the tooth at the base circle, between its involutes,
+                               rad */
     double root_roll;       /* roll angle where the involute begins */
-    double root_half_angle; /* of the tooth at the root circle, rad */
+    double root_half_angle; /* half angle of the tooth at the root circle, rad */
     double body_ratio;      /* h: root radius over rim radius */
     double elastic_modulus, width;
     stiffness_beam beam;
     stiffness_sainsot body;
 } stiffness_tooth;
 
-/* Input data. Radii in m; thickness: arc at the reference circle. The function computes all other
-   data. */
+/* Input data of stiffness_tooth_make. Radii in m; thickness: arc at the reference circle. */
 typedef struct stiffness_tooth_data {
     double base_radius, root_radius, reference_radius, rim_radius, thickness, width;
     double elastic_modulus, poisson_ratio;

@@ -20,18 +20,21 @@ typedef struct dent {
 
 static const ff_param params[] = {
     FF_QUANTITY("depth", "um", dent, depth, FF_REQUIRED, NULL, NULL, -1e4, 1e4, 0, 0,
-                "depth of the middle below the flank; negative: a bump"),
+                "depth of the middle of the dent below the flank; negative: a bump"),
     FF_QUANTITY("width", "um", dent, width, FF_REQUIRED, NULL, NULL, 1e-3, 1e7, 0, 0,
                 "width w in the shape formula: the wavelength (cosine) or the width at half depth "
                 "(gaussian)"),
     FF_QUANTITY("start", "um", dent, start, 0, "-1000 um", NULL, -1e9, 1e9, 0, 0,
-                "x of its middle at the first time; the flank carries it towards larger x, so that "
-                "a dent with negative x comes from the inlet"),
-    FF_ROW("flank", "", "flank with the dent: of the driving gear (1) or the driven gear (2)",
+                "position x of the middle of the dent at the first time; it moves with the flank "
+                "towards larger x, so a dent with negative x comes from the inlet"),
+    FF_ROW("flank", "",
+           "flank with the dent: flank of the driving gear (1) or of the driven gear "
+           "(2)",
            FF_INT, 0, "1", "both", NULL, 1, 2, 0, 0, 0, 0, FF_PLACE(dent, flank, int64_t)),
     FF_ONE_OF("cosine|gaussian", "shape", dent, shape, 0, "cosine",
-              "cosine: -depth 10^(-10 (d/w)^2) cos(2 pi d/w), with shoulders (Venner, Lubrecht and "
-              "ten Napel 1991); gaussian: -depth 2^(-(2 d/w)^2); d from its middle"),
+              "height over the flank. cosine: -depth 10^(-10 (d/w)^2) cos(2 pi d/w), with "
+              "shoulders (Venner, Lubrecht and ten Napel 1991); gaussian: -depth 2^(-(2 d/w)^2); d "
+              "is the distance from the middle"),
 };
 
 /* Returns the height of a dent of depth 1; d is the distance from its middle, in widths. */
@@ -47,8 +50,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     const dent *s = self;
     const double width = s->width;
     const int shape = s->shape;
-    const int reach = shape == GAUSSIAN ? 3 : 1; /* in widths; farther out, less than 1e-10 of the
-                                                    depth remains */
+    const int reach = shape == GAUSSIAN ? 3 : 1; /* half length of the record, in widths; beyond it,
+                                                    less than 1e-10 of the depth remains */
     const int half = reach * PER_WIDTH;
     surface_record record;
     (void)in;

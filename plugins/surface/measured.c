@@ -14,8 +14,8 @@
 enum { NO_DETREND = -1, MEAN = 0, LINEAR = 1 };
 enum { PERIODIC, MIRROR, FLAT };
 
-/* The least cut-off, in spacings. From there on, a wave as long as the cut-off passes the filter
-   with half of its amplitude, to within 1e-4. */
+/* The least cut-off, in spacings of the points. For a cut-off of at least this length, a wave as
+   long as the cut-off passes the filter with half of its amplitude, to within 1e-4. */
 static const double least_cutoff = 5;
 
 typedef struct measured {
@@ -32,11 +32,11 @@ static const ff_param params[] = {
     FF_PATH("file_1", measured, path[0], 0, NULL,
             "trace of flank 1 with the header \"position [um], height [um]\", heights positive out "
             "of the metal; left out: a smooth flank"),
-    FF_PATH("file_2", measured, path[1], 0, NULL, "trace of flank 2, as file_1"),
+    FF_PATH("file_2", measured, path[1], 0, NULL, "trace of flank 2, in the format of file_1"),
     {.name = "detrend",
      .unit = "1",
-     .doc = "removed first: nothing, the mean, the best-fit line, or the best-fit polynomial of "
-            "this order (for the profile of an involute flank)",
+     .doc = "form that is removed before filtering: none, the mean, the best-fit line (linear), or "
+            "the best-fit polynomial of the given order, for the profile of an involute flank",
      .type = FF_INT,
      .preset = "linear",
      .choices = "none|mean|linear",
@@ -74,8 +74,8 @@ typedef struct flank {
     double *height;
 } flank;
 
-/* Sets `detrend`. The engine cannot store its value by itself (ff_param.place), since the value is
-   a word or an order. */
+/* Sets `detrend`. Its value is a word or a number, which the engine cannot store by itself
+   (ff_param.place). */
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
     measured *s = self;
@@ -132,8 +132,8 @@ static ff_status check_cutoff(const measured *s, const char *param, double cutof
         return FF_OK;
     if (cutoff < least_cutoff * spacing)
         return ff_failf(s->host, FF_INVALID, param,
-                        "%s is %g um; with points %g um apart it must be at least %g um", param,
-                        cutoff * 1e6, spacing * 1e6, least_cutoff * spacing * 1e6);
+                        "%s is %g um; with a point spacing of %g um it must be at least %g um",
+                        param, cutoff * 1e6, spacing * 1e6, least_cutoff * spacing * 1e6);
     if (cutoff > spacing * (double)n)
         return ff_failf(s->host, FF_INVALID, param, "%s is %g um, longer than the record of %g um",
                         param, cutoff * 1e6, spacing * (double)n * 1e6);
@@ -156,7 +156,8 @@ static ff_status make_flank(const measured *s, size_t g, double spacing, flank *
     f->n = surface_trace_cells(trace, spacing);
     if (f->n > SURFACE_POINTS || f->n < 2 || (size_t)(s->detrend + 1) >= f->n)
         return ff_failf(s->host, FF_INVALID, s->spacing > 0 ? "spacing" : file_names[g],
-                        "%s gives %zu%s points that are %g um apart; it must be between %d and %d",
+                        "%s gives %zu%s points with a spacing of %g um; the number of points must "
+                        "be between %d and %d",
                         file_names[g], f->n, f->n > SURFACE_POINTS ? " or more" : "", spacing * 1e6,
                         s->detrend < 1 ? 2 : s->detrend + 2, SURFACE_POINTS);
     f->height = malloc(f->n * sizeof *f->height);
@@ -183,8 +184,8 @@ static ff_status make_flank(const measured *s, size_t g, double spacing, flank *
     double rq = surface_rms(f->n, f->height), share = rq > 0 ? distance / rq : 0;
     s->host->quality(s->host->ctx, g ? "resampling_2" : "resampling_1", share, 0.05,
                      share <= 0.05 ? FF_GOOD : FF_DOUBTFUL,
-                     "root mean square distance between the record and the points of the file, "
-                     "relative to Rq: the loss due to a coarser spacing");
+                     "root mean square difference between the record and the points of the file, "
+                     "relative to Rq; it is caused by a coarser spacing");
     return FF_OK;
 }
 
@@ -211,7 +212,7 @@ static void report(const measured *s, double length, double seam)
     double lengths = length / s->cutoff_long;
     s->host->quality(s->host->ctx, "sampling_lengths", lengths, 5,
                      lengths >= 5 ? FF_GOOD : FF_DOUBTFUL,
-                     "length of the record over cutoff_long; ISO 4288 wants 5");
+                     "length of the record over cutoff_long; ISO 4288 requires 5");
 }
 
 /* Joins both flanks over their common length, with zero mean. Appends the mirror image if the

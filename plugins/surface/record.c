@@ -47,7 +47,7 @@ ff_status surface_record_make(const ff_host *host, const char *item, double n, d
     *record = (surface_record){.spacing = spacing};
     if (!(n <= SURFACE_POINTS))
         return ff_failf(host, FF_INVALID, item,
-                        "the record needs %.4g points; at most %d are allowed: take a coarser "
+                        "the record needs %.4g points; at most %d are allowed: use a coarser "
                         "spacing or a shorter record",
                         n, SURFACE_POINTS);
     record->n = (size_t)n;
@@ -106,8 +106,8 @@ static ff_status give_roughness(const ff_host *host, const surface_record *recor
         const double rq = record->rq[g];
         host->quality(host->ctx, g ? "roughness_2" : "roughness_1", rq, finished,
                       rq <= finished ? FF_GOOD : FF_RANGE,
-                      "m, root mean square roughness; gear flanks are smoother: check the unit of "
-                      "the heights, and the marks for missing points");
+                      "root mean square roughness, m; gear flanks are smoother: check the unit of "
+                      "the heights, and whether missing points are marked by a number");
         status = ff_put_scalar(host, SURFACE_RQ_1 + g, rq);
     }
     return status;

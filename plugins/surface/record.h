@@ -39,13 +39,14 @@ ff_status surface_record_make(const ff_host *host, const char *item, double n, d
                               surface_record *record);
 void surface_record_free(surface_record *record);
 
-/* Whether the parameter `flank` (1, 2, or -1 for `both`) includes flank g, which is 0 or 1. */
+/* Returns whether the parameter `flank` (1, 2, or -1 for `both`) includes flank g, which is 0 or
+   1. */
 static inline bool surface_has_flank(int64_t flank, int g)
 {
     return flank < 0 || flank == g + 1;
 }
 
-/* Root mean square about the mean. */
+/* Returns the root mean square about the mean. */
 double surface_rms(size_t n, const double *height);
 
 /* Writes the wanted outputs. */

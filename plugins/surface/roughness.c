@@ -8,8 +8,8 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-/* Least squares with the polynomials that are orthogonal on the points, by their three-term
- * recurrence (Forsythe 1957). */
+/* Fits by least squares with polynomials that are orthogonal on the points; a three-term recurrence
+   gives these polynomials (Forsythe 1957). */
 ff_status surface_detrend(size_t n, int order, double *height)
 {
     double *memory = calloc(2 * n, sizeof *memory), *p = memory, *last = memory + n;
@@ -48,7 +48,8 @@ static double passed(double cutoff, double length)
     return exp2(-cutoff * cutoff / (length * length));
 }
 
-/* Returns the index inside a record of n points that corresponds to one beyond its ends. */
+/* Returns the index inside a record of n points that corresponds to the index `place` beyond its
+   ends. */
 static size_t within(double place, size_t n, surface_end end)
 {
     double turn = floor(place / (double)n);

@@ -23,8 +23,8 @@ static const ff_param params[] = {
     FF_QUANTITY("wavelength", "um", sinusoidal, wavelength, FF_REQUIRED, NULL, NULL, 1e-3, 1e7, 0,
                 0, "length of a wave"),
     FF_ROW("flank", "",
-           "flank with the waviness: of the driving gear (1) or the driven gear (2); the other is "
-           "smooth",
+           "flank with the waviness: flank of the driving gear (1) or of the driven gear (2); the "
+           "other is smooth",
            FF_INT, 0, "1", "both", NULL, 1, 2, 0, 0, 0, 0, FF_PLACE(sinusoidal, flank, int64_t)),
     FF_QUANTITY("origin", "um", sinusoidal, origin, 0, "0 um", NULL, -1e9, 1e9, 0, 0,
                 "arc coordinate that lies at x = 0 at the first time; 0: a crest"),

@@ -1,15 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * surface/statistical: rough flanks described by statistics of their asperities. By Greenwood &
- * Tripp 1970-71, for a Gaussian distribution of the summit heights, the asperities of both flanks
- * carry the pressure
- *
- *  p_a = K E'/2 F_5/2(h/sigma),   K = (16 sqrt 2/15) pi (eta beta sigma)^2 sqrt(sigma/beta)
- *
- * with the distance h of the mean planes, sigma = hypot(Rq1, Rq2), and eta summits of radius beta
- * per area. F_5/2(H) is the integral, or its fit 4.4086e-5 (4 - H)^6.804 for H < 4 and 0 above (Hu
- * et al. 1994). Alternatively, p_a over h/sigma comes from a table.
- */
+/* surface/statistical: rough flanks described by statistics of their asperities. For a Gaussian
+   distribution of the summit heights, the asperities of both flanks carry the pressure (Greenwood &
+   Tripp 1970-71) * p_a = K E'/2 F_5/2(h/sigma), K = (16 sqrt 2/15) pi (eta beta sigma)^2
+   sqrt(sigma/beta) * with the distance h of the mean planes, sigma = hypot(Rq1, Rq2), and eta
+   summits of radius beta per area. F_5/2(H) is the integral, or its fit 4.4086e-5 (4 - H)^6.804 for
+   H < 4 and 0 above (Hu et al. 1994). Alternatively, p_a over h/sigma comes from a table. */
 #include "../lubricant/curve.h"
 #include "references.h"
 
@@ -21,13 +16,13 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const double modulus = 230e9; /* E' of steel on steel, to which p_a refers */
+static const double modulus = 230e9; /* E' of steel on steel, Pa, for which p_a is computed */
 
 typedef struct statistical {
     const ff_host *host;
     ff_asperity service;
     ff_reals rq;    /* m, one value or two */
-    double cutoff;  /* m; NaN: that of the contact */
+    double cutoff;  /* m; NaN: length of the contact */
     double density; /* eta, 1/m2; NaN: from summit_product */
     double radius;  /* beta, m; NaN: from summit_slope */
     double product, slope;
@@ -64,7 +59,8 @@ static const ff_port outputs[OUTPUTS] = {
                   .max = 100e-6},
     [OUT_CUTOFF] = {.name = "cutoff",
                     .unit = "m",
-                    .doc = "longest waves included in the roughness; 0: as long as the contact",
+                    .doc = "wavelength of the longest waves included in the roughness; 0: length "
+                           "of the contact",
                     .dims = ""},
     [OUT_DENSITY] = {.name = "summit_density",
                      .unit = "1/m2",
@@ -73,7 +69,7 @@ static const ff_port outputs[OUTPUTS] = {
                      .max = INFINITY},
     [OUT_RADIUS] = {.name = "summit_radius",
                     .unit = "m",
-                    .doc = "radius of the summits",
+                    .doc = "radius of the summits of the asperities",
                     .dims = "",
                     .max = INFINITY},
     [OUT_ASPERITIES] = {.name = "asperities",
@@ -89,12 +85,13 @@ static const ff_param params[] = {
             "number: both"),
     FF_QUANTITY_OR(
         "auto", "cutoff", "um", statistical, cutoff, FF_MIN_OPEN, "auto", NULL, 0, 1e4, 20, 800,
-        "longest waves included in rq; auto: as long as the contact, since the contact follows "
-        "longer waves. The film warns if the cut-off is longer than the contact"),
+        "wavelength of the longest waves included in rq; auto: length of the contact, since the "
+        "contact follows longer waves. The film stage warns if the cut-off is longer than the "
+        "contact"),
     FF_QUANTITY("summit_density", "1/mm^2", statistical, density, 0, NULL, NULL, 0, 1e12, 0, 0,
                 "summits per area; with summit_radius, instead of summit_product and summit_slope"),
     FF_QUANTITY("summit_radius", "um", statistical, radius, FF_MIN_OPEN, NULL, NULL, 0, 1e9, 0, 0,
-                "radius of the summits"),
+                "radius of the summits of the asperities"),
     FF_QUANTITY("summit_product", "1", statistical, product, 0, "0.05", NULL, 0, 1, 0.03, 0.05,
                 "summit density times summit radius times sigma (Greenwood & Tripp 1970-71)"),
     FF_QUANTITY(
@@ -195,7 +192,7 @@ static ff_status read_table(statistical *s)
     const double *p = t->columns[PRESSURE];
     if (t->row_count < 2)
         return ff_table_failf(s->host, t, FF_TABLE_ALL, PRESSURE,
-                              "a curve takes two distances or more");
+                              "at least two distances are needed");
     double *ln = malloc(t->row_count * sizeof *ln);
     for (size_t i = 0; ln && i < t->row_count; i++)
         ln[i] = log(p[i]);
@@ -204,15 +201,14 @@ static ff_status read_table(statistical *s)
     for (size_t i = 1; i < t->row_count; i++)
         if (!(p[i] < p[i - 1]))
             return ff_table_failf(s->host, t, i, PRESSURE,
-                                  "asperities carry less the further apart the flanks are: the "
-                                  "pressure must fall");
+                                  "the pressure must decrease with the distance of the flanks");
     if (!made)
         return FF_NOMEM;
     for (size_t end = 0, row = 0; end < 2; end++, row = t->row_count - 1)
         if (!(s->curve.slope[row] < 0))
             return ff_table_failf(s->host, t, row, PRESSURE,
-                                  "towards this end ln p_a levels off so fast that it would stay "
-                                  "constant beyond: add a row that shows how it goes on");
+                                  "the slope of ln p_a is 0 at this end, so the extrapolated "
+                                  "pressure would stay constant: add a row beyond this end");
     return FF_OK;
 }
 
@@ -255,7 +251,7 @@ static ff_status ready(void *self)
     const double K = 16 * sqrt(2) / 15 * M_PI * product * product * sqrt(sigma / s->radius);
     if (!isfinite(K))
         return ff_failf(s->host, FF_INVALID, "summit_density",
-                        "summits of these numbers carry no finite pressure");
+                        "with these summits the asperity pressure is not finite");
     s->stiffness = K * modulus / 2;
     s->service.sigma = sigma;
     lubricant_curve_free(&s->curve);

@@ -12,9 +12,9 @@
 enum { FIXED, GAUSSIAN };
 
 static const double longest_per_length =
-    10; /* number of longest waves in the record if the length is auto */
-static const double points_per_shortest = 32; /* linear interpolation between them has an error
-                                                 of 0.5 % */
+    10; /* if the length is auto, the record is this many times as long as the longest wave */
+static const double points_per_shortest = 32; /* linear interpolation between the points has an
+                                                 error of 0.5 % */
 static const double least_per_shortest = 4;   /* fewer points cannot represent the shortest wave */
 static const double slack = 1e-9;             /* rounding of a length, relative */
 
@@ -28,7 +28,8 @@ typedef struct synthetic {
 
 static const ff_param params[] = {
     FF_LIST("rq", "um", synthetic, rq, FF_REQUIRED, NULL, NULL, 0, 100, 0, 10, 1, 2,
-            "root mean square roughness of flank 1 and flank 2, met exactly; one number: both"),
+            "root mean square roughness of flank 1 and flank 2, which the record has exactly; one "
+            "number: both"),
     FF_LIST("seed", "1", synthetic, seed, FF_WHOLE, "1", NULL, 0, 9007199254740992, 0, 0, 1, 2,
             "random seeds of the phases of flank 1 and flank 2; with one seed the flanks still "
             "differ, and the second seed does not affect flank 1"),
@@ -78,12 +79,12 @@ static ff_status ready(void *self)
     const double length = length_of(s), spacing = spacing_of(s);
     if (!(shortest <= longest))
         return ff_failf(s->host, FF_INVALID, "shortest",
-                        "shortest %g um exceeds longest %g um; it must not", shortest * um,
+                        "shortest is %g um; it must not exceed longest, %g um", shortest * um,
                         longest * um);
     if (!(longest <= length * (1 + slack)))
         return ff_failf(s->host, FF_INVALID, "length",
-                        "length %g um does not hold the longest wave of %g um", length * um,
-                        longest * um);
+                        "length is %g um; it must be at least the longest wavelength, %g um",
+                        length * um, longest * um);
     if (!(spacing * least_per_shortest <= shortest * (1 + slack)))
         return ff_failf(s->host, FF_INVALID, "spacing",
                         "spacing %g um is too coarse for the shortest wave; it must be at most "
@@ -140,7 +141,7 @@ static ff_status make_flank(const synthetic *s, const band *b, int flank, double
     double rms = surface_rms(b->n, height);
     if (rq > 0 && !(rms > 0 && isfinite(rms)))
         return ff_failf(s->host, FF_INVALID, "spectrum_slope",
-                        "the spectrum has no finite Rq: take a smaller spectrum_slope");
+                        "the Rq of the spectrum overflows: use a smaller spectrum_slope");
     for (size_t i = 0; i < b->n; i++)
         height[i] *= rq > 0 ? rq / rms : 0;
     record->rq[flank] = rq;
@@ -159,7 +160,7 @@ static void report(const synthetic *s, const band *b, const surface_record *reco
     double points = shortest / record->spacing;
     s->host->quality(s->host->ctx, "points_per_shortest_wave", points, 16,
                      points >= 16 ? FF_GOOD : FF_DOUBTFUL,
-                     "points of the record on its shortest wave");
+                     "number of points of the record on its shortest wave");
     double waves = (double)(b->last - b->first + 1);
     s->host->quality(s->host->ctx, "waves", waves, 10, waves >= 10 ? FF_GOOD : FF_DOUBTFUL,
                      "number of waves in the record; the sum of a few is not a random surface");

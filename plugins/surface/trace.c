@@ -11,11 +11,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The limits of 1 m refuse traces that cannot be those of a flank. */
+/* The limits of 1 m refuse traces that are too long or high for a flank. */
 const ff_param surface_trace_columns[SURFACE_TRACE_COLUMNS] = {
     {.name = "position",
      .unit = "um",
-     .doc = "along the profile",
+     .doc = "position along the profile",
      .type = FF_REALS,
      .flags = FF_REQUIRED,
      .min = -1e6,
@@ -43,7 +43,7 @@ ff_status surface_trace_read(const ff_host *host, const char *item, const char *
     for (size_t i = 1; i < t->row_count; i++)
         if (!(position[i] > position[i - 1]))
             return ff_table_failf(host, t, i, SURFACE_TRACE_POSITION,
-                                  "the positions must rise from line to line");
+                                  "the positions must increase from line to line");
     *trace = (surface_trace){t->row_count, position, t->columns[SURFACE_TRACE_HEIGHT]};
     return FF_OK;
 }
@@ -54,7 +54,7 @@ size_t surface_trace_cells(const surface_trace *t, double spacing)
     return cells <= SURFACE_POINTS ? (size_t)cells : SURFACE_POINTS + 1;
 }
 
-/* Whether the points of the file already lie at the required positions. */
+/* Returns whether the points of the file already lie at the required positions. */
 static bool stands_at(const surface_trace *t, double spacing, size_t n)
 {
     bool stands = t->n == n;

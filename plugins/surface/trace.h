@@ -18,9 +18,9 @@ extern const ff_param surface_trace_columns[SURFACE_TRACE_COLUMNS];
 ff_status surface_trace_read(const ff_host *host, const char *item, const char *path,
                              surface_trace *trace);
 
-/* Heights at position[0] + i * spacing. Each is the mean of the piecewise linear trace over the
-   cell around it, so that resampling preserves the integral. Points that already have this spacing
-   are copied. `height` must have room for surface_trace_cells() numbers. */
+/* Computes the heights at position[0] + i * spacing. Each is the mean of the piecewise linear trace
+   over the cell around it, so that resampling preserves the integral. Points that already have this
+   spacing are copied. `height` must have room for surface_trace_cells() numbers. */
 size_t surface_trace_cells(const surface_trace *trace, double spacing);
 void surface_trace_resample(const surface_trace *trace, double spacing, size_t n, double *height);
 

@@ -24,7 +24,7 @@ static const ff_port inputs[] = {
     [LTE] = {.name = "stiffness.loaded_transmission_error",
              .unit = "m",
              .dims = "phase",
-             .doc = "e + F/k"},
+             .doc = "loaded transmission error e + F/k"},
     [WS] = {.name = "stiffness.tooth_force",
             .unit = "N",
             .dims = "station",
@@ -74,7 +74,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         dmf[i] = in[FORCE].data[0];
         if (!(fabs(dte[i]) < 1))
             return ff_failf(s->host, FF_INVALID, "stiffness.loaded_transmission_error",
-                            "%g m is not an error of a gear", dte[i]);
+                            "%g m is not a valid transmission error", dte[i]);
     }
     for (size_t i = 1; i < count; i++)
         mean += (phase[i] - phase[i - 1]) * (dte[i] + dte[i - 1]) / 2; /* linear between phases */

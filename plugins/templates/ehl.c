@@ -31,7 +31,7 @@ static const ff_port inputs[] = {
     [MODULUS] = {.name = "contact.reduced_modulus",
                  .unit = "Pa",
                  .dims = "",
-                 .doc = "E' of 2/E' = sum (1 - nu^2)/E"},
+                 .doc = "reduced modulus E': 2/E' = sum (1 - nu^2)/E"},
     [VISCOSITY] = {.name = "viscosity",
                    .unit = "",
                    .dims = "",
@@ -43,7 +43,7 @@ enum { TIME, H_MIN, P_MAX, LOWEST };
 
 static const ff_port outputs[] = {
     [TIME] = {.name = "time", .unit = "s", .dims = "t", .doc = "time"},
-    [H_MIN] = {.name = "h_min", .unit = "m", .dims = "t", .doc = "least film thickness"},
+    [H_MIN] = {.name = "h_min", .unit = "m", .dims = "t", .doc = "minimum film thickness"},
     [P_MAX] = {.name = "p_max", .unit = "Pa", .dims = "t", .doc = "Hertz pressure"},
     [LOWEST] = {.name = "h_min_lowest",
                 .unit = "m",
@@ -77,17 +77,17 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     alpha = fmax(alpha, 1e-10); /* 1/Pa; the formula is for oils whose viscosity rises with
                                    pressure */
     if (!(E > 1 && E < 1e15))
-        return ff_failf(s->host, FF_INVALID, "contact.reduced_modulus", "%g Pa is not a modulus",
-                        E);
+        return ff_failf(s->host, FF_INVALID, "contact.reduced_modulus",
+                        "%g Pa is not a valid modulus", E);
     for (size_t i = 0; i < count; i++) {
         double R = in[RADIUS].data[i], w = fmax(in[LOAD].data[i], s->least_load);
         double u = fabs(in[SPEED_1].data[i] + in[SPEED_2].data[i]) / 2;
         if (!(R > 1e-9 && R < 1e9))
             return ff_failf(s->host, FF_INVALID, "contact.equivalent_radius",
-                            "%g m is not a radius", R);
+                            "%g m is not a valid radius", R);
         if (!(u < 1e9 && w < 1e15))
             return ff_failf(s->host, FF_INVALID, "contact.speed_1",
-                            "%g m/s and %g N/m are outside of all sense", u, w);
+                            "speed %g m/s or load per width %g N/m is out of range", u, w);
         time[i] = in[TIME_IN].data[i];
         h[i] = 2.65 * R * pow(exp(fmin(ln_eta, 100)) * u / (E * R), 0.7) * pow(alpha * E, 0.54) *
                pow(w / (E * R), -0.13);

@@ -36,11 +36,15 @@ static const ff_port outputs[] = {
                   .unit = "m",
                   .dims = "station",
                   .doc = "radius of curvature of flank 1"},
-    [RADIUS_2] = {.name = "radius_2", .unit = "m", .dims = "station", .doc = "of flank 2"},
+    [RADIUS_2] = {.name = "radius_2",
+                  .unit = "m",
+                  .dims = "station",
+                  .doc = "radius of curvature "
+                         "of flank 2"},
     [TEETH] = {.name = "teeth", .unit = "1", .dims = "gear", .doc = "numbers of teeth"},
     [BASE] = {.name = "base_radius", .unit = "m", .dims = "gear", .doc = "base circle radii"},
-    [SAP] = {.name = "roll_sap", .unit = "rad", .dims = "", .doc = "at SAP"},
-    [TIP] = {.name = "roll_tip", .unit = "rad", .dims = "", .doc = "at the tip"},
+    [SAP] = {.name = "roll_sap", .unit = "rad", .dims = "", .doc = "roll angle at SAP"},
+    [TIP] = {.name = "roll_tip", .unit = "rad", .dims = "", .doc = "roll angle at the tip"},
     [RATIO] = {.name = "contact_ratio", .unit = "1", .dims = "", .doc = "contact ratio"},
     [WIDE] = {.name = "face_width", .unit = "m", .dims = "", .doc = "width of the teeth"},
     [GAP] = {.name = "backlash",
@@ -71,10 +75,10 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     double ratio = (tip - sap) / pitch;
     (void)wanted, (void)in;
     if (!(sap > 0 && tip < line))
-        return ff_failf(s->host, FF_INVALID, "teeth_1", "so few teeth are undercut");
+        return ff_failf(s->host, FF_INVALID, "teeth_1", "a gear with so few teeth is undercut");
     if (!(ratio > 1 && ratio < 2))
         return ff_failf(s->host, FF_INVALID, "pressure_angle",
-                        "the contact ratio is %g, not between 1 and 2", ratio);
+                        "the contact ratio is %g; it must be between 1 and 2", ratio);
     double *roll = ff_put_series(s->host, ROLL, COUNT);
     double *radius_1 = ff_put_series(s->host, RADIUS_1, COUNT);
     double *radius_2 = ff_put_series(s->host, RADIUS_2, COUNT);

@@ -45,16 +45,16 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
            power = in[TORQUE].data[0] * in[SPEED].data[0], work = 0;
     (void)wanted;
     if (!(pitch > 1e-4 && pitch < 3))
-        return ff_failf(s->host, FF_INVALID, "gear.teeth", "no gear has so many teeth");
+        return ff_failf(s->host, FF_INVALID, "gear.teeth", "the number of teeth is out of range");
     if (!(power > 1e-9 && power < 1e15))
-        return ff_failf(s->host, FF_INVALID, "operating.torque", "it must bring power");
+        return ff_failf(s->host, FF_INVALID, "operating.torque", "the torque must be positive");
     if (!(in[FACE].data[0] > 0 && in[FACE].data[0] < 1e3))
-        return ff_failf(s->host, FF_INVALID, "gear.face_width", "no gear is so wide");
+        return ff_failf(s->host, FF_INVALID, "gear.face_width", "the face width is out of range");
     for (size_t i = 0; i < in[ROLL].shape[0]; i++) {
         double step = i ? roll[i] - roll[i - 1] : 0;
         if (!(step >= 0 && step < 7 && loss[i] > -1e12 && loss[i] < 1e12))
             return ff_failf(s->host, FF_INVALID, "ehl.roll_angle",
-                            "the roll angles of one pair must rise, with a loss at each");
+                            "the roll angles of one pair must increase, and each needs a loss");
         work += i ? step * (loss[i] + loss[i - 1]) / 2 : 0;
     }
     double mean = in[FACE].data[0] * work / pitch + s->bearings;

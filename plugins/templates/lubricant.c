@@ -26,10 +26,10 @@ static const ff_param params[] = {
                 "pressure coefficient"),
 };
 
-/* Returns a property; NaN: the data do not give it. */
+/* Returns a property, and NaN if the property is unknown. */
 static double value_at(const oil *o, int32_t property, double T, double *slope)
 {
-    /* clamped to the temperatures at which there is an oil */
+    /* the temperature is clamped to the range of the data */
     double warm = fmin(fmax(T, 200), 600) - reference;
     int inside = T > 200 && T < 600;
     *slope = 0;

@@ -40,9 +40,11 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     double teeth = in[0].shape[0] ? in[0].data[0] : 0, radius = in[1].shape[0] ? in[1].data[0] : 0;
     (void)wanted;
     if (!(teeth >= 1 && teeth < 1e6))
-        return ff_failf(s->host, FF_INVALID, "gear.teeth", "%g is not a number of teeth", teeth);
+        return ff_failf(s->host, FF_INVALID, "gear.teeth", "%g is not a valid number of teeth",
+                        teeth);
     if (!(radius > 1e-6 && radius < 1e6))
-        return ff_failf(s->host, FF_INVALID, "gear.base_radius", "%g m is not a radius", radius);
+        return ff_failf(s->host, FF_INVALID, "gear.base_radius", "%g m is not a valid radius",
+                        radius);
     const double value[] = {s->torque, s->speed, s->speed * teeth / 6.283185307179586,
                             s->torque / radius, s->temperature};
     for (uint32_t i = 0; i < 5; i++)

@@ -43,9 +43,11 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     for (size_t i = 0; i < in[FILM].shape[0]; i++)
         film = fmin(film, in[FILM].data[i]);
     if (!(square > 1e-24 && square < 1e6))
-        return ff_failf(s->host, FF_INVALID, "gear.roughness", "a rating needs rough flanks");
+        return ff_failf(s->host, FF_INVALID, "gear.roughness",
+                        "the rating needs the roughness of "
+                        "the flanks");
     if (!(film > 0 && film < 1e3))
-        return ff_failf(s->host, FF_INVALID, "ehl.h_min", "there is no film");
+        return ff_failf(s->host, FF_INVALID, "ehl.h_min", "the film thickness is not finite");
     double lambda = film / sqrt(square);
     if (ff_put_scalar(s->host, LAMBDA, lambda) != FF_OK)
         return FF_NOMEM;

@@ -23,8 +23,8 @@ static const ff_port inputs[] = {
               .unit = "rad",
               .dims = "station",
               .doc = "roll angle of gear 1"},
-    [SAP] = {.name = "gear.roll_sap", .unit = "rad", .dims = "", .doc = "at SAP"},
-    [TIP] = {.name = "gear.roll_tip", .unit = "rad", .dims = "", .doc = "at the tip"},
+    [SAP] = {.name = "gear.roll_sap", .unit = "rad", .dims = "", .doc = "roll angle at SAP"},
+    [TIP] = {.name = "gear.roll_tip", .unit = "rad", .dims = "", .doc = "roll angle at the tip"},
     [TEETH] = {.name = "gear.teeth", .unit = "1", .dims = "gear", .doc = "numbers of teeth"},
     [FORCE] = {.name = "operating.line_force",
                .unit = "N",
@@ -40,8 +40,16 @@ static const ff_port outputs[] = {
                .dims = "phase",
                .doc = "phase of the mesh cycle, 0 to 1; a repeated phase is a jump"},
     [K] = {.name = "stiffness", .unit = "N/m", .dims = "phase", .doc = "mesh stiffness"},
-    [LTE] = {.name = "loaded_transmission_error", .unit = "m", .dims = "phase", .doc = "F/k"},
-    [TE] = {.name = "transmission_error", .unit = "m", .dims = "phase", .doc = "without load: 0"},
+    [LTE] = {.name = "loaded_transmission_error",
+             .unit = "m",
+             .dims = "phase",
+             .doc = "loaded transmission error F/k"},
+    [TE] = {.name = "transmission_error",
+            .unit = "m",
+            .dims = "phase",
+            .doc = "unloaded "
+                   "transmission "
+                   "error: 0"},
     [PAIRS] = {.name = "pairs_in_contact",
                .unit = "1",
                .dims = "phase",
@@ -69,11 +77,13 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     double ratio = (in[TIP].data[0] - sap) * turns, whole = floor(ratio), left = ratio - whole;
     (void)wanted;
     if (!(ratio > 1 && ratio < 10 && left > 1e-6 && left < 1 - 1e-6))
-        return ff_failf(s->host, FF_INVALID, "gear.roll_tip", "a contact ratio of %g is not served",
+        return ff_failf(s->host, FF_INVALID, "gear.roll_tip",
+                        "a contact ratio of %g is not "
+                        "supported",
                         ratio);
     if (!(fabs(force) < 1e12))
-        return ff_failf(s->host, FF_INVALID, "operating.line_force",
-                        "%g N is not a force of a gear", force);
+        return ff_failf(s->host, FF_INVALID, "operating.line_force", "%g N is not a valid force",
+                        force);
     double *phase = ff_put_series(s->host, PHASE, 2 * POINTS);
     double *k = ff_put_series(s->host, K, 2 * POINTS);
     double *lte = ff_put_series(s->host, LTE, 2 * POINTS);
@@ -96,7 +106,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         te[i] = 0;
     }
     for (size_t i = 0; i < stations; i++) {
-        /* of a repeated angle, the first one belongs to the state before the jump */
+        /* the first of two equal angles belongs to the state before the jump */
         int before = i + 1 == stations || (i > 0 && roll[i] == roll[i + 1]);
         double x = (roll[i] - sap) * turns + (before ? -1e-9 : 1e-9);
         share[i] = 1 / (x - floor(x) < left ? whole + 1 : whole);

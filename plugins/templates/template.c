@@ -39,7 +39,9 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     double speed = in[0].data && in[0].shape[0] ? in[0].data[0] : 1;
     (void)wanted;
     if (!(fabs(speed) > 1e-9 && fabs(speed) < 1e9))
-        return ff_failf(s->host, FF_INVALID, "operating.speed", "%g rad/s is not a speed of a wave",
+        return ff_failf(s->host, FF_INVALID, "operating.speed",
+                        "%g rad/s is not a valid angular "
+                        "speed",
                         speed);
     double *time = ff_put_series(s->host, 0, points), *height = ff_put_series(s->host, 1, points);
     if (!time || !height)

@@ -12,7 +12,7 @@ typedef struct barus {
     const ff_host *host;
     ff_viscosity service;
     viscosity_oil oil;
-    viscosity_alpha own; /* alpha NaN: that of the oil is used */
+    viscosity_alpha own; /* alpha NaN: the pressure coefficient of the oil is used */
 } barus;
 
 /* Adds the rise of the viscosity if alpha varies with temperature. */
@@ -62,7 +62,8 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
 static const ff_param params[] = {
     VISCOSITY_OIL_ROWS(barus),
     FF_QUANTITY("alpha", "1/GPa", barus, own.alpha, 0, NULL, NULL, 0, 1000, 2, 50,
-                "pressure-viscosity coefficient; left out: that of the oil at its temperature"),
+                "pressure-viscosity coefficient alpha; left out: the coefficient of the oil, at "
+                "each temperature"),
     VISCOSITY_ALPHA_SLOPE_ROW(barus, own.slope),
     VISCOSITY_AT_ROW(barus, own.at),
 };

@@ -115,7 +115,7 @@ static const ff_param params[] = {
     FF_QUANTITY("K0", "GPa", doolittle_tait, K0, FF_REQUIRED, NULL, NULL, 0.01, 1000, 0.5, 3,
                 "bulk modulus at ambient pressure"),
     FF_QUANTITY("K0_prime", "1", doolittle_tait, K0_prime, FF_REQUIRED, NULL, NULL, 0, 100, 8, 13,
-                "derivative of the bulk modulus over pressure"),
+                "derivative K0' of the bulk modulus over pressure"),
     FF_QUANTITY("K0_decay", "1/K", doolittle_tait, K0_decay, 0, "0 1/K", NULL, -0.02, 0.05, 0,
                 0.009, "decrease of ln(K0) per kelvin above the temperature `at`"),
     FF_QUANTITY("V_occ_slope", "1/K", doolittle_tait, V_occ_slope, 0, "0 1/K", NULL, -0.02, 0.02,
@@ -127,7 +127,7 @@ static ff_status ready(void *self)
 {
     doolittle_tait *d = self;
     double k = 1 + d->K0_prime;
-    double pole = d->K0 * expm1((1 - d->V_occ) * k) / k; /* where V = V_occ */
+    double pole = d->K0 * expm1((1 - d->V_occ) * k) / k; /* pressure at which V = V_occ, Pa */
     bool given = !isnan(d->oil.pressure_cap), decays = d->K0_decay < 0 || d->K0_decay > 0;
     d->most = (given ? d->oil.pressure_cap : viscosity_highest_cap) / d->K0;
     d->share = given ? fmax(0.5, d->oil.pressure_cap / pole) : 0.5;
@@ -135,7 +135,8 @@ static ff_status ready(void *self)
     viscosity_oil_ready(&d->oil, fmin(viscosity_highest_cap, pole / 2));
     if (d->oil.pressure_cap > 0.9 * pole)
         return ff_failf(d->host, FF_INVALID, "pressure_cap",
-                        "the free volume ends at %g GPa; the cap must be below 0.9 of that",
+                        "the free volume is 0 at %g GPa; pressure_cap must be below 0.9 of this "
+                        "pressure",
                         1e-9 * pole);
     return viscosity_at_ready(d->host, &d->at, decays ? d->K0_decay : d->V_occ_slope,
                               decays ? "K0_decay" : "V_occ_slope");
@@ -143,7 +144,8 @@ static ff_status ready(void *self)
 
 FF_VISCOSITY_LAW(viscosity_doolittle_tait, doolittle_tait, eval, .id = "viscosity/doolittle-tait",
                  .version = "1.0.0",
-                 .summary = "free-volume law: steep at ambient pressure, flatter, then steep again",
+                 .summary = "free-volume law: ln(eta) rises steeply at ambient pressure, then "
+                            "less, then steeply again",
                  .reference = "Doolittle 1951, J. Appl. Phys. 22, 1471-1475; Li & Kahraman 2011, "
                               "Proc. IMechE J, 740-753; with temperature: Bair 2007, High-Pressure "
                               "Rheology for Quantitative Elastohydrodynamics",

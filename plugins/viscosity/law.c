@@ -37,12 +37,12 @@ ff_status viscosity_alpha_ready(const ff_host *host, const viscosity_oil *oil, c
 {
     if (!oil->liquid)
         return ff_failf(host, FF_INVALID, "alpha",
-                        "alpha%s is missing, and no oil is wired that gives it", other);
+                        "alpha%s is missing, and no oil is wired to give it", other);
     if (numerics_is_known(oil->liquid, FF_LIQUID_PRESSURE_COEFFICIENT))
         return FF_OK;
     return ff_failf(host, FF_INVALID, "alpha",
-                    "alpha%s is missing, and the oil has no pressure coefficient; give it here, or "
-                    "give alpha and alpha_at, or a base oil, to the oil",
+                    "alpha%s is missing, and the oil has no pressure coefficient; give alpha here, "
+                    "or give alpha and alpha_at, or a base oil, to the oil stage",
                     other);
 }
 

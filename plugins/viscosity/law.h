@@ -13,7 +13,8 @@ typedef struct viscosity_oil {
     double eta0;             /* Pa s; NaN: not given */
     double pressure_cap;     /* Pa; NaN: auto, until viscosity_oil_ready sets it */
     const ff_liquid *liquid; /* NULL: not wired, and eta0 is given */
-    double ln_eta0;          /* set by viscosity_oil_ready; 0 if a liquid gives it over T */
+    double ln_eta0;          /* set by viscosity_oil_ready; 0 if a liquid gives ln(eta0) as a
+                                function of T */
 } viscosity_oil;
 
 /* First members of every law's instance. */
@@ -42,8 +43,8 @@ static const double viscosity_highest_cap = 10e9;
 /* Sets ln_eta0, and the cap if it is auto. */
 void viscosity_oil_ready(viscosity_oil *oil, double auto_cap);
 
-/* If the law has no pressure coefficient, refuses it unless a wired liquid gives one. `other` names
-   an alternative in the message, " or z", or is "". */
+/* For a law without its own pressure coefficient: refuses the law unless a wired liquid gives this
+   coefficient. `other` names an alternative in the message, " or z", or is "". */
 ff_status viscosity_alpha_ready(const ff_host *host, const viscosity_oil *oil, const char *other);
 
 /* Returns the pressure at which the law is evaluated. Above the cap, ln(eta) continues along its
@@ -67,7 +68,7 @@ ff_status viscosity_eval(const viscosity_law *law, viscosity_curve *curve, size_
 
 /* ln(eta0) at ambient pressure for the points of one eval. */
 typedef struct viscosity_ambient {
-    double ln_eta0, slope; /* and its slope over T; both 0 if T differs between points */
+    double ln_eta0, slope; /* ln(eta0) and its slope over T; both 0 if T differs between points */
     int varies;            /* T differs between points; viscosity_oil_end then adds ln_eta0 */
     ff_status status;
 } viscosity_ambient;
@@ -80,8 +81,8 @@ viscosity_ambient viscosity_oil_begin(const viscosity_oil *oil, size_t n, const 
 ff_status viscosity_oil_end(const viscosity_oil *oil, const viscosity_ambient *ambient, size_t n,
                             const double *p, const double *T, double *ln_eta, double *dln_dT);
 
-/* For laws whose ln(eta/eta0) depends on temperature: the temperature range of evaluation; outside
-   it, ln(eta/eta0) is constant. */
+/* The temperature range of laws whose ln(eta/eta0) depends on temperature. Outside it, ln(eta/eta0)
+   is constant. */
 static const double viscosity_coldest = 150, viscosity_hottest = 700; /* K */
 
 FF_SIMD_INLINE double viscosity_temperature(double T)
@@ -90,12 +91,12 @@ FF_SIMD_INLINE double viscosity_temperature(double T)
     return T < viscosity_hottest ? T : viscosity_hottest;
 }
 
-/* Parameter row of such laws: the temperature for which the constants are given; NaN: not given. */
+/* Parameter row of these laws: the temperature for which the constants are given; NaN: not
+   given. */
 #define VISCOSITY_AT_ROW(type, member)                                                             \
     FF_QUANTITY_OR("auto", "at", "degC", type, member, 0, "auto", NULL, -150, 500, -20, 150,       \
                    "temperature for which the constants of the law are given; auto: they hold at " \
-                   "any temperature, "                                                             \
-                   "which excludes slopes over temperature")
+                   "every temperature; required if the law has slopes over temperature")
 /* Refuses the temperature slope `slope` of the row `name` if `at` is not given. Replaces an unset
    `at` by a number. */
 ff_status viscosity_at_ready(const ff_host *host, double *at, double slope, const char *name);

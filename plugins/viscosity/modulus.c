@@ -23,19 +23,19 @@ static const struct modulus_constants {
     [PAO] = {-5.73e7, 3.90e5, -0.0395, 2.354e-4},
 };
 
-/* The ratio of A to that of the VG 100 oil, at equal steps of temperature, with a cubic in
- * between. */
+/* The ratio of A to the A of the VG 100 oil is stored at this many equal steps of temperature; a
+   cubic interpolates between them. */
 enum { NODES = 111 };
 
 typedef struct modulus {
     const ff_host *host;
     ff_viscosity service;
     viscosity_oil oil;
-    double a1, a2, b1, b2; /* SI; a1 NaN: by the base oil */
+    double a1, a2, b1, b2; /* SI; a1 NaN: the constants of the base oil are used */
     double factor;         /* factor on ln(eta/eta0) */
-    int32_t base;          /* -1: that of the wired oil */
+    int32_t base;          /* -1: base of the wired oil */
     double least, most;    /* K, the range of the law */
-    bool measured;         /* true: the constants are measured ones of a base oil */
+    bool measured;         /* whether the constants were measured on a base oil */
     bool scaled;
     double scale[NODES], slope[NODES]; /* 1, 1/K */
 } modulus;
@@ -143,15 +143,16 @@ static const ff_param params[] = {
     VISCOSITY_OIL_ROWS(modulus),
     FF_ONE_OF(
         "paraffinic|naphthenic|PAO", "base", modulus, base, 0, NULL,
-        "measured ISO VG 100 oil, whose A and B are used unchanged; left out: that of the oil's "
-        "base (mineral: the paraffinic one), with A scaled to the pressure coefficient of the oil"),
+        "measured ISO VG 100 oil, whose A and B are used unchanged; left out: the measured oil "
+        "with the base of the wired oil (mineral: paraffinic), with A scaled to the pressure "
+        "coefficient of the wired oil"),
     FF_QUANTITY(
         "a1", "Pa", modulus, a1, 0, NULL, NULL, -1e12, 1e12, -2e8, 2e8,
-        "A at 0 K, instead of that of the base oil; with a2 = 0 it is A at every temperature"),
+        "A at 0 K, instead of the A of the base oil; with a2 = 0 it is A at every temperature"),
     FF_QUANTITY("a2", "Pa/K", modulus, a2, 0, "0 Pa/K", NULL, -1e10, 1e10, 0, 1e6,
                 "slope of A over temperature"),
     FF_QUANTITY("b1", "1", modulus, b1, 0, NULL, NULL, -100, 100, -0.2, 0.2,
-                "B at 0 K; 0 if only a1 is given: Barus"),
+                "B at 0 K; if only a1 is given, B is 0 and the law is that of Barus"),
     FF_QUANTITY("b2", "1/K", modulus, b2, 0, "0 1/K", NULL, -1, 1, -1e-3, 1e-3,
                 "slope of B over temperature"),
     FF_QUANTITY("pressure_factor", "1", modulus, factor, FF_MIN_OPEN, "1", NULL, 0, 10, 0.8, 1.25,
@@ -159,7 +160,7 @@ static const ff_param params[] = {
                 "1 +- 0.1"),
 };
 
-/* Takes the constants of the base oil given in the law or in the wired oil. */
+/* Sets the constants to those of the base oil, which the law or the wired oil names. */
 static ff_status take_base(modulus *m)
 {
     static const int of_oil[] = {[FF_BASE_MINERAL] = PARAFFINIC, [FF_BASE_PAO] = PAO};
@@ -172,14 +173,15 @@ static ff_status take_base(modulus *m)
         return ff_failf(m->host, FF_INVALID, "base",
                         "A and B are known for mineral oils and PAO only, and %s: give a1, a2, b1 "
                         "and b2, or base, or use another law",
-                        isnan(base) ? "the base of the oil is unknown" : "this oil is another");
+                        isnan(base) ? "the base of the oil is unknown"
+                                    : "this oil has another "
+                                      "base");
     if (m->base < 0)
         m->base = of_oil[(int)base];
     else if (known && (m->base == PAO) != (of_oil[(int)base] == PAO))
         return ff_failf(m->host, FF_INVALID, "base",
-                        "the base stands in two places: here %s, and in the oil %s",
-                        m->base == PAO ? "PAO" : "a mineral one",
-                        m->base == PAO ? "a mineral one" : "PAO");
+                        "the base oil is given twice: %s here, and %s in the oil stage",
+                        m->base == PAO ? "PAO" : "mineral", m->base == PAO ? "mineral" : "PAO");
     m->a1 = of_base[m->base].a1;
     m->a2 = of_base[m->base].a2;
     m->b1 = of_base[m->base].b1;
@@ -189,8 +191,8 @@ static ff_status take_base(modulus *m)
     return FF_OK;
 }
 
-/* Returns the pressure coefficient of the VG 100 oil over that of the oil, and its slope over T. An
-   oil without a coefficient counts as VG 100. */
+/* Returns the pressure coefficient of the VG 100 oil over that of the wired oil, and the slope of
+   this ratio over T. The ratio is 1 for an oil without a pressure coefficient. */
 static double ratio_at(const ff_liquid *liquid, double T, double *slope)
 {
     double own = NAN, by_own = NAN, base = NAN, by_base = NAN;
@@ -201,8 +203,8 @@ static double ratio_at(const ff_liquid *liquid, double T, double *slope)
     return ratio > 0 && isfinite(ratio) ? ratio : NAN;
 }
 
-/* Fills in the scale. If the oil's coefficient is known at one temperature, the scale is
- * constant. */
+/* Sets the scale of A. If the pressure coefficient of the oil is known at one temperature only, the
+   scale is constant. */
 static void take_scale(modulus *m)
 {
     const ff_liquid *liquid = m->oil.liquid;
@@ -222,7 +224,7 @@ static void take_scale(modulus *m)
     m->scaled = moves;
 }
 
-/* Whether A, and A + B p up to the cap, are at least `least`. */
+/* Returns whether A and A + B p, for p up to the cap, are at least `least`. */
 static bool holds_at(const modulus *m, double T, double least)
 {
     const moduli at = moduli_at(m, T);
@@ -261,8 +263,7 @@ static ff_status ready(void *self)
         return ff_failf(m->host, FF_INVALID, "base",
                         "a1 and base both determine A: leave one of them out");
     if (isnan(m->a1) && alone)
-        return ff_failf(m->host, FF_INVALID, "a1",
-                        "a2, b1 and b2 need a1, the A that they go with");
+        return ff_failf(m->host, FF_INVALID, "a1", "a2, b1 and b2 need a1");
     if (isnan(m->a1)) {
         status = take_base(m);
     } else {
@@ -277,8 +278,8 @@ static ff_status ready(void *self)
     const double least = 0.05 * fabs(at.A);
     if (!(at.A > 0) || !holds_at(m, T, least))
         return ff_failf(m->host, FF_INVALID, "a1",
-                        "at %g degC A is %.4g MPa and B %.4g; A, and A + B p up to %g GPa, must be "
-                        "above 0",
+                        "at %g degC A is %.4g MPa and B is %.4g; A and A + B p must be above 0 for "
+                        "p up to %g GPa",
                         T - 273.15, 1e-6 * at.A, at.B, 1e-9 * cap);
     m->least = end_of_range(m, T, viscosity_coldest, least);
     m->most = end_of_range(m, T, viscosity_hottest, least);

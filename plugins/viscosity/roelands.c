@@ -22,8 +22,8 @@ typedef struct roelands {
     bool thermal;          /* the law depends on temperature */
 } roelands;
 
-/* The values at one point with a liquid, with slopes over T: L = ln eta0 + 9.67, and z; z is alpha
-   p0/L unless it is given. */
+/* The rise L = ln eta0 + 9.67 and the exponent z at the temperature of a point, with slopes over T.
+   If z is not given, z = alpha p0/L. */
 typedef struct isotherm {
     double rise, rise_T, z, z_T;
 } isotherm;
@@ -151,8 +151,8 @@ static const ff_param params[] = {
     VISCOSITY_OIL_ROWS(roelands),
     FF_QUANTITY("z", "1", roelands, z, 0, NULL, "slope", 0, 2, 0.2, 1.2, "pressure exponent"),
     FF_QUANTITY("alpha", "1/GPa", roelands, own.alpha, 0, NULL, "slope", 0, 1000, 2, 50,
-                "slope of ln(eta) at ambient pressure; gives z = alpha p0/(ln eta0 + 9.67); if "
-                "neither alpha nor z is given, that of the oil"),
+                "slope alpha of ln(eta) at ambient pressure; gives z = alpha p0/(ln eta0 + 9.67); "
+                "if neither alpha nor z is given, the pressure coefficient of the oil is used"),
     FF_QUANTITY("p0", "MPa", roelands, p0, 0, "196 MPa", NULL, 10, 1e4, 190, 200,
                 "pressure constant of the law"),
     FF_QUANTITY_UNLESS("oil", "s0", "1", roelands, s0, 0, "0", NULL, 0, 10, 0, 2,
@@ -181,12 +181,13 @@ static ff_status ready(void *self)
     r->rise = r->oil.ln_eta0 + 9.67;
     if (r->rise <= 0)
         return ff_failf(r->host, FF_INVALID, "eta0",
-                        "the Roelands law needs eta0 above exp(-9.67) = 6.3e-5 Pa s, got %g Pa s",
+                        "the Roelands law needs eta0 above exp(-9.67) = 6.3e-5 Pa s, but eta0 is "
+                        "%g Pa s",
                         exp(r->oil.ln_eta0));
     r->exponent = isnan(r->z) ? r->own.alpha * r->p0 / r->rise : r->z;
     if (r->exponent > 2)
         return ff_failf(r->host, FF_INVALID, "alpha",
-                        "this alpha means an exponent z of %g; at most 2 is accepted", r->exponent);
+                        "this alpha gives an exponent z of %g; z must not exceed 2", r->exponent);
     return FF_OK;
 }
 

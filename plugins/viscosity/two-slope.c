@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Two slopes: ln(eta/eta0) has the slope alpha_1 below the transition and alpha_2 above it (Allen,
-   Townsend & Zaretsky 1970). Over `transition_width` the slope changes linearly from one to the
-   other, which is the cubic of Goglia, Cusano & Conry 1984. */
+   Townsend & Zaretsky 1970). Over `transition_width` the slope changes linearly from alpha_1 to
+   alpha_2 (Goglia, Cusano & Conry 1984). */
 #include "law.h"
 #include "references.h"
 

@@ -17,7 +17,7 @@ typedef struct yasutomi {
     ff_viscosity service;
     viscosity_oil oil;
     double Tg0, A1, A2, B1, B2, C1, C2, at; /* K, K, 1/Pa, 1, 1/Pa, 1, K, K */
-    double end;                             /* Pa, where F = 0 */
+    double end;                             /* pressure at which F = 0, Pa */
 } yasutomi;
 
 /* The law is evaluated at least this far above Tg0, K. */
@@ -73,17 +73,18 @@ static const ff_param params[] = {
     FF_QUANTITY("Tg0", "degC", yasutomi, Tg0, FF_REQUIRED, NULL, NULL, -200, 100, -120, 0,
                 "glass transition temperature Tg0 at ambient pressure"),
     FF_QUANTITY("A1", "K", yasutomi, A1, FF_REQUIRED, NULL, NULL, 1, 5000, 20, 500,
-                "Tg = Tg0 + A1 ln(1 + A2 p)"),
+                "A1 in the glass transition temperature Tg = Tg0 + A1 ln(1 + A2 p)"),
     FF_QUANTITY("A2", "1/GPa", yasutomi, A2, FF_REQUIRED, NULL, NULL, 0.01, 100, 0.2, 5,
-                "Tg = Tg0 + A1 ln(1 + A2 p)"),
+                "A2 in the glass transition temperature Tg = Tg0 + A1 ln(1 + A2 p)"),
     FF_QUANTITY("B1", "1", yasutomi, B1, FF_REQUIRED, NULL, NULL, 0, 100, 0.1, 10,
-                "relative expansivity of the free volume F = 1 - B1 ln(1 + B2 p)"),
+                "B1 in the relative expansivity of the free volume F = 1 - B1 ln(1 + B2 p)"),
     FF_QUANTITY("B2", "1/GPa", yasutomi, B2, FF_REQUIRED, NULL, NULL, 0, 1000, 0.05, 50,
-                "F = 1 - B1 ln(1 + B2 p)"),
+                "B2 in the relative expansivity of the free volume F = 1 - B1 ln(1 + B2 p)"),
     FF_QUANTITY("C1", "1", yasutomi, C1, FF_REQUIRED, NULL, NULL, 1, 100, 8, 20,
-                "lg(eta_g/eta) far above the glass transition"),
+                "C1: lg(eta_g/eta) far above the glass transition, with the viscosity eta_g at the "
+                "transition"),
     FF_QUANTITY("C2", "K", yasutomi, C2, FF_REQUIRED, NULL, NULL, 1, 500, 10, 60,
-                "lg(eta_g/eta) = C1 (T - Tg) F/[C2 + (T - Tg) F]"),
+                "C2 in lg(eta_g/eta) = C1 (T - Tg) F/[C2 + (T - Tg) F]"),
     FF_QUANTITY_OR("auto", "at", "degC", yasutomi, at, 0, "auto", NULL, -150, 500, -20, 150,
                    "temperature of eta0, for a contact without an oil; auto: 40 degC"),
 };
@@ -92,7 +93,8 @@ static ff_status ready(void *self)
 {
     yasutomi *y = self;
     y->at = isnan(y->at) ? 313.15 : y->at;
-    /* slightly below F = 0, so that the slope there is still that of the liquid */
+    /* slightly below the pressure at which F = 0, so that the slope at the end is that of the
+       liquid */
     y->end = y->B1 * y->B2 > 0 ? (exp(fmin(1 / y->B1, 60)) - 1) / y->B2 : 1e12;
     viscosity_oil_ready(&y->oil, viscosity_highest_cap);
     return FF_OK;

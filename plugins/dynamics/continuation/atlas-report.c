@@ -62,7 +62,7 @@ static ff_status put_points(const dynamics_atlas *atlas, const dynamics_excitati
 }
 
 /* Writes the outputs of the folds or of the period doublings. A fold ends one branch and begins the
-   next one. It is listed with the first of the two. */
+   next; it is listed with the branch that it ends. */
 static ff_status put_events(const dynamics_atlas *atlas, double frequency, int kind, uint32_t at,
                             uint32_t branch, const ff_host *host)
 {
@@ -121,24 +121,24 @@ static void report_curves(const dynamics_atlas *atlas, const ff_host *host)
         "curve meets half its period, %zu at 100 times the sum of half backlash and static "
         "deflection%s",
         total, ends[DYNAMICS_END_RANGE], ends[DYNAMICS_END_CLOSED], ends[DYNAMICS_END_HALVED],
-        ends[DYNAMICS_END_CAP], lost ? "; the others were not followed further" : "");
+        ends[DYNAMICS_END_CAP], lost ? "; the remaining curve ends were not followed further" : "");
     host->quality(host->ctx, "atlas_lost_ends", (double)lost, 0, lost ? FF_DOUBTFUL : FF_GOOD,
                   text);
 }
 
-/* Estimates the share of starts that would lead to motions not yet found. It is the share of the
-   starts that led to a motion found only once (Good 1953, Biometrika 40, 237-264, eq. 9). Starts
-   that have not settled may lead to any motion. */
+/* Reports an estimate of the share of starts that would lead to motions not yet found: the share of
+   starts whose motion was found only once (Good 1953, Biometrika 40, 237-264, eq. 9). Starts that
+   have not settled may lead to any motion. */
 static void report_unseen(const dynamics_atlas *atlas, const ff_host *host)
 {
     char text[320];
     size_t open = atlas->starts - atlas->settled - atlas->unbounded;
     double unseen = atlas->settled ? (double)atlas->met_once / (double)atlas->settled : 1;
     snprintf(text, sizeof text,
-             "the search found %zu curves, %zu of them from one start only, so that about %.2g "
-             "%% of all starts lead to curves that are not in the atlas; this may also hold for "
-             "the %zu starts of %zu that had not settled; more search_starts and search_speeds "
-             "find more",
+             "the search found %zu curves, %zu of them from one start only, so that about %.2g %% "
+             "of all starts lead to curves that are not in the atlas; this may also hold for the "
+             "%zu starts of %zu that had not settled; a larger search_starts or search_speeds "
+             "finds more",
              atlas->searched, atlas->met_once, 100 * unseen, open, atlas->starts);
     host->quality(host->ctx, "atlas_unseen", unseen, 1, FF_GOOD, text);
 }

@@ -9,8 +9,8 @@
 /* Reads a branch name such as "p2-1". Returns 0 if the text is not a branch name. */
 int dynamics_branch_parse(const char *text, dynamics_branch_name *name);
 
-/* Lists the branches that have a motion at a speed. The word "unstable" follows each unstable
-   one. */
+/* Lists the branches that have a motion at the speed lambda (mesh frequency over natural
+   frequency). The word "unstable" follows each unstable branch. */
 void dynamics_atlas_list(const dynamics_flow *flow, const dynamics_atlas *atlas, double lambda,
                          char *text, size_t size);
 

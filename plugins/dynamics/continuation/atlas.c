@@ -6,8 +6,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Limits. MOST_CURVES: most curves of an atlas. RESTS: number of intervals of the speed range; a
-   motion is started from rest at each end of an interval. */
+/* MOST_CURVES: largest number of curves of an atlas. RESTS: number of intervals of the speed range;
+   a motion is started from rest at each end of an interval. */
 enum { MOST_CURVES = 400, RESTS = 12 };
 
 typedef struct builder {
@@ -22,7 +22,8 @@ typedef struct builder {
 static int lies_between(const dynamics_flow *flow, const dynamics_point *a, const dynamics_point *z,
                         const dynamics_orbit *orbit)
 {
-    static const double far = 1, same = 1e-6; /* both in units of dynamics_state_unit */
+    static const double far = 1, same = 1e-6; /* both distances are in units of
+                                                 dynamics_state_unit */
     double lambda = orbit->lambda, distance;
     if (!(lambda >= fmin(a->lambda, z->lambda) && lambda <= fmax(a->lambda, z->lambda)))
         return 0;
@@ -102,7 +103,7 @@ static ff_status add_from_rest(builder *b, double lambda)
 /* Returns whether a curve of twice the period already ends at this period doubling. */
 static int is_joined(const builder *b, const dynamics_point *p, int period)
 {
-    /* near: in state units; near_speed: difference of lambda */
+    /* near: distance in state units; near_speed: difference of lambda */
     static const double near = 3e-2, near_speed = 3e-3;
     for (size_t i = 0; i < b->atlas->curve_count; i++) {
         const dynamics_curve *c = &b->atlas->curves[i];
@@ -219,7 +220,7 @@ static void add_branch(dynamics_atlas *atlas, size_t curve, size_t first, size_t
     atlas->branches[atlas->branch_count++] = b;
 }
 
-/* Cuts the curves at their folds into branches, and numbers the branches. */
+/* Divides the curves at their folds into branches, and numbers the branches. */
 static ff_status name_branches(dynamics_atlas *atlas)
 {
     size_t folds = 0;

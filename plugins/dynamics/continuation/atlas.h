@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* All periodic motions over a range of mesh frequencies. The curves of curve.h are cut at their
+/* All periodic motions over a range of mesh frequencies. The curves of curve.h are divided at their
    folds into branches, so that a branch has at most one motion at a speed. A branch is named
    p<period>-<n>. Numbers follow the order of discovery: first from the low end of the range, then
    from its high end, then at period doublings, then by the search from scattered starts. */
@@ -17,11 +17,11 @@ void dynamics_search_start(const dynamics_excitation *excitation, size_t serial,
 
 typedef struct dynamics_atlas_request {
     double low, high; /* range of lambda */
-    double step;      /* as dynamics_continuation_range.step */
+    double step;      /* see dynamics_continuation_range.step */
     int max_period;
     size_t speeds, starts; /* number of starts of the search, and of the speeds at which they start;
                               0: no search */
-    int moments;           /* 1: each point gets the rms of its motion */
+    int moments;           /* 1: the rms of the motion is computed for each point */
 } dynamics_atlas_request;
 
 typedef struct dynamics_branch_name {
@@ -41,9 +41,10 @@ typedef struct dynamics_atlas {
     size_t curve_count;
     dynamics_atlas_branch *branches;
     size_t branch_count;
-    size_t starts, settled, unbounded; /* numbers of starts of the search */
-    size_t searched, met_once; /* numbers of curves that the search added, and of those that only
-                                  one start led to */
+    size_t starts, settled, unbounded; /* numbers of starts of the search: all, those that settled,
+                                          those that grew without bound */
+    size_t searched, met_once; /* number of curves that the search added, and number of curves to
+                                  which only one start led */
 } dynamics_atlas;
 
 ff_status dynamics_atlas_build(const dynamics_flow *flow, const dynamics_atlas_request *request,

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-/* Most Newton corrections. A guess that needs more has failed. */
+/* Largest number of Newton corrections; if more are needed, Newton's method has failed. */
 enum { CORRECTIONS = 7 };
 
 double dynamics_dot(const double a[3], const double b[3])
@@ -75,7 +75,7 @@ static int only_row(double rows[2][3])
     return sqrt(dynamics_dot(c, c)) > parallel * (first + second) ? -1 : first < second;
 }
 
-/* Computes the part of a direction that is perpendicular to the row. */
+/* Computes the part of the direction `along` that is perpendicular to `row`. */
 static void part_across(const double row[3], const double along[3], double part[3])
 {
     double share = dynamics_dot(along, row) / dynamics_dot(row, row);
@@ -108,8 +108,8 @@ int dynamics_bordered_newton(const dynamics_flow *flow, const dynamics_frame *f,
                              const double border[3], double tolerance, double z[3],
                              dynamics_orbit *o)
 {
-    static const double far = 2; /* in the unit of the frame; a solution farther away is another
-                                    motion */
+    static const double far = 2; /* a solution farther away than this, in the unit of the frame, is
+                                    another motion */
     static const double promising =
         1e-4; /* below this residual one more correction is usually enough */
     double last = INFINITY;

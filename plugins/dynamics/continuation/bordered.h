@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Newton's method for fixed points of the return map in (delta, rate, lambda). A plane closes the
-   system of equations (bordering). Also the tangent of the curve of fixed points. */
+/* Newton's method for fixed points of the return map in (delta, rate, lambda). The third equation
+   is a plane in this space (bordering). The tangent of the curve of fixed points is computed here,
+   too. */
 #ifndef DYNAMICS_BORDERED_H
 #define DYNAMICS_BORDERED_H
 
@@ -25,14 +26,16 @@ void dynamics_point_of_cubic(const dynamics_frame *f, const double border[3],
                              const dynamics_point *other, double s, double z[3]);
 
 /* Solves for the point of the curve on the plane through z with the normal `border`, until the
-   residual of the motion is below `tolerance`. z is in the frame. The period of the orbit is given.
-   z and the orbit become the solution. Returns 0 if no solution was found nearby. */
+   residual of the motion is below `tolerance`. z is given in coordinates of the frame, and the
+   orbit with its period. Both are replaced by the solution. Returns 0 if no solution was found
+   nearby. */
 int dynamics_bordered_newton(const dynamics_flow *flow, const dynamics_frame *f,
                              const double border[3], double tolerance, double z[3],
                              dynamics_orbit *o);
 
-/* Computes the null vector of the derivative of the return map: the tangent of the curve, not
-   scaled. Its sign follows `along`. Returns 0 if there is none. */
+/* Computes the tangent of the curve, not scaled: the null vector of the derivative of the
+   fixed-point equation. The tangent points to the same side as `along`. Returns 0 if there is no
+   tangent. */
 int dynamics_curve_tangent(const dynamics_orbit *o, double unit, const double along[3],
                            double tangent[3]);
 

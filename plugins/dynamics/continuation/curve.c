@@ -10,15 +10,16 @@
 
 enum { MOST_POINTS = 20000, FIRST_MARK = 64, MAX_SECANTS = 40 };
 
-/* Tolerances of the residual, in state units: of a motion, and of a point of the curve. */
+/* Tolerances of the residual of a motion and of a point of the curve, in state units. */
 static const double tolerance = 1e-10, of_point = 1e-8;
 static const double noise = 1e-6;                           /* noise of the test functions */
-static const double first_step = 0.1, shortest_step = 1e-7; /* relative to the longest step */
-static const double predicted = 2e-3; /* error of the predictor at which the step length aims */
+static const double first_step = 0.1, shortest_step = 1e-7; /* both relative to the longest step */
+static const double predicted = 2e-3; /* error of the predictor for which the step length is
+                                         chosen */
 static const double most_turn = 0.35; /* largest angle between the tangents at both ends of a
                                          step, rad */
 static const double cap =
-    100; /* bound on the amplitude, relative to half backlash plus static deflection */
+    100; /* bound on the amplitude, relative to half the backlash plus the static deflection */
 
 static dynamics_point point_of(const dynamics_continuation_range *t, const dynamics_orbit *o)
 {

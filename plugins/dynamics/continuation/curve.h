@@ -2,7 +2,7 @@
 /* The curve of a periodic motion over the mesh frequency, by pseudo-arclength continuation (Keller
    1977) of the return map in (delta, rate, lambda). Folds are roots of the test function 1 - tr M +
    det M along the arclength, period doublings are roots of 1 + tr M + det M. Each evaluation of a
-   test function takes one bordered Newton solution. */
+   test function needs one bordered Newton solution. */
 #ifndef DYNAMICS_CURVE_H
 #define DYNAMICS_CURVE_H
 
@@ -22,11 +22,11 @@ typedef struct dynamics_point {
     double rms;
 } dynamics_point;
 
-/* Why a curve ends. */
+/* The reason why a curve ends. */
 typedef enum dynamics_curve_end {
-    DYNAMICS_END_RANGE,   /* at a bound of the range of speeds */
-    DYNAMICS_END_CLOSED,  /* where it began */
-    DYNAMICS_END_HALVED,  /* where the motion becomes one of half the period */
+    DYNAMICS_END_RANGE,   /* at a bound of the speed range */
+    DYNAMICS_END_CLOSED,  /* at its start */
+    DYNAMICS_END_HALVED,  /* where the motion becomes a motion of half the period */
     DYNAMICS_END_CAP,     /* at the bound on the amplitude */
     DYNAMICS_END_LOOP,    /* in a loop that does not contain the start: the continuation jumped
                              to a neighbouring curve */
@@ -61,11 +61,12 @@ ff_status dynamics_curve_trace(const dynamics_continuation_range *tracing,
 int dynamics_curve_double(const dynamics_continuation_range *tracing,
                           const dynamics_point *doubling, int period, dynamics_orbit *orbit);
 
-/* Interpolates the state on the curve at a lambda between those of two neighbouring points. */
+/* Interpolates the state on the curve at a lambda between two neighbouring points. */
 void dynamics_curve_between(const dynamics_flow *flow, const dynamics_point *a,
                             const dynamics_point *z, double lambda, double state[2]);
 
-/* Solves for the orbit on the curve at a lambda between those of two neighbouring points. */
+/* Solves for the orbit on the curve at a lambda between two neighbouring points. Returns 0 if none
+   was found. */
 int dynamics_curve_solve(const dynamics_flow *flow, const dynamics_point *a,
                          const dynamics_point *z, double lambda, dynamics_orbit *orbit);
 

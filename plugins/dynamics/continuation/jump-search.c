@@ -5,8 +5,8 @@
 
 #include <math.h>
 
-/* Smallest relative change of the rms that counts as a jump. In such a narrow range of speeds
-   nothing else changes the rms so much. */
+/* Smallest relative change of the rms that counts as a jump. Within the narrow range of speeds that
+   is searched, nothing else changes the rms so much. */
 static const double jumps = 0.2;
 
 /* Keeps the fold if it is the nearest so far, with the rms of the motions at both ends of the
@@ -68,8 +68,8 @@ ff_status dynamics_find_jump(const dynamics_jump_search *n, const dynamics_attra
     return status;
 }
 
-/* Returns the rms of the stable motion that ends at a fold, taken one point before it. Returns a
-   negative number if none ends there. */
+/* Returns the rms of the stable motion that ends at a fold, taken at the point before the fold.
+   Returns a negative number if no stable motion ends there. */
 static double rms_of_stable_end(const dynamics_curve *c, size_t fold)
 {
     for (int side = -1; side <= 1; side += 2) {
@@ -80,8 +80,8 @@ static double rms_of_stable_end(const dynamics_curve *c, size_t fold)
     return -1;
 }
 
-/* Searches above the speed only: resonance curves bend towards low speeds, so motions that end near
-   this speed are followed from above. */
+/* Searches above the speed only: resonance curves bend towards low speeds, so a motion that ends
+   near this speed exists at higher speeds. */
 ff_status dynamics_find_fold_of_another(const dynamics_jump_search *n, const dynamics_attractor *a,
                                         dynamics_jump *jump)
 {

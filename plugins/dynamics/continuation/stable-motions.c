@@ -87,8 +87,8 @@ static ff_status search(const dynamics_flow *flow, double lambda, const ff_host 
     double T = dynamics_cycle_duration(lambda);
     if (T > dynamics_longest_cycle)
         return ff_failf(host, FF_NOCONV, "operating.mesh_frequency",
-                        "the speed is so far below the natural frequency that vibrations are not "
-                        "followed, and stable_motions cannot be counted");
+                        "the mesh frequency is so far below the natural frequency that vibrations "
+                        "are not computed, so stable_motions cannot be counted");
     dynamics_search one = {lambda, DYNAMICS_PERIOD_MAX,
                            dynamics_settle_limit(flow->excitation, T, 1e-4), 0};
     for (int branch = DYNAMICS_BRANCH_LOWER; branch <= DYNAMICS_BRANCH_UPPER; branch++) {

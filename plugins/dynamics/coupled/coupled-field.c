@@ -25,14 +25,15 @@ int dynamics_field_damps(const dynamics_field *field, int flank)
 }
 
 /* The mesh spring of a flank at the current position of the centres. A displacement of the centres
-   changes the stiffness, which is kept at 0 or above. The force of the mounted pair is scaled by
-   the same factor. */
+   changes the stiffness, which is kept at 0 or above. The force of the mounted pair is scaled in
+   proportion to the stiffness. */
 typedef struct mesh_spring {
     double slope, offset; /* slope and offset of the force as a line over the overlap */
     double by_stiffness;  /* derivative of the force with respect to the stiffness */
 } mesh_spring;
 
-/* Mesh stiffness at a phase: of the mounted pair, and at the current position of the centres. */
+/* Mesh stiffness at a phase: `mounted` for the mounted pair, `now` for the current position of the
+   centres. */
 typedef struct mesh_stiffness {
     double since, mounted, now;
 } mesh_stiffness;
@@ -270,7 +271,8 @@ void dynamics_field_gates(const dynamics_field *field, double t, const double *y
         gate[DYNAMICS_TOUCH + i] = touches ? p.overlap[i].value : -p.overlap[i].value;
         gate[DYNAMICS_PRESS + i] = !clipped ? 1 : r->pressed[i] ? p.normal[i] : -p.normal[i];
         if (clipped && r->pressed[i])
-            gate[DYNAMICS_TOUCH + i] = 1; /* the damper stops pulling before the flanks separate */
+            gate[DYNAMICS_TOUCH + i] = 1; /* the damper has stopped pulling before the flanks
+                                             separate */
         knee_gates(field, t, i, p.overlap[i].value, gate);
     }
     gate[DYNAMICS_COMES] = place.entry - (age + r->pairs.youngest - 1);

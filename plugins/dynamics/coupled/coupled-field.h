@@ -41,16 +41,16 @@ typedef struct dynamics_field {
     double T; /* duration of a mesh cycle */
 } dynamics_field;
 
-/* The mesh force and the generalised forces that it exerts on the coordinates. */
+/* The mesh force, and its generalised forces on the coordinates. */
 typedef struct dynamics_push {
     double force; /* generalised force on q, positive on the driving flank */
     double on[DYNAMICS_COORDINATES];
     dynamics_overlap overlap[DYNAMICS_FLANKS];
-    double normal[DYNAMICS_FLANKS]; /* force on a touching flank, computed as if the flank were
-                                       pressed; 0 if the flank does not touch */
+    double normal[DYNAMICS_FLANKS]; /* force of spring and damper on a touching flank, even if it is
+                                       not pressed; 0 if the flank does not touch */
 } dynamics_push;
 
-/* Evaluates the mesh force. t is the time since the start of the stretch. */
+/* Return the phase, and the mesh force, at the time t since the start of the stretch. */
 double dynamics_field_phase(const dynamics_field *field, double t);
 dynamics_push dynamics_field_push(const dynamics_field *field, double t, const double *y,
                                   const dynamics_place *place);
@@ -72,13 +72,14 @@ typedef struct dynamics_course {
 /* Computes the polynomials for a step of duration h from time t, between two states. */
 void dynamics_course_find(const dynamics_field *field, double t, double h, const double *from,
                           const double *to, dynamics_course *course);
-/* Evaluates the state at a fraction of the step. The energy in it is set to 0. */
+/* Evaluates the state at a fraction of the step. The energy, the last component, is set to 0. */
 void dynamics_course_state(const dynamics_course *course, double share, double *state);
 
 /* Returns whether the mesh damper acts on a flank, or in the gap for flank = DYNAMICS_FLANKS. */
 int dynamics_field_damps(const dynamics_field *field, int flank);
 
-/* Gates. The regime lasts as long as none of these values is below 0. */
+/* Gates: functions of the state that end the regime. The regime lasts as long as no gate is below
+   0. */
 enum {
     DYNAMICS_TOUCH,
     DYNAMICS_PRESS = DYNAMICS_FLANKS,
@@ -94,12 +95,12 @@ void dynamics_field_find_bands(dynamics_field *field, double t, const double *ov
 
 void dynamics_field_gates(const dynamics_field *field, double t, const double *y,
                           double gate[DYNAMICS_GATES]);
-/* Changes the regime to the one after the gate that closed. */
+/* Changes to the regime that follows when this gate falls below 0. */
 void dynamics_field_pass_gate(dynamics_field *field, int gate);
-/* Computes the derivatives of a gate, at which flanks touch or a tooth pair enters or leaves: with
-   respect to coordinates and rates, and with respect to time at fixed coordinates. For a gate
-   at which flanks touch, these are the derivatives of the overlap; the gate's own value may have
-   the opposite sign. */
+/* Computes the derivatives of a gate at which flanks touch or a tooth pair enters or leaves.
+   `slope` is the derivative with respect to coordinates and rates; the return value is the
+   derivative with respect to time at fixed coordinates. For a gate at which flanks touch, these are
+   the derivatives of the overlap; the value of the gate may have the opposite sign. */
 double dynamics_field_gate_slope(const dynamics_field *field, int gate, double t, const double *y,
                                  double slope[DYNAMICS_TAKEN]);
 

@@ -11,8 +11,8 @@
    is below this value. */
 static const double nearly_periodic = 1e-3;
 
-/* Smallest relative change of the frequency per cycle in a speed sweep. A cycle costs more here
-   than with rigid bearings. */
+/* Smallest relative change of the frequency per cycle in a speed sweep. It is larger than with
+   rigid bearings, since a cycle takes more computing time here. */
 static const double slowest = 1e-3;
 
 /* Largest distances, in static deflections, within which Newton's method accepts a motion: from the
@@ -95,8 +95,8 @@ static void start_at_rest(dynamics_coupled_run *run, const dynamics_coupled *pai
     dynamics_coupled_start(run, T, rest);
 }
 
-/* Sweeps the speed slowly, starting from that of the orbit, while the motion continues, whether
-   periodic or not. A motion that grows without bound restarts from rest. */
+/* Sweeps the speed slowly from the speed of the orbit, while the motion is integrated on, whether
+   periodic or not. A motion that grows without bound is restarted from rest. */
 static ff_status glide(dynamics_coupled_run *run, const dynamics_coupled *pair, const ff_host *host,
                        double to, dynamics_coupled_orbit *orbit)
 {
@@ -128,7 +128,7 @@ static int likely_period(const history *h)
     return likely;
 }
 
-/* Sets the period of an orbit to the smallest number of cycles after which it returns. */
+/* Sets the period of an orbit to the smallest number of cycles after which the state repeats. */
 static ff_status shorten(dynamics_coupled_run *run, double tolerance, dynamics_coupled_orbit *orbit)
 {
     const double *y = dynamics_coupled_state(run);
@@ -238,8 +238,8 @@ static ff_status shoot_nearby(dynamics_coupled_run *run, const dynamics_settling
 }
 
 /* Follows a motion to the requested frequency. If its branch ends, or if the motion is not periodic
-   (the status was FF_NOCONV before), the speed is swept until a periodic motion is near. Returns
-   FF_NOCONV if none is near the state at the requested frequency. */
+   (`before` is FF_NOCONV), the speed is swept until a periodic motion is near. Returns FF_NOCONV if
+   none is near the state at the requested frequency. */
 static ff_status follow_and_glide(dynamics_coupled_run *run, const dynamics_coupled *pair,
                                   const dynamics_settling *how, ff_status before,
                                   dynamics_coupled_orbit *orbit)
@@ -296,7 +296,7 @@ static ff_status approach(dynamics_coupled_run *run, const dynamics_coupled *pai
 }
 
 /* Finds the motion to which a slow change of the speed leads. `coarse` is an integrator of low
-   accuracy for the way. */
+   accuracy for the change of speed. */
 static ff_status reach(dynamics_coupled_run *run, dynamics_coupled_run *coarse,
                        const dynamics_coupled *pair, const dynamics_settling *how,
                        dynamics_coupled_motion *motion)
@@ -323,7 +323,7 @@ ff_status dynamics_coupled_settle(dynamics_coupled_run *run, const dynamics_coup
                                   const dynamics_settling *how, dynamics_coupled_motion *motion)
 {
     static const double on_the_way =
-        1e-5; /* error per step on the way; the end itself is solved more accurately */
+        1e-5; /* error per step during the sweep; the final motion is solved more accurately */
     dynamics_coupled_orbit orbit = {.frequency = 2 * M_PI / how->T, .period = 1};
     ff_status status = FF_NOCONV;
     motion->settled.limit =

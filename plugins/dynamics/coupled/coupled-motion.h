@@ -9,7 +9,7 @@
 #include "../oscillator/settle.h"
 #include "coupled-run.h"
 
-/* The outputs from DYNAMICS_OUT_PHASE to DYNAMICS_OUT_MULTIPLIERS come first, then these. */
+/* These outputs follow the outputs from DYNAMICS_OUT_PHASE to DYNAMICS_OUT_MULTIPLIERS. */
 enum {
     DYNAMICS_CO_CENTRE_DISTANCE = DYNAMICS_OUT_MULTIPLIERS + 1,
     DYNAMICS_CO_PRESSURE_ANGLE,
@@ -25,7 +25,7 @@ enum {
 extern const ff_port dynamics_coupled_outputs[DYNAMICS_COUPLED_OUTPUT_COUNT];
 
 typedef struct dynamics_coupled_motion {
-    dynamics_settled settled; /* delta and rate in it are not set; `state` contains all
+    dynamics_settled settled; /* its members delta and rate are not set; `state` contains all
                                  coordinates */
     size_t cycles;            /* number of cycles that the outputs show */
     double T;                 /* duration of a mesh cycle */

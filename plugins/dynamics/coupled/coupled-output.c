@@ -27,7 +27,7 @@ const ff_port dynamics_coupled_outputs[DYNAMICS_COUPLED_OUTPUT_COUNT] = {
          .dims = "cycle"},
     [DYNAMICS_OUT_DTE_VELOCITY] = {.name = "dte_velocity",
                                    .unit = "m/s",
-                                   .doc = "its rate",
+                                   .doc = "rate of the dynamic transmission error",
                                    .dims = "cycle"},
     [DYNAMICS_OUT_MESH_FORCE] = {.name = "mesh_force",
                                  .unit = "N",
@@ -68,7 +68,7 @@ const ff_port dynamics_coupled_outputs[DYNAMICS_COUPLED_OUTPUT_COUNT] = {
          .dims = ""},
     [DYNAMICS_OUT_DYNAMIC_FACTOR_MESH] = {.name = "dynamic_factor_mesh",
                                           .unit = "1",
-                                          .doc = "largest mesh force over the static one",
+                                          .doc = "largest mesh force over the static mesh force",
                                           .dims = ""},
     [DYNAMICS_OUT_CONTACT_LOSS] = {.name = "contact_loss",
                                    .unit = "1",
@@ -100,8 +100,8 @@ const ff_port dynamics_coupled_outputs[DYNAMICS_COUPLED_OUTPUT_COUNT] = {
     [DYNAMICS_OUT_MULTIPLIERS] =
         {.name = "multipliers",
          .unit = "1",
-         .doc = "Floquet multipliers (real and imaginary part): growth of a disturbance over the "
-                "motion shown",
+         .doc = "Floquet multipliers (real and imaginary part): factors by which disturbances grow "
+                "over the motion shown",
          .dims = "multiplier part"},
     [DYNAMICS_CO_CENTRE_DISTANCE] = {.name = "centre_distance",
                                      .unit = "m",
@@ -139,7 +139,7 @@ const ff_port dynamics_coupled_outputs[DYNAMICS_COUPLED_OUTPUT_COUNT] = {
                                   .dims = "landing"},
     [DYNAMICS_CO_LANDING_SPEED] = {.name = "landing_speed",
                                    .unit = "m/s",
-                                   .doc = "speeds of approach at these times",
+                                   .doc = "speeds of approach of the flanks at landing_time",
                                    .dims = "landing"},
 };
 

@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Taylor series of atan for small arguments. They are about 1e-4 unless the bearings are soft. */
+/* Returns atan(t), for small t by its Taylor series. t is about 1e-4 unless the bearings are
+   soft. */
 static double small_atan(double t)
 {
     double squared = t * t;
@@ -17,7 +18,7 @@ static double small_atan(double t)
 /* Locates the contact from the position of the centres. With the centre distance C: L = sqrt(C^2 -
    (rb1 + rb2)^2) and tan alpha = L/(rb1 + rb2). Changes are computed without cancellation. The half
    gap grows by (rb1 + rb2) times the change of inv alpha = tan alpha - alpha. The contact point on
-   a flank of gear 1 moves by the change of alpha, and the start of contact moves by that of L. */
+   a flank of gear 1 moves by the change of alpha, the start of contact by the change of L. */
 void dynamics_coupled_locate(const dynamics_coupled *pair, const double *x, dynamics_place *place)
 {
     *place = (dynamics_place){.centre = pair->centre,
@@ -53,8 +54,8 @@ dynamics_pairs dynamics_coupled_mounted_pairs(const dynamics_coupled *pair, doub
     return (dynamics_pairs){(int)ceil(-phase), (int)floor(pair->cycle[pair->nodes - 1] - phase)};
 }
 
-/* Returns the stiffness of a tooth pair; it is constant beyond both ends. `near` is the index of
-   the last piece used. It is kept if the place is well inside that piece. */
+/* Returns the stiffness of a tooth pair; it is constant beyond both ends. `near` is the piece used
+   last; it is used again if the position is well inside it. */
 static double pair_stiffness_at(const dynamics_coupled *pair, double cycle,
                                 const dynamics_piece **near)
 {
@@ -106,7 +107,8 @@ double dynamics_coupled_stiffness_slope(const dynamics_coupled *pair, const dyna
     return by_shift;
 }
 
-/* Uses cos alpha = R/C: d alpha/dC = cos alpha/(C sin alpha), dL/dC = 1/sin alpha. */
+/* With R = rb1 + rb2 and cos alpha = R/C: d alpha/dC = cos alpha/(C sin alpha), dL/dC = 1/sin
+   alpha. */
 void dynamics_coupled_shift_slope(const dynamics_coupled *pair, const dynamics_place *place,
                                   double *shift, double *entry)
 {
@@ -122,8 +124,9 @@ void dynamics_coupled_shift_slope(const dynamics_coupled *pair, const dynamics_p
     }
 }
 
-/* Second derivatives. With u along the line of centres and n across it, that of C is n n/C, that of
-   psi is -(u n + n u)/C^2, and d^2b/dC^2 = cos^2 alpha/(C sin alpha). */
+/* Returns the second derivatives of the overlap. With u along the line of centres and n across it,
+   the second derivative of C is n n/C, that of psi is -(u n + n u)/C^2, and d^2b/dC^2 = cos^2
+   alpha/(C sin alpha). */
 dynamics_bend dynamics_coupled_bend(const dynamics_place *place, int side)
 {
     double ux = place->cos_turn, uy = place->sin_turn, sign = side < 0 ? -1 : 1;

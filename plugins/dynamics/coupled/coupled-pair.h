@@ -23,15 +23,15 @@ typedef struct dynamics_coupled {
     double mass[2];               /* mass of each gear over the equivalent mass */
     double bearing[2], damper[2]; /* stiffness and damping coefficient of the bearings of
                                      each gear */
-    /* of the mounted pair: rb1 + rb2, centre distance, length of the line of action between the
-       base circles, pressure angle */
+    /* data of the mounted pair: rb1 + rb2, centre distance, length of the line of action between
+       the base circles, pressure angle */
     double base, centre, line, angle;
     double base_1, base_pitch;      /* rb1, base pitch */
     double *cycle, *pair_stiffness; /* mesh cycles after SAP, and the stiffness of one tooth pair
                                        there */
     size_t nodes;                   /* number of these points */
-    dynamics_excitation table;      /* excitation whose k is that stiffness over the range of
-                                       these points */
+    dynamics_excitation table;      /* excitation whose k is `pair_stiffness` as a function of
+                                       `cycle` */
 } dynamics_coupled;
 
 /* The contact at the current position of the centres. */
@@ -54,7 +54,8 @@ typedef struct dynamics_pairs {
 
 /* Returns the pairs in contact at a phase. */
 dynamics_pairs dynamics_coupled_pairs(const dynamics_place *place, double phase);
-/* Returns the pairs of the mounted gears in contact. They make up the mesh stiffness. */
+/* Returns the pairs in contact if the centres are not displaced. Their stiffnesses sum to the given
+   mesh stiffness. */
 dynamics_pairs dynamics_coupled_mounted_pairs(const dynamics_coupled *pair, double phase);
 
 /* Returns the change of the mesh stiffness due to the displacement of the centres. */

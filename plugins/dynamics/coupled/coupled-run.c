@@ -15,9 +15,9 @@
    per step is `coarse` or more. */
 static const double longest_step = 0.5, longest_coarse = 1.5, coarse = 1e-7;
 
-/* A gate counts as closed below this value, which is a few round-off errors of the numbers whose
-   difference it is. The first attempts aim at a tenth of it. Coarse integrations use
-   closed_coarse. */
+/* An event is located when the absolute value of its gate is below this bound: a few round-off
+   errors of the numbers whose difference is the gate. The first attempts aim at a tenth of the
+   bound. Coarse integrations use closed_coarse. */
 static const double closed = 1e-13, closed_coarse = 1e-10;
 
 /* The integration fails after this many steps since the start. */
@@ -42,7 +42,7 @@ struct dynamics_coupled_run {
     dynamics_stretch *stretches;
     double t;          /* time since the start of the stretch (coupled-field.h) */
     double longest, h; /* longest step; length of the next step */
-    double closed;     /* value at which a gate counts as closed */
+    double closed;     /* `closed` or closed_coarse */
     double parted, back;
     size_t steps;
 };
@@ -131,7 +131,7 @@ void dynamics_coupled_run_free(dynamics_coupled_run *run)
     free(run);
 }
 
-/* Sets which flanks touch: those that overlap. */
+/* Sets the flags of the flanks that touch: flanks touch if they overlap. */
 static void set_contact(dynamics_coupled_run *run, const dynamics_place *place)
 {
     dynamics_push p = dynamics_field_push(&run->field, run->t, run->y, place);
@@ -169,7 +169,8 @@ void dynamics_coupled_start(dynamics_coupled_run *run, double T, const double *s
     run->parted = run->back = 0;
     dynamics_coupled_locate(run->field.pair, run->y, &place);
     run->field.regime.pairs = dynamics_coupled_pairs(&place, 0);
-    run->field.regime.pairs.youngest--; /* the count before the mesh cycle wraps around */
+    run->field.regime.pairs.youngest--; /* pair numbers as before the start of the mesh cycle, where
+                                           they increase by 1 */
     run->field.regime.pairs.oldest--;
     set_contact(run, &place);
     run->varies = 0;
@@ -297,8 +298,8 @@ static int find_event(dynamics_coupled_run *run, double h, const double *y, even
     dynamics_course course;
     dynamics_field_gates(&run->field, run->t, run->y, a);
     dynamics_field_gates(&run->field, run->t + h, y, z);
-    for (int i = 0; i < DYNAMICS_COMES; i++) /* for a motion that stays near the edge of the gap
-                                                during the step */
+    for (int i = 0; i < DYNAMICS_COMES; i++) /* the motion may leave and return near the edge of the
+                                                gap during the step */
         dips |= z[i] >= 0 &&
                 fmin(a[i], z[i]) < 0.5 * h * h * (1 + fabs(run->field.pair->excitation->load));
     for (int i = 0; i < DYNAMICS_GATES; i++)
@@ -446,7 +447,7 @@ static void add_sample(const dynamics_coupled_run *run, double phase,
     record->samples[record->count++] = sample;
 }
 
-/* Integrates over a stretch; with a record, from sample to sample. */
+/* Integrates over a stretch; if there is a record, from sample to sample. */
 static int pass_stretch(dynamics_coupled_run *run, size_t *next, dynamics_coupled_record *record)
 {
     const dynamics_stretch *now = run->field.now;

@@ -29,8 +29,8 @@ void dynamics_coupled_run_free(dynamics_coupled_run *run);
 /* Starts at phase 0 of mesh cycles of duration T from coordinates and rates, and resets the
    clocks. */
 void dynamics_coupled_start(dynamics_coupled_run *run, double T, const double *state);
-/* Starts in the same way and also integrates the derivatives of the motion with respect to its
-   start. */
+/* Does the same; in addition, the derivatives of the state with respect to the start state will be
+   integrated. */
 void dynamics_coupled_start_varied(dynamics_coupled_run *run, double T, const double *state);
 const double *dynamics_coupled_state(const dynamics_coupled_run *run);
 /* Returns the derivatives of the state with respect to the start state: DYNAMICS_TAKEN rows of

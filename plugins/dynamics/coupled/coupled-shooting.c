@@ -21,8 +21,8 @@ static const double surely_stable = 1 - 1e-6;
 
 /* Step lengths in the logarithm of the frequency. The longest step is 3 zeta, the width of a
    resonance, at the usual damping. Where a step would have to be shorter than `shortest`, the speed
-   is swept instead. A motion on the way is rejected if it is farther than `near` (in static
-   deflections) from the extrapolation of the last three motions. */
+   is swept instead. A motion found during the continuation is rejected if it is farther than `near`
+   (in static deflections) from the extrapolation of the last three motions. */
 static const double longest = 0.03, shortest = 4e-3, near = 0.2;
 const double dynamics_coupled_on_the_way = 1e-2;
 

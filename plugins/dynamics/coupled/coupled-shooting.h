@@ -7,7 +7,8 @@
 #include "../oscillator/settle.h"
 #include "coupled-run.h"
 
-/* A motion at a mesh frequency (relative to the natural frequency), and what it cost to find it. */
+/* A motion at a mesh frequency (relative to the natural frequency), and the number of cycles
+   integrated to find it. */
 typedef struct dynamics_coupled_orbit {
     double frequency;
     int period;                   /* mesh cycles */
@@ -18,12 +19,14 @@ typedef struct dynamics_coupled_orbit {
     size_t cycles; /* number of integrated cycles so far; never reset */
 } dynamics_coupled_orbit;
 
-/* Looks for the stable motion within the distance `far` of orbit->state, and sets the state to it.
-   Returns FF_NOCONV if there is none, or if it is unstable; in the second case `largest` is set. */
+/* Looks for the stable motion within the distance `far` of orbit->state, and replaces this state by
+   that of the motion. Returns FF_NOCONV if there is no motion, or if it is unstable; if it is
+   unstable, `largest` is set. */
 ff_status dynamics_coupled_shoot(dynamics_coupled_run *run, double far, double tolerance,
                                  const ff_host *host, dynamics_coupled_orbit *orbit);
 
-/* Accuracy, in static deflections, of the motions on the way to another frequency. */
+/* Accuracy of intermediate motions during continuation to another frequency, in static
+   deflections. */
 extern const double dynamics_coupled_on_the_way;
 
 /* Follows a stable motion to another frequency. Returns FF_NOCONV if it ends or becomes unstable on

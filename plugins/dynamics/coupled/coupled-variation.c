@@ -47,8 +47,8 @@ const double *dynamics_variation_matrix(const dynamics_variation *v)
 }
 
 /* The mesh force depends on six numbers of a state: q, the position of gear 2 relative to gear 1
-   along the line of centres and across it, and their rates. The force on gear 1 is opposite to that
-   on gear 2. */
+   along the line of centres and across it, and their rates. The forces on gear 1 and gear 2 are
+   opposite. */
 enum { SEEN = 3 };
 static const int seen[SEEN] = {DYNAMICS_Q, DYNAMICS_X2, DYNAMICS_Y2},
                  against[SEEN] = {-1, DYNAMICS_X1, DYNAMICS_Y1};
@@ -77,8 +77,8 @@ static void find_mesh(const dynamics_field *field, double t, const double *state
     }
 }
 
-/* Fits polynomials of degree 2 at the Gauss nodes, so that the error of their moments is of order
-   h^6. */
+/* Fits polynomials of degree 2 at the three Gauss nodes, so that the error of their moments is of
+   order h^6. */
 static void find_powers(const dynamics_field *field, double t, double h, const double *from,
                         const double *to, double negligible, mesh_powers *power)
 {

@@ -52,11 +52,11 @@ static ff_status check_levels(const ff_host *host, const dynamics_force_levels *
     if (!l->error || l->count < 2)
         return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_BACK_LEVEL_ERROR),
                         "force: shared needs the transmission error of both flanks under several "
-                        "forces; take force: frozen");
+                        "forces; use force: frozen");
     for (size_t i = l->phases; i < l->count * l->phases; i++)
         if (!(l->error[i] > l->error[i - l->phases]) || (l->stiffness && !(l->stiffness[i] > 0)))
             return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_BACK_LEVEL_ERROR),
-                            "must rise with the force, with slopes above 0");
+                            "must increase with the force, with slopes above 0");
     return FF_OK;
 }
 
@@ -148,14 +148,15 @@ void dynamics_back_flank_line(const ff_host *host, const dynamics_inputs *inputs
     if (!(share > 0) || inputs->constant)
         return;
     snprintf(text, sizeof text,
-             "share of the time in which the flanks bear that the mean load does not press: %s",
-             own ? "with stiffness, error and relief of their own; tooth_force, and films, losses "
-                   "and ratings of it, are of the others; contact/back-tooth-pair makes films and "
-                   "losses of them"
+             "share of the time in which the back flanks, opposite to those that carry the mean "
+             "load, carry load: %s",
+             own ? "they have their own stiffness, transmission error and relief; tooth_force, and "
+                   "the films, losses and ratings that use it, refer to the other flanks; "
+                   "contact/back-tooth-pair gives the contact of the back flanks"
              : isnan(inputs->back_offset)
-                 ? "the stiffness does not know their curves, and those of the other flanks stand "
-                   "for them"
-                 : "this motion takes the curves of the other flanks for them; dynamics/shooting "
-                   "and dynamics/time-integration without oil in the gap take their own");
+                 ? "the stiffness gives no curves for them, so the mirrored curves of the other "
+                   "flanks are used"
+                 : "this model uses the mirrored curves of the other flanks; dynamics/shooting and "
+                   "dynamics/time-integration without oil in the gap use their own curves");
     host->quality(host->ctx, "back_flank", share, 0, own ? FF_GOOD : FF_RANGE, text);
 }

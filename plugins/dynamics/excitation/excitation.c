@@ -201,7 +201,8 @@ const dynamics_piece *dynamics_excitation_piece_at(const dynamics_excitation *x,
     return dynamics_track_piece(x->flight, phase, left);
 }
 
-/* Returns the flank that touches at delta; 0 if it belongs to another track. */
+/* Returns the flank that touches at delta: 1 or -1; 0 if no flank touches, or if it belongs to
+   another track. */
 static int side_at(const dynamics_excitation *x, const dynamics_piece *piece, double delta)
 {
     int side = (delta > x->half_gap) - (delta < -x->half_gap);

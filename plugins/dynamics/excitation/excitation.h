@@ -1,15 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * The gear pair as a dimensionless oscillator with one degree of freedom (Li & Kahraman 2011, eqs
- * 2a and 2b):
- *   s'' + 2 zeta (s' - e') + k g(s - e) = load - drag
- * The unit of length is `length`, the unit of stiffness is the mean mesh stiffness, and the unit of
- * time is 1/omega with omega^2 = mean stiffness / equivalent mass. g is the dead zone of half width
- * `half_gap`. A piecewise linear force (spring.h) replaces the spring force k g if k is the slope
- * of the mesh force at the mean load, or if the mesh force is given at several loads. k and e are
- * polynomials between the nodes of a mesh cycle and may jump at the nodes. drag has the same form.
- * It is 0 unless a film is wired back or the torque or speed fluctuates.
- */
+/* The gear pair as a dimensionless oscillator with one degree of freedom (Li & Kahraman 2011, eqs
+   2a and 2b): s'' + 2 zeta (s' - e') + k g(s - e) = load - drag The unit of length is `length`, the
+   unit of stiffness is the mean mesh stiffness, and the unit of time is 1/omega with omega^2 = mean
+   stiffness / equivalent mass. g is the dead zone of half width `half_gap`. A piecewise linear
+   force (spring.h) replaces the spring force k g if k is the slope of the mesh force at the mean
+   load, or if transmission errors are given at several mesh forces. k and e are polynomials between
+   the nodes of a mesh cycle and may jump at the nodes. The drag force is a piecewise polynomial,
+   too. It is 0 unless a film is wired back or the torque or speed fluctuates. */
 #ifndef DYNAMICS_EXCITATION_H
 #define DYNAMICS_EXCITATION_H
 
@@ -26,16 +23,16 @@ enum {
 enum { DYNAMICS_DEGREE = 7, DYNAMICS_LINES = 32 };
 
 /* A straight line of the spring force: slope g - offset with g = s - e. Slope and offset are
-   polynomials of the phase since the start of the piece. */
+   polynomials in the phase since the start of the piece. */
 typedef struct dynamics_line {
     double slope[DYNAMICS_DEGREE + 1], offset[DYNAMICS_DEGREE + 1];
 } dynamics_line;
 
 typedef struct dynamics_piece {
     double start, length; /* mesh cycles */
-    int degree;           /* of the polynomials; 1: straight lines */
+    int degree;           /* degree of the polynomials; 1: straight lines */
     double k[DYNAMICS_DEGREE + 1], e[DYNAMICS_DEGREE + 1];
-    double drag[DYNAMICS_DEGREE + 1]; /* of friction, rolling resistance and fluctuation */
+    double drag[DYNAMICS_DEGREE + 1]; /* force of friction, rolling resistance and fluctuation */
     double film[DYNAMICS_DEGREE + 1]; /* integral of the film growth of the pairs, weighted by their
                                          load shares */
     int jump;                         /* whether k, e or the spring is discontinuous at the start */
@@ -59,10 +56,10 @@ typedef struct dynamics_track {
 typedef struct dynamics_excitation {
     dynamics_piece *pieces; /* pieces of the driving flanks */
     size_t count;
-    dynamics_track back, flight; /* pieces of the back flanks, and of free flight; count 0: they use
-                                  * those above */
-    double back_room;    /* least amount by which e of the driving flanks exceeds that of the back
-                          * flanks */
+    dynamics_track back, flight; /* pieces of the back flanks, and of free flight; count 0: the
+                                    pieces of the driving flanks are used */
+    double back_room;    /* smallest difference of e of the driving flanks minus e of the back
+                            flanks */
     double flight_share; /* weight of e of the back flanks in e of free flight */
     int both_flanks;     /* whether the model uses separate curves for the back flanks */
     double k_max;        /* the largest k */
@@ -80,7 +77,8 @@ typedef struct dynamics_excitation {
     const struct dynamics_film *film; /* the oil film between separated flanks; NULL: none */
 } dynamics_excitation;
 
-/* Value and derivatives of a polynomial at the phase `since` the start of the piece. */
+/* Return the value, the slope and the second derivative (`bend`) of a polynomial at the phase
+   `since` the start of the piece. */
 static inline double dynamics_piece_value(const double *c, int degree, double since)
 {
     double value = c[degree];
@@ -145,7 +143,7 @@ typedef struct dynamics_mesh_curves {
 /* Builds the pieces from checked curves. The scalar members are already set. Straight lines that
    sample a smooth curve are replaced by that curve. Returns 0 if out of memory. */
 int dynamics_excitation_build(dynamics_excitation *excitation, const dynamics_mesh_curves *curves);
-/* The same with a piecewise linear spring. Its nodes are at the phases of the curves. */
+/* Does the same with a piecewise linear spring, whose nodes are at the phases of the curves. */
 struct dynamics_spring_nodes;
 int dynamics_excitation_build_bent(dynamics_excitation *excitation,
                                    const dynamics_mesh_curves *curves,
@@ -159,12 +157,12 @@ void dynamics_excitation_free(dynamics_excitation *excitation);
 const dynamics_piece *dynamics_track_piece(dynamics_track track, double phase, int left);
 const dynamics_piece *dynamics_excitation_piece(const dynamics_excitation *excitation, double phase,
                                                 int left);
-/* The same on the track that a motion follows at s. */
+/* Returns the piece of the track that a motion follows at s. */
 const dynamics_piece *dynamics_excitation_piece_at(const dynamics_excitation *excitation,
                                                    double phase, int left, double s);
 
-/* Returns the deflection s - e of the driving flank under the constant load at phase 0. The second
-   function excludes the half gap. */
+/* Returns the deflection s - e of the driving flank under the constant load at phase 0, with
+   (rest_deflection) and without (rest_bend) the half gap. */
 double dynamics_rest_deflection(const dynamics_excitation *excitation);
 double dynamics_rest_bend(const dynamics_excitation *excitation);
 

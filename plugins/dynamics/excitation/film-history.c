@@ -8,17 +8,17 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* The film thickness counts as elastic deflection in full if p_max is at least `borne` times its
-   largest value, and not at all below `parted`. The load is proportional to the square of p_max.
-   Load and film determine each other at once while flanks separate. A fixed-point loop over h ~
-   W^-0.13 then converges only where the film is stiffer than the teeth, W/(0.13 h) > k: from a load
-   share of 0.001 on, that is a pressure share of 0.03. While flanks land, the oil delays the film.
-   `landing` and `landed` are the smaller bounds for landings, if the model of the motion has a film
-   between separated flanks. */
+/* Weights of the film thickness as elastic deflection: 1 if p_max is at least `borne` times its
+   largest value, 0 if it is below `parted` times this value. The load is proportional to the square
+   of p_max. While flanks separate, load and film determine each other without delay. A fixed-point
+   loop over h ~ W^-0.13 then converges only if the film is stiffer than the teeth, W/(0.13 h) > k:
+   above 0.001 of the largest load, that is 0.03 of the largest pressure. While flanks land, the oil
+   delays the film. `landing` and `landed` replace `parted` and `borne` for landings, if the model
+   of the motion has a film between separated flanks. */
 static const double parted = 0.1, borne = 0.2, landing = 0.01, landed = 0.02;
 
-/* Flanks are in flight if p_max is below `borne` and the film is thinner than this share of its
-   largest thickness. */
+/* Flanks are in free flight if p_max is below `borne` and the film is thinner than this share of
+   its largest thickness. */
 static const double flight = 0.1;
 
 /* Phases that differ by less than this (mesh cycles) are equal. */
@@ -102,15 +102,15 @@ static ff_status read_thickness(const double *h, const double *p, dynamics_film_
     return status;
 }
 
-/* A place between two non-decreasing stations: the index of the first one and the fraction of their
-   distance. */
+/* A position between two non-decreasing stations: the index of the first station and the fraction
+   of their distance. */
 typedef struct between {
     size_t i;
     double share;
 } between;
 
-/* Finds the place of `at`. If two stations are equal, `before` selects the interval before them,
-   else the interval after them is taken. */
+/* Finds the position of `at`. If two stations are equal, the interval before them is used if
+   `before` is set, else the interval after them. */
 static between find_between(size_t count, const double *x, double at, int before)
 {
     size_t i = numerics_interval(count, x, at);
@@ -125,8 +125,8 @@ static double value_between(const between *b, const double *y)
     return y[b->i] + b->share * (y[b->i + 1] - y[b->i]);
 }
 
-/* Returns the load share of a pair. With a shared force it is taken at the mesh force of the
-   instant, else at the mean mesh force. */
+/* Returns the load share of a pair: at the current mesh force if the force is shared, else at the
+   mean mesh force. */
 static double share_at(const dynamics_film_history *y, const between *station, double force)
 {
     const dynamics_inputs *inputs = y->inputs;
@@ -137,8 +137,8 @@ static double share_at(const dynamics_film_history *y, const between *station, d
     return low + station->share * (dynamics_share(inputs, station->i + 1, force) - low);
 }
 
-/* Adds the pairs of one engagement at a phase under a mesh force. At the ends of an engagement
-   `before` selects the limit from the left, else from the right. */
+/* Adds the pairs of one engagement at a phase under a mesh force. At the ends of an engagement the
+   limit from the left is used if `before` is set, else the limit from the right. */
 static void add_engagement(const dynamics_film_history *y, size_t number, double phase, int before,
                            double force, dynamics_film_sum *sum)
 {
@@ -171,8 +171,8 @@ static void add_engagement(const dynamics_film_history *y, size_t number, double
     }
 }
 
-/* Averages over the engagements. The mesh force of an instant is the sum of the loads that the
-   films carried in the previous round. */
+/* Averages over the engagements. The current mesh force is the sum of the loads that the films
+   carried in the previous round. */
 dynamics_film_sum dynamics_film_history_at(const dynamics_film_history *y, double phase, int before)
 {
     dynamics_film_sum sum = {.loss = 0};

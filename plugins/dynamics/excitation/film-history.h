@@ -8,7 +8,7 @@
 
 #include "inputs.h"
 
-/* The most pairs in mesh: twice what gear/involute-spur allows. */
+/* Largest number of pairs in mesh: twice the limit of gear/involute-spur. */
 enum { DYNAMICS_FILM_PAIRS = 8 };
 
 /* One film history: several consecutive engagements. */
@@ -18,7 +18,7 @@ typedef struct dynamics_film_history {
     const double *roll, *engagement, *traction, *rolling, *loss;
     const double *load; /* load per width, N/m; NULL: load shares are those of the mean force */
     double *thickness;
-    double speed[2]; /* of the gears, rad/s */
+    double speed[2]; /* speeds of the gears, rad/s */
     double width;
     int in_oil; /* input: whether the motion includes the film between separated flanks */
     const ff_array *in;
@@ -39,8 +39,8 @@ ff_status dynamics_film_history_read(const ff_host *host, const ff_array *in,
 
 void dynamics_film_history_free(dynamics_film_history *y);
 
-/* Returns the sums at a phase. At the ends of an engagement `before` selects the limit from the
-   left, else from the right. */
+/* Returns the sums at a phase. At the ends of an engagement the limit from the left is used if
+   `before` is set, else the limit from the right. */
 dynamics_film_sum dynamics_film_history_at(const dynamics_film_history *y, double phase,
                                            int before);
 

@@ -25,7 +25,8 @@ int dynamics_film_is_wired(const ff_array *in)
     return in[DYNAMICS_IN_FILM_ROLL_ANGLE].data != NULL;
 }
 
-/* Splits the piece at a phase where the film's curves may jump. Returns 0 if out of memory. */
+/* Splits a piece at a phase at which the curves of the film may jump. Returns 0 if out of
+   memory. */
 static int cut_at(dynamics_excitation *x, double phase)
 {
     phase -= floor(phase);
@@ -111,8 +112,8 @@ static dynamics_film_sum mean_of(const samples *s)
 }
 
 /* Returns the film growth of the pairs between two samples, weighted by their load shares. The mesh
-   force does work on this growth. Film changes that come from changing load shares are excluded:
-   their work is that of k(t) on parallel springs. */
+   force does work on this growth. Changes of the film due to changing load shares are excluded:
+   their work belongs to the change of k(t), the stiffness of the parallel pairs. */
 static double growth(const dynamics_film_sum *a, const dynamics_film_sum *z)
 {
     double sum = 0;
@@ -122,9 +123,9 @@ static double growth(const dynamics_film_sum *a, const dynamics_film_sum *z)
     return sum;
 }
 
-/* Makes the curves of drag, film thickness and film growth. The drag acts along the line of action.
-   Its mean is that of gear 1's torque alone, since the torque of gear 1 is given. Its alternating
-   part is the sum over both gears, weighted by base_radius^2/inertia. */
+/* Computes the curves of drag, film thickness and film growth. The drag acts along the line of
+   action. Its mean follows from the friction torque on gear 1 alone, since the torque of gear 1 is
+   given. Its alternating part is the sum over both gears, weighted by base_radius^2/inertia. */
 static void make_curves(const dynamics_film_history *y, const dynamics_excitation *x, samples *s,
                         const dynamics_film_sum *mean)
 {
@@ -154,7 +155,7 @@ typedef struct builder {
     dynamics_piece *pieces;
     size_t count;
     double unit[3]; /* largest absolute value of drag, film and film growth */
-    double off[3];  /* largest deviation from each, relative to `unit` */
+    double off[3];  /* largest deviation from drag, film and film growth, relative to `unit` */
 } builder;
 
 /* Fits one piece to the samples `first` to `last`. */
@@ -183,15 +184,15 @@ static void report(const ff_host *host, const dynamics_film_history *y, const bu
     char text[200];
     double off = fmax(fmax(b->off[0], b->off[1]), b->off[2]);
     snprintf(text, sizeof text,
-             "largest distance of %zu pieces from the friction of the film, %.1g, its thickness, "
-             "%.1g, and its growth, %.1g, relative to the largest value of each",
+             "largest deviation of the %zu polynomial pieces from the friction of the film, %.1g, "
+             "its thickness, %.1g, and its growth, %.1g, each relative to its largest value",
              b->count, b->off[0], b->off[1], b->off[2]);
     host->quality(host->ctx, "film_representation", off, doubtful,
                   off <= doubtful ? FF_GOOD : FF_DOUBTFUL, text);
     if (y->engagements > 1)
         host->quality(
             host->ctx, "film_engagements", (double)y->engagements, 1, FF_DOUBTFUL,
-            "engagements of the motion have different films; the motion is driven by their mean");
+            "engagements of the motion have different films; their mean acts on the motion");
 }
 
 static ff_status check_gear(const ff_host *host, const ff_array *in, size_t stations)
@@ -209,7 +210,7 @@ static ff_status check_gear(const ff_host *host, const ff_array *in, size_t stat
             dynamics_oil_input_ports[in[DYNAMICS_IN_FACE_WIDTH].data ? DYNAMICS_IN_INERTIA
                                                                      : DYNAMICS_IN_FACE_WIDTH]
                 .name,
-            "a film that is wired back needs a gear that gives this output");
+            "a film that is wired back to the motion needs a gear that gives this output");
     for (int g = 0; g < 2; g++)
         if (!(in[DYNAMICS_IN_INERTIA].data[g] > 0 && isfinite(in[DYNAMICS_IN_INERTIA].data[g])))
             return ff_failf(host, FF_INVALID, dynamics_oil_input_ports[DYNAMICS_IN_INERTIA].name,

@@ -15,15 +15,15 @@ typedef struct dynamics_film_wire {
 
 #define DYNAMICS_FILM_WIRE_ROWS(type)                                                              \
     FF_SWITCH("friction", type, wire.friction, "true",                                             \
-              "with a film wired back: whether friction acts as torques on the gears"),            \
+              "whether the friction of a film that is wired back acts as torques on the gears"),   \
         FF_SWITCH("rolling", type, wire.rolling, "true",                                           \
-                  "with a film wired back: whether rolling resistance acts as torques on the "     \
-                  "gears"),                                                                        \
+                  "whether the rolling resistance of a film that is wired back acts as torques "   \
+                  "on the gears"),                                                                 \
         FF_SWITCH("compliance", type, wire.compliance, "true",                                     \
-                  "with a film wired back: whether the film thickness acts in series with the "    \
+                  "whether the thickness of a film that is wired back acts in series with the "    \
                   "teeth")
 
-/* Returns whether a film is wired back and available, as it is from the second round on. */
+/* Returns whether a film is wired back and available; it is available from the second round on. */
 int dynamics_film_is_wired(const ff_array *in);
 
 /* Mean powers, W. */

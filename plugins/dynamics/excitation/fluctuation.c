@@ -14,7 +14,7 @@
    then approximates its cosine within 0.25^8/(2^7 8!) = 3e-12. */
 static const double longest_part = 0.5;
 
-/* MOST_TURNS: turns of an order per mesh cycle */
+/* MOST_TURNS: largest number of turns of an order per mesh cycle */
 enum { SAMPLES = 32, MOST_CYCLES = 4096, MOST_TURNS = 64 };
 
 static const char *name_of(int input)
@@ -69,7 +69,7 @@ ff_status dynamics_refuse_fluctuation(const ff_host *host, const ff_array *order
                : ff_failf(
                      host, FF_UNSUPPORTED, name_of(DYNAMICS_IN_FLUCTUATION_ORDER),
                      "torque or speed fluctuate, but %s needs a motion that repeats every mesh "
-                     "cycle: take dynamics/shooting or dynamics/time-integration, with no film "
+                     "cycle: use dynamics/shooting or dynamics/time-integration, without a film "
                      "wired back",
                      what);
 }
@@ -119,7 +119,7 @@ static void set_drag(const dynamics_excitation *x, const dynamics_fluctuation *f
         p->drag[i] *= unit;
 }
 
-/* Copies a part of a piece of the mesh cycle. The phases of `to` count over the whole period of
+/* Copies a part of a piece of the mesh cycle. The phases of `to` are relative to the period of
    `span` mesh cycles. */
 static void set_part(const dynamics_piece *from, double since, double span, dynamics_piece *to)
 {
@@ -133,7 +133,8 @@ static void set_part(const dynamics_piece *from, double since, double span, dyna
     }
 }
 
-/* Makes `span` mesh cycles of one. 0: out of memory. */
+/* Repeats the pieces of a track for `span` mesh cycles, with the drag of the fluctuation. Returns 0
+   if out of memory. */
 static int repeat_track(const dynamics_excitation *x, const dynamics_fluctuation *f, size_t span,
                         dynamics_track *track)
 {

@@ -19,12 +19,12 @@ typedef struct dynamics_fluctuation {
     const double *order, *cosine, *sine;
 } dynamics_fluctuation;
 
-/* Reads and checks the fluctuation. `in` points to the row of the orders. The other rows follow
-   it. */
+/* Reads and checks the fluctuation. `in` points to the input row of the orders, after which the
+   other rows of the fluctuation follow. `span`: mesh cycles after which force and mesh repeat. */
 ff_status dynamics_fluctuation_read(const ff_host *host, const ff_array *in, double teeth,
                                     dynamics_fluctuation *fluctuation, size_t *span);
 
-/* The sum of the amplitudes, N. */
+/* Returns the sum of the amplitudes, N. */
 double dynamics_fluctuation_size(const dynamics_fluctuation *fluctuation);
 
 /* Expands the excitation to a period of `span` mesh cycles. The fluctuating force becomes a drag

@@ -28,7 +28,7 @@
          .flags = FF_OPTIONAL},                                                                    \
     [DYNAMICS_IN_MESH_FREQUENCY] = {.name = "operating.mesh_frequency",                            \
                                     .unit = "Hz",                                                  \
-                                    .doc = "mesh cycles per second",                               \
+                                    .doc = "mesh frequency: mesh cycles per second",               \
                                     .dims = ""},                                                   \
     [DYNAMICS_IN_LINE_FORCE] = {.name = "operating.line_force",                                    \
                                 .unit = "N",                                                       \
@@ -42,8 +42,7 @@
     [DYNAMICS_IN_STIFFNESS] =                                                                      \
         {.name = "stiffness.stiffness",                                                            \
          .unit = "N/m",                                                                            \
-         .doc = "mesh stiffness; linear between phases, or a smooth curve if the values follow "   \
-                "one",                                                                             \
+         .doc = "mesh stiffness; linear between phases, or a smooth curve if it fits the values",  \
          .dims = "phase"},                                                                         \
     [DYNAMICS_IN_STIFFNESS_MEAN] = {.name = "stiffness.stiffness_mean",                            \
                                     .unit = "N/m",                                                 \
@@ -57,8 +56,8 @@
     [DYNAMICS_IN_LOADED_ERROR] =                                                                   \
         {.name = "stiffness.loaded_transmission_error",                                            \
          .unit = "m",                                                                              \
-         .doc = "transmission error e_l under the line force, which a slow motion approaches "     \
-                "also if the stiffness is the slope of the mesh; default: e + F/k",                \
+         .doc = "transmission error e_l under the line force, which is the limit of a slow "       \
+                "motion; default: e + F/k",                                                        \
          .dims = "phase",                                                                          \
          .flags = FF_OPTIONAL},                                                                    \
     [DYNAMICS_IN_TOOTH_FORCE] = {.name = "stiffness.tooth_force",                                  \
@@ -73,7 +72,7 @@
                                 .flags = FF_OPTIONAL},                                             \
     [DYNAMICS_IN_FORCE_LEVEL] = {.name = "stiffness.force_level",                                  \
                                  .unit = "N",                                                      \
-                                 .doc = "mesh forces, rising from 0, at which the level_... "      \
+                                 .doc = "mesh forces, increasing from 0, at which the level_... "  \
                                         "inputs are given",                                        \
                                  .dims = "level",                                                  \
                                  .flags = FF_OPTIONAL},                                            \
@@ -107,13 +106,14 @@
     [DYNAMICS_IN_FLUCTUATION_COSINE] =                                                             \
         {.name = "operating.fluctuation_cosine",                                                   \
          .unit = "N",                                                                              \
-         .doc = "amplitude of each order in phase with order times rotation angle of gear 1",      \
+         .doc = "amplitude of cos(order angle) in the line force, for each order; angle of gear "  \
+                "1",                                                                               \
          .dims = "fluctuation",                                                                    \
          .flags = FF_OPTIONAL},                                                                    \
     [DYNAMICS_IN_FLUCTUATION_SINE] = {.name = "operating.fluctuation_sine",                        \
                                       .unit = "N",                                                 \
-                                      .doc = "amplitude of each order a quarter period later "     \
-                                             "than fluctuation_cosine",                            \
+                                      .doc = "amplitude of sin(order angle) in the line force, "   \
+                                             "for each order",                                     \
                                       .dims = "fluctuation",                                       \
                                       .flags = FF_OPTIONAL},                                       \
     [DYNAMICS_IN_FLUCTUATION_PERIOD] =                                                             \
@@ -130,44 +130,48 @@
                                  .flags = FF_OPTIONAL},                                            \
     [DYNAMICS_IN_BACK_PHASE] = {.name = "stiffness.back_phase",                                    \
                                 .unit = "1",                                                       \
-                                .doc = "phase of the curves of the flanks that the line force "    \
-                                       "does not press; none or empty: they mirror the others",    \
+                                .doc = "phase of the curves of the back flanks, opposite to "      \
+                                       "those that carry the line force; not given or empty: "     \
+                                       "they mirror the driving flanks",                           \
                                 .dims = "back_phase",                                              \
                                 .flags = FF_OPTIONAL},                                             \
     [DYNAMICS_IN_BACK_OFFSET] = {.name = "stiffness.back_offset",                                  \
                                  .unit = "1",                                                      \
-                                 .doc = "sum of the phases at which both flanks of a tooth meet "  \
-                                        "the other gear at one roll angle",                        \
+                                 .doc = "sum of the two phases at which the two flanks of a "      \
+                                        "tooth of gear 1 are in contact at the same roll angle",   \
                                  .dims = "",                                                       \
                                  .flags = FF_OPTIONAL},                                            \
     [DYNAMICS_IN_BACK_STIFFNESS] = {.name = "stiffness.back_stiffness",                            \
                                     .unit = "N/m",                                                 \
-                                    .doc = "mesh stiffness of those flanks",                       \
+                                    .doc = "mesh stiffness of the back flanks",                    \
                                     .dims = "back_phase",                                          \
                                     .flags = FF_OPTIONAL},                                         \
     [DYNAMICS_IN_BACK_ERROR] = {.name = "stiffness.back_transmission_error",                       \
                                 .unit = "m",                                                       \
-                                .doc = "their transmission error without load",                    \
+                                .doc = "transmission error of the back flanks without load",       \
                                 .dims = "back_phase",                                              \
                                 .flags = FF_OPTIONAL},                                             \
     [DYNAMICS_IN_BACK_LOADED_ERROR] = {.name = "stiffness.back_loaded_transmission_error",         \
                                        .unit = "m",                                                \
-                                       .doc = "the same under load",                               \
+                                       .doc = "transmission error of the back flanks under load",  \
                                        .dims = "back_phase",                                       \
                                        .flags = FF_OPTIONAL},                                      \
     [DYNAMICS_IN_BACK_LEVEL_ERROR] = {.name = "stiffness.back_level_error",                        \
                                       .unit = "m",                                                 \
-                                      .doc = "the same under each force_level",                    \
+                                      .doc = "transmission error of the back flanks under each "   \
+                                             "force_level",                                        \
                                       .dims = "back_level back_phase",                             \
                                       .flags = FF_OPTIONAL},                                       \
     [DYNAMICS_IN_BACK_LEVEL_STIFFNESS] = {.name = "stiffness.back_level_stiffness",                \
                                           .unit = "N/m",                                           \
-                                          .doc = "slope of their mesh force there",                \
+                                          .doc = "slope of the mesh force of the back flanks at "  \
+                                                 "each force_level",                               \
                                           .dims = "back_level back_phase",                         \
                                           .flags = FF_OPTIONAL},                                   \
     [DYNAMICS_IN_BACK_LEVEL_TOOTH_FORCE] = {.name = "stiffness.back_level_tooth_force",            \
                                             .unit = "N",                                           \
-                                            .doc = "tooth force of one pair of them there",        \
+                                            .doc = "tooth force of one pair of back flanks at "    \
+                                                   "each force_level",                             \
                                             .dims = "back_level gear.station",                     \
                                             .flags = FF_OPTIONAL}
 
@@ -249,7 +253,7 @@ const ff_port dynamics_oil_input_ports[DYNAMICS_OIL_INPUT_COUNT] = {
                                     .from = "ehl"},
     [DYNAMICS_IN_FILM_P_MAX] = {.name = "film.p_max",
                                 .unit = "Pa",
-                                .doc = "highest pressure; it shows whether the film is loaded",
+                                .doc = "highest pressure, which shows whether the film is loaded",
                                 .dims = "t",
                                 .flags = FF_OPTIONAL | FF_FEEDBACK,
                                 .from = "ehl"},
@@ -262,9 +266,8 @@ const ff_port dynamics_oil_input_ports[DYNAMICS_OIL_INPUT_COUNT] = {
                                .from = "ehl"},
     [DYNAMICS_IN_FILM_SEPARATION] = {.name = "film.separation",
                                      .unit = "m",
-                                     .doc =
-                                         "film thickness in series with the teeth; used in place "
-                                         "of h_central",
+                                     .doc = "film thickness that acts in series with the teeth, "
+                                            "instead of h_central",
                                      .dims = "t",
                                      .flags = FF_OPTIONAL | FF_FEEDBACK,
                                      .from = "ehl"},

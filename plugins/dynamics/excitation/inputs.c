@@ -70,7 +70,7 @@ static ff_status check_level_forces(const ff_host *host, const ff_array *force, 
     for (size_t i = 0; i < *count; i++)
         if (i == 0 ? force->data[0] != 0 : !(force->data[i] > force->data[i - 1]))
             return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_FORCE_LEVEL),
-                            "must rise from 0, but value %zu is %g N", i + 1, force->data[i]);
+                            "must increase from 0, but value %zu is %g N", i + 1, force->data[i]);
     return FF_OK;
 }
 
@@ -102,7 +102,7 @@ static int agree(double a, double z, double size)
 }
 
 /* Checks that row 0 of the levels is the unloaded transmission error, and that the row of the mean
-   force is the loaded one. */
+   force is the loaded transmission error. */
 static ff_status check_rows(const ff_host *host, const ff_array *in, const dynamics_force_levels *l,
                             double force)
 {
@@ -116,7 +116,7 @@ static ff_status check_rows(const ff_host *host, const ff_array *in, const dynam
             if ((rows[which] || which == 0) &&
                 !agree(there, known, l->error[(l->count - 1) * l->phases + i] - l->error[i]))
                 return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_LEVEL_ERROR),
-                                "is %g m under %g N at phase %g, where %s is %g m", there,
+                                "is %g m under %g N at phase %g, but %s is %g m there", there,
                                 l->force[k], in[DYNAMICS_IN_PHASE].data[i], name_of(inputs[which]),
                                 known);
         }
@@ -124,8 +124,8 @@ static ff_status check_rows(const ff_host *host, const ff_array *in, const dynam
     return FF_OK;
 }
 
-/* Checks that a mesh force can be made of the levels: errors rise with the force, slopes are above
-   0. */
+/* Checks that the levels define a mesh force: errors must increase with the force, and slopes must
+   be above 0. */
 static ff_status check_levels(const ff_host *host, const ff_array *in,
                               const dynamics_force_levels *l, double force)
 {
@@ -136,8 +136,8 @@ static ff_status check_levels(const ff_host *host, const ff_array *in,
                         "under a torque; or use force: frozen");
     if (!(force > 0))
         return ff_failf(host, FF_INVALID, "force",
-                        "force: shared needs a line force or a reference force above 0, but it "
-                        "is %g N; set reference_torque of the duty, or use force: frozen",
+                        "force: shared needs a line force or a reference force above 0, but it is "
+                        "%g N; set reference_torque of the operating stage, or use force: frozen",
                         force);
     if (l->count > DYNAMICS_LINES)
         return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_FORCE_LEVEL),
@@ -147,8 +147,8 @@ static ff_status check_levels(const ff_host *host, const ff_array *in,
             size_t at = k * l->phases + i;
             if (k > 0 && !(l->error[at] > l->error[at - l->phases]))
                 return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_LEVEL_ERROR),
-                                "must rise with the force, but at phase %g it is %g m under %g N "
-                                "and %g m under %g N",
+                                "must increase with the force, but at phase %g it is %g m under %g "
+                                "N and %g m under %g N",
                                 in[DYNAMICS_IN_PHASE].data[i], l->error[at - l->phases],
                                 l->force[k - 1], l->error[at], l->force[k]);
             if (l->stiffness && !(l->stiffness[at] > 0))
@@ -238,7 +238,7 @@ ff_status dynamics_natural_frequency(const ff_host *host, const dynamics_inertia
     return FF_OK;
 }
 
-/* The default range contains the main resonance and the superharmonic ones up to order 8. */
+/* The default range contains the main resonance and the superharmonic resonances up to order 8. */
 ff_status dynamics_atlas_bounds(const ff_host *host, double natural, double *from, double *to)
 {
     const char *item = *to > 0 ? "atlas.to" : "atlas.from";
@@ -246,7 +246,10 @@ ff_status dynamics_atlas_bounds(const ff_host *host, double natural, double *fro
     *to = *to > 0 ? *to : 1.4 * natural;
     if (*to > *from)
         return FF_OK;
-    return ff_failf(host, FF_INVALID, item, "the atlas would run from %g to %g Hz", *from, *to);
+    return ff_failf(host, FF_INVALID, item,
+                    "the range of the atlas, %g to %g Hz, must be positive "
+                    "and increasing",
+                    *from, *to);
 }
 
 /* Returns the unit of length: the static deflection; if that is 0, the range of the transmission
@@ -281,7 +284,7 @@ static ff_status check_stations(const ff_host *host, const dynamics_inputs *inpu
         if (!(cycles > -1e-9 && cycles < 10) ||
             (i && inputs->roll_angle[i] < inputs->roll_angle[i - 1]))
             return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_ROLL_ANGLE),
-                            "must rise from the start of active profile by less than 10 mesh "
+                            "must increase from the start of active profile by less than 10 mesh "
                             "cycles; station %zu is %g mesh cycles after it",
                             i + 1, cycles);
     }
@@ -289,7 +292,7 @@ static ff_status check_stations(const ff_host *host, const dynamics_inputs *inpu
 }
 
 /* Reports how much the smooth pieces differ from the straight lines of the stiffness. If the
-   straight lines sample a smooth curve, their own distance from that curve has the same size. */
+   straight lines sample a smooth curve, they deviate from that curve by the same amount. */
 static void report_representation(const ff_host *host, const dynamics_excitation *excitation)
 {
     static const double limit = 1e-4;
@@ -315,8 +318,8 @@ static void report_spring(const ff_host *host, const dynamics_spring_nodes *s)
     if (!s->lines) {
         snprintf(
             text, sizeof text,
-            "with squeeze: series the motion vibrates on the chord F/(e_l - e); the slope of the "
-            "mesh at the mean load is %.3g %% higher on average",
+            "with squeeze: series the mesh spring is the secant stiffness F/(e_l - e); the tangent "
+            "stiffness at the mean load is %.3g %% higher on average",
             100 * s->steeper);
         host->quality(host->ctx, "mesh_slope", s->steeper, much,
                       s->steeper <= much ? FF_GOOD : FF_DOUBTFUL, text);
@@ -326,19 +329,20 @@ static void report_spring(const ff_host *host, const dynamics_spring_nodes *s)
         snprintf(
             text, sizeof text,
             "at %.3g %% of the phases the loaded transmission error does not exceed the unloaded "
-            "one: there the spring is the straight line k g",
+            "transmission error: the spring is linear there",
             100 * s->unknown);
     else if (s->soft > 0)
         snprintf(
             text, sizeof text,
-            "at %.3g %% of the phases the stiffness is below the chord F/(e_l - e), but a mesh "
-            "stiffens under load: the chord is used there",
+            "at %.3g %% of the phases the tangent stiffness is below the secant stiffness F/(e_l - "
+            "e), but a mesh stiffens under load: the secant is used there",
             100 * s->soft);
     else
         snprintf(
             text, sizeof text,
-            "the motion vibrates on the slope of the mesh at the mean load, on average %.3g %% "
-            "above the chord F/(e_l - e); below half the mean force it follows a chord to e",
+            "the mesh spring has the tangent stiffness at the mean load, on average %.3g %% above "
+            "the secant stiffness F/(e_l - e); below half the mean force it is a straight line to "
+            "contact loss at e",
             100 * s->steeper);
     host->quality(host->ctx, "mesh_slope", off, 0, off > 0 ? FF_DOUBTFUL : FF_GOOD, text);
 }
@@ -349,8 +353,8 @@ static void report_damping(const ff_host *host, const dynamics_excitation *excit
     if (excitation->zeta == 0 && !excitation->on_chord)
         host->quality(
             host->ctx, "damping", 0, 0, FF_DOUBTFUL,
-            "damping_ratio is 0: no disturbance decays. The motion shown is one of many, and a "
-            "real machine would settle to none of them");
+            "damping_ratio is 0: no disturbance decays. The motion shown is one of many undamped "
+            "motions, and a real machine would not settle to it");
 }
 
 static void report_shared(const ff_host *host, const dynamics_force_levels *l, double force,
@@ -359,16 +363,17 @@ static void report_shared(const ff_host *host, const dynamics_force_levels *l, d
     static const double limit = 1e-3;
     char text[240];
     snprintf(text, sizeof text,
-             "the mesh force at one of its %zu forces, up to %.3g times the mean, lies below the "
-             "tangent at a smaller force and was raised; largest change over the mean force",
+             "largest change of the mesh force over the mean force: at one of the %zu force "
+             "levels, up to %.3g times the mean, it was below the tangent at a smaller level and "
+             "was raised",
              l->count, l->force[l->count - 1] / force);
     host->quality(host->ctx, "mesh_force_convex", convex, limit,
                   convex <= limit ? FF_GOOD : FF_DOUBTFUL, text);
     if (soft > 0)
         host->quality(host->ctx, "soft_levels", soft, 0, FF_DOUBTFUL,
-                      "share of the phases and forces where level_stiffness is below the chord "
-                      "from the previous force, but a mesh stiffens under load: the chord is "
-                      "used there");
+                      "share of the phases and forces at which level_stiffness is below the secant "
+                      "from the previous force, but a mesh stiffens under load: the secant is used "
+                      "there");
 }
 
 /* Makes the spring at the nodes of the curves. */
@@ -426,9 +431,9 @@ int dynamics_floats(const dynamics_inputs *inputs, const dynamics_excitation *ex
 void dynamics_floating_line(const ff_host *host)
 {
     static const char text[] =
-        "without a torque nothing presses the flanks together: the gears float, and every place "
-        "in the backlash is an equilibrium. The middle is shown, without forces. A drag torque "
-        "or a fluctuation of torque or speed would cause a motion";
+        "without a torque nothing presses the flanks together: the gears float, and every position "
+        "in the backlash is an equilibrium. The middle is shown, without forces. A drag torque or "
+        "a fluctuation of torque or speed would cause a motion";
     host->log(host->ctx, FF_LOG_INFO, text);
     host->quality(host->ctx, "floating", 0, 0, FF_GOOD, text);
 }

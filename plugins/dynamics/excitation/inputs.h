@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The inputs of a dynamic model from gear, duty and mesh, checked and made dimensionless. */
+/* The inputs of a dynamic model from the gear, operating and stiffness stages, checked and made
+   dimensionless. */
 #ifndef DYNAMICS_INPUTS_H
 #define DYNAMICS_INPUTS_H
 
@@ -50,8 +51,8 @@ enum {
     DYNAMICS_COUPLED_INPUT_COUNT
 };
 
-/* Inputs that follow those of all models. They are read by models with feedback between motion and
- * film, and by models with an oil film between separated flanks. */
+/* Further inputs after those of all models, for models with feedback between motion and film and
+   for models with an oil film between separated flanks. */
 enum {
     DYNAMICS_IN_RADIUS_1 = DYNAMICS_INPUT_COUNT,
     DYNAMICS_IN_RADIUS_2,
@@ -86,22 +87,23 @@ typedef struct dynamics_inertia {
                 "damping over critical damping at the mean stiffness, c/(2 sqrt(k m))")
 #define DYNAMICS_DAMPING_ROW(type)                                                                 \
     FF_ONE_OF("always|contact|clipped", "damping", type, damping, 0, "always",                     \
-              "when the damper acts: always (also in free flight, as Li & Kahraman 2011), in "     \
-              "contact only, or clipped: in contact only, and the mesh force never pulls")
+              "when the damper acts. always: also in free flight (Li & Kahraman 2011); contact: "  \
+              "only in contact; clipped: only in contact, and the mesh force never pulls")
 #define DYNAMICS_FORCE_ROW(type)                                                                   \
     FF_ONE_OF(                                                                                     \
         "frozen|shared", "force", type, force, 0, "frozen",                                        \
-        "mesh force: frozen (load sharing and slope at the mean load) or shared (load sharing at " \
-        "every force; the stiffness must give forces at several levels, force_level)")
+        "model of the mesh force. frozen: load sharing and tangent stiffness at the mean load; "   \
+        "shared: load sharing at every force, for which the stiffness must give several levels, "  \
+        "force_level")
 #define DYNAMICS_INERTIA_ROWS(type)                                                                \
     FF_QUANTITY("equivalent_mass", "kg", type, inertia.equivalent_mass, FF_MIN_OPEN, NULL,         \
                 "inertia", 0, 1e9, 0, 0,                                                           \
-                "equivalent mass at the mesh spring; default: the gear's"),                        \
+                "equivalent mass at the mesh spring; default: that of the gear"),                  \
         FF_QUANTITY(                                                                               \
             "natural_frequency", "Hz", type, inertia.natural_frequency, FF_MIN_OPEN, NULL,         \
             "inertia", 0, 1e9, 0, 0,                                                               \
-            "natural frequency of small vibration at the mean of the wired stiffness (tangent or " \
-            "secant), in place of the mass")
+            "natural frequency of small vibrations at the mean of the wired stiffness (tangent "   \
+            "or secant), instead of equivalent_mass")
 
 typedef struct dynamics_inputs {
     double line_force, mesh_frequency, natural_frequency; /* N, Hz, Hz */
@@ -142,14 +144,14 @@ ff_status dynamics_evaluate(const ff_host *host, const ff_port *ports, size_t co
    of gear 1. */
 void dynamics_put_stations(double *x, size_t stations, size_t total, int back);
 
-/* Checks and reads all inputs. zeta and damping of `excitation` are already set. Free
-   it with dynamics_excitation_free. */
+/* Checks and reads all inputs. zeta and damping of `excitation` are already set. The caller frees
+   `excitation` with dynamics_excitation_free. */
 ff_status dynamics_inputs_read(const ff_host *host, const ff_array *in,
                                const dynamics_inertia *inertia, dynamics_inputs *inputs,
                                dynamics_excitation *excitation);
 
-/* Returns whether nothing presses the flanks together, so that every place in the
-   backlash is an equilibrium. */
+/* Returns whether nothing presses the flanks together, so that every position in the backlash is an
+   equilibrium. */
 int dynamics_floats(const dynamics_inputs *inputs, const dynamics_excitation *excitation);
 void dynamics_floating_line(const ff_host *host);
 
@@ -163,7 +165,7 @@ static inline size_t dynamics_count_or_auto(int64_t value)
     return value < 0 ? 0 : (size_t)value;
 }
 
-/* Mesh cycles in one cycle of the excitation. */
+/* Returns the number of mesh cycles in one cycle of the excitation. */
 static inline size_t dynamics_span(const dynamics_inputs *inputs)
 {
     return inputs->span > 1 ? inputs->span : 1;
@@ -178,12 +180,13 @@ static inline size_t dynamics_cycles(const dynamics_inputs *inputs, int64_t mesh
 /* Sets the ends of an atlas (Hz) that are not given (0) from the natural frequency. */
 ff_status dynamics_atlas_bounds(const ff_host *host, double natural, double *from, double *to);
 
-/* Reports parameters without effect, in ready: the gear's inertia if the user gives
-   one, and `damping` if the damping ratio is 0. `zeta` is NaN if the model has no
-   parameter `damping`. */
+/* Declares parameters and inputs without effect, when called in `ready`: the inertia of the gear if
+   the user gives an inertia, and `damping` if the damping ratio is 0. `zeta` is NaN if the model
+   has no parameter `damping`. */
 void dynamics_tell_servings(const ff_host *host, const dynamics_inertia *inertia, double zeta);
 
-/* Reports, in ready, that the ends of the atlas affect only these outputs. */
+/* dynamics_tell_atlas declares, when called in `ready`, that the ends of the atlas affect only
+   these outputs. */
 #define DYNAMICS_ATLAS_OUTPUTS                                                                     \
     "stable_motions|atlas_frequency|atlas_rms|atlas_stable|atlas_branch|atlas_floquet_max|"        \
     "fold_frequency|fold_branch|doubling_frequency|doubling_branch"

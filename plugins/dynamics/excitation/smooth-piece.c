@@ -4,9 +4,9 @@
 #include <math.h>
 #include <string.h>
 
-/* A curve counts as smooth if a polynomial fits its nodes within `meets` and the midpoints of
-   the lines within `between`. Both bounds are relative to the mean stiffness or to the unit of
-   length. */
+/* A curve is smooth if a polynomial deviates from its nodes by less than `meets` and from the
+   midpoints of its lines by less than `between`. Both bounds are relative to the mean stiffness or
+   to the unit of length. */
 static const double meets = 1e-7, between = 1e-4;
 
 /* Least number of lines per piece: three per fitted coefficient, so that a polynomial cannot fit a
@@ -54,7 +54,7 @@ static double fit_at(const fit *f, double x)
     return value;
 }
 
-/* Solves the normal equations with matrix n and right-hand side a; a becomes the solution. Returns
+/* Solves the normal equations with matrix n and right-hand side a; the solution replaces a. Returns
    0 if n is singular. The basis is nearly orthogonal, so n is well conditioned. */
 static int solve_normal(double n[FREE][FREE], double a[FREE])
 {
@@ -133,7 +133,7 @@ static void powers_of(const fit *f, double c[DYNAMICS_DEGREE + 1])
         c[k] /= scale;
 }
 
-/* Fits one series between two nodes. Returns 0 if it is not smooth there. */
+/* Fits one series between two nodes. Returns 0 if the series is not smooth there. */
 static int fit_series(const dynamics_mesh_curves *x, const double *value, double unit,
                       const size_t ends[2], double distance[2], double *coefficients)
 {

@@ -6,8 +6,9 @@
 #include "spring.h"
 
 /* Fits the longest smooth piece that begins at node `first` and ends at node `last` or before, and
-   adds its errors to `represented`. `spring` NULL: the spring is linear. Returns the node where the
-   piece ends, or 0 if the lines there do not follow a smooth curve or are too few to decide. */
+   adds its errors to `represented`. If `spring` is NULL, the spring is linear. Returns the node
+   where the piece ends, or 0 if the lines there do not follow a smooth curve or are too few to
+   decide. */
 size_t dynamics_smooth_piece(const dynamics_excitation *excitation,
                              const dynamics_mesh_curves *curves,
                              const dynamics_spring_nodes *spring, size_t first, size_t last,

@@ -5,11 +5,13 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Force of the knee, relative to the mean force. Among 0.1 to 0.75 this value keeps the law closest
-   to the load distribution from 0 to 1.2 F, with and without profile relief (theory, section 4). */
+/* Force at the knee, relative to the mean force F. Of the values from 0.1 to 0.75 this one
+   reproduces the load distribution best from 0 to 1.2 F, with and without profile relief (theory,
+   section 4). */
 static const double knee = 0.5;
 
-/* An offset below this share of the mean force is round-off, and k is the chord. */
+/* An offset below this share of the mean force is round-off; k then equals the chord F/(e_l -
+   e). */
 static const double round_off = 1e-6;
 
 double dynamics_spring_knee_energy(const dynamics_piece *p, double since, int band)
@@ -134,7 +136,8 @@ static const double least_bend = 1e-5;
 /* A given slope that is raised by more than this relative amount is reported. */
 static const double much_softer = 1e-3;
 
-/* The last line kept at a node: deflection and force at its level, and its slope. */
+/* The last line of the spring made so far at a node: deflection g and force at its level, and its
+   slope. */
 typedef struct last_line {
     double g, force, slope;
 } last_line;
@@ -149,7 +152,7 @@ static last_line last_line_at(const dynamics_force_levels *l, const dynamics_spr
 
 /* Makes a line at node i. If slopes are given, it is the tangent at the point (g, F) of the level.
    The tangent is raised if the last line is above it, and made steeper if its slope is below the
-   chord between both points. Neither happens if the levels are convex. Without slopes the line is
+   chord between both points. Neither is needed if the levels are convex. Without slopes the line is
    the chord to the next level. Returns whether a given slope was raised. */
 static int make_line(const dynamics_force_levels *l, const dynamics_spring_nodes *s,
                      const size_t level[3], size_t i, const dynamics_spring_row *row)
@@ -184,8 +187,7 @@ static int bends_up(const dynamics_spring_nodes *s, const dynamics_spring_row *r
     return 0;
 }
 
-/* Returns the largest difference (N) between the spring and a level that its lines were made
-   from. */
+/* Returns the largest difference (N) between the spring and the force of a level. */
 static double largest_miss(const dynamics_force_levels *l, const dynamics_spring_nodes *s,
                            size_t level)
 {

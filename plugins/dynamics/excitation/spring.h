@@ -1,28 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * The mesh spring behind the dead zone, at a phase: a convex piecewise linear force of g = s - e.
- * It is the largest of several straight lines, slope g - offset. The slopes rise from line to line,
- * and the first line passes through g = 0. A knee is the intersection of two consecutive lines. The
- * band of a deflection is the index of the line that gives its force.
- * A spring that is frozen at the mean force F has two lines. A small vibration has the slope k =
- * dF/d(e_l) of the mesh, which is steeper than the chord F/(e_l - e). With e_t = e_l - F/k the
- * force down to half the mean force is
- *   k (s - e_t) = k g - offset,   offset = k (e_t - e) = k (e_l - e) - F >= 0.
- * Below half the mean force it follows the chord from there to the unloaded e, so that contact is
- * lost at e (theory, eq. 4.3a). The force is k g without lines if there is no loaded transmission
- * error, or if k is the chord.
- * A shared spring has a line for each force level of the stiffness: the tangent of G(phase, s)
- * there (theory, eq. 4.3b). Two tangents intersect where a further pair comes into contact, also if
- * that point moves with the phase. If no slopes are given, the lines are the chords between the
- * levels.
- */
+/* The mesh spring in series with the dead zone, at a phase: a convex piecewise linear force over
+   the deflection g = s - e. It is the largest of several straight lines, slope g - offset. The
+   slopes increase from line to line, and the first line passes through g = 0. A knee is the
+   intersection of two consecutive lines. The band of a deflection is the index of the line that
+   gives its force. A spring that is frozen at the mean force F has two lines. For small vibrations
+   the slope of the mesh is k = dF/d(e_l), which is steeper than the chord F/(e_l - e). With e_t =
+   e_l - F/k, the force above half the mean force is k (s - e_t) = k g - offset, offset = k (e_t -
+   e) = k (e_l - e) - F >= 0. Below half the mean force it is the straight line from that point to
+   the unloaded e, so that contact is lost at e (theory, eq. 4.3a). The force is k g without lines
+   if there is no loaded transmission error, or if k is the chord. A shared spring has a line for
+   each force level of the stiffness: the tangent of the mesh force G(phase, s) at the level
+   (theory, eq. 4.3b). Two tangents intersect where a further pair comes into contact, even if the
+   force at which this happens varies with the phase. If no slopes are given, the lines are the
+   chords between the levels. */
 #ifndef DYNAMICS_SPRING_H
 #define DYNAMICS_SPRING_H
 
 #include "excitation.h"
 
-/* Returns by how much the force of a line exceeds that of the previous line at a deflection g >=
-   0. */
+/* Returns the force of a line minus the force of the previous line at a deflection g >= 0. */
 static inline double dynamics_spring_excess(const dynamics_piece *p, int line, double since,
                                             double g)
 {
@@ -77,8 +73,8 @@ typedef struct dynamics_spring {
 dynamics_spring dynamics_spring_at(const dynamics_piece *piece, double since, double T, double bend,
                                    int band);
 /* Returns the difference between the energy in a band and slope g^2/2 - offset g: the sum of
-   (change of offset)^2/(2 (change of slope)) over the knees below the band. It depends on the phase
-   alone. */
+   (change of offset)^2/(2 (change of slope)) over the knees below the band. It depends only on the
+   phase. */
 double dynamics_spring_knee_energy(const dynamics_piece *piece, double since, int band);
 double dynamics_spring_force(const dynamics_piece *piece, double since, double bend);
 
@@ -86,21 +82,21 @@ double dynamics_spring_force(const dynamics_piece *piece, double since, double b
    over the phases, or over the stations of the path of contact. count 0: none are given. */
 typedef struct dynamics_force_levels {
     size_t count, phases, stations;
-    const double *force;       /* rising from 0 */
-    const double *error;       /* transmission error under each; NULL: not known */
+    const double *force;       /* increasing from 0 */
+    const double *error;       /* transmission error under each force; NULL: not known */
     const double *stiffness;   /* slope dF/d(error); NULL: not known */
-    const double *tooth_force; /* of one pair at each station; NULL: not known */
+    const double *tooth_force; /* tooth force of one pair at each station; NULL: not known */
 } dynamics_force_levels;
 
 /* The spring at the nodes of the stiffness curves, in SI units: k, and the lines of the piecewise
    linear force. */
 typedef struct dynamics_spring_nodes {
     size_t count, lines; /* lines 0: the spring is linear */
-    double *stiffness;   /* NULL: that of the curves */
+    double *stiffness;   /* NULL: the stiffness of the curves */
     double *rows;        /* slopes of each line, then its offsets */
-    double steeper;      /* mean over the nodes of k divided by the chord F/(e_l - e), less 1 */
-    /* share of the nodes where k is below that chord and is replaced by it; with a shared force
-       the share of nodes and levels where the slope is below the chord to the previous level */
+    double steeper;      /* mean over the nodes of k divided by the chord F/(e_l - e), minus 1 */
+    /* share of the nodes where k is below this chord and is replaced by it; if the force is shared,
+       share of the nodes and levels where the slope is below the chord to the previous level */
     double soft;
     double unknown; /* share of the nodes where e_l does not exceed e */
 } dynamics_spring_nodes;

@@ -16,9 +16,9 @@ static double error_at(const dynamics_piece *p, double phase)
     return dynamics_piece_value(p->e, p->degree, phase - p->start);
 }
 
-/* Finds the least difference of the errors of driving and back flanks at SAMPLES places in each
- * piece. A hundredth of the range is subtracted to allow for smaller values between these places.
- */
+/* Returns the smallest difference of the errors of driving and back flanks at SAMPLES points in
+   each piece. A hundredth of the range is subtracted to allow for smaller values between these
+   points. */
 static double least_room(const dynamics_excitation *x)
 {
     enum { SAMPLES = 8 };
@@ -63,7 +63,7 @@ double dynamics_back_lowest(const dynamics_excitation *x)
     return lowest;
 }
 
-/* Adds a share of the flank's error. */
+/* Adds `share` times the error e of the flank to the e of the piece `to`. */
 static void add_error(const dynamics_track *flank, double share, double phase, double length,
                       dynamics_piece *to)
 {

@@ -17,7 +17,7 @@
 
 struct dynamics_spring_nodes;
 
-/* The track of the driving flanks (1), of free flight (0) or of the back flanks (-1). */
+/* Returns the track of the driving flanks (1), of free flight (0) or of the back flanks (-1). */
 static inline dynamics_track dynamics_track_of(const dynamics_excitation *x, int side)
 {
     if (side < 0 && x->back.count)
@@ -32,7 +32,7 @@ static inline int dynamics_track_holds(dynamics_track c, const dynamics_piece *p
     return c.count && p >= c.pieces && p < c.pieces + c.count;
 }
 
-/* The track that a piece belongs to. */
+/* Returns the track that contains a piece. */
 static inline dynamics_track dynamics_track_with(const dynamics_excitation *x,
                                                  const dynamics_piece *p)
 {
@@ -41,7 +41,7 @@ static inline dynamics_track dynamics_track_with(const dynamics_excitation *x,
                                                 : (dynamics_track){x->pieces, x->count};
 }
 
-/* Whether driving and back flanks have separate tracks. */
+/* Returns whether driving and back flanks have separate tracks. */
 static inline int dynamics_tracks_differ(const dynamics_excitation *x)
 {
     return x->back.count > 0;
@@ -52,7 +52,7 @@ static inline int dynamics_tracks_differ(const dynamics_excitation *x)
 int dynamics_tracks_add_back(dynamics_excitation *x, const dynamics_mesh_curves *curves,
                              const struct dynamics_spring_nodes *spring);
 
-/* The least transmission error of the back flanks, at the nodes of their track. */
+/* Returns the smallest transmission error of the back flanks at the nodes of their track. */
 double dynamics_back_lowest(const dynamics_excitation *x);
 
 /* Adds the track of free flight. Its e is the mean of the e of both flanks, with the weight `share`

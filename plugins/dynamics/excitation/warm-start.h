@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The motion that one case of a chain passes to the next one, like a slow sweep of the speed. */
+/* The motion that a case of a chain passes to the next case, as in a slow sweep of the speed. */
 #ifndef DYNAMICS_WARM_START_H
 #define DYNAMICS_WARM_START_H
 
@@ -9,8 +9,8 @@
 
 typedef struct dynamics_warm_start {
     char mark[16];
-    double mesh_frequency; /* Hz; 0: there is none */
-    double delta, rate;    /* m, m/s: s - e at phase 0, before the node */
+    double mesh_frequency; /* Hz; 0: there is no motion */
+    double delta, rate;    /* m, m/s: s - e and its rate at phase 0, before a jump there */
     int64_t period;        /* mesh cycles; below 1: the motion is not periodic */
 } dynamics_warm_start;
 

@@ -18,8 +18,10 @@ typedef struct work {
     cholmod_common common;
     cholmod_triplet *triplets;
     cholmod_factor *factor;
-    size_t *place;                  /* position of each degree of freedom in the factor */
-    double *corner;                 /* L_ss, column-major, in the factor's order */
+    size_t *place;                  /* position of each degree of freedom in the ordering of the
+                                       factor */
+    double *corner;                 /* block L_ss of the Cholesky factor L for the sides s,
+                                       column-major, in the factor's order */
     cholmod_dense *load, *solution; /* one column for each load, in the factor's order */
     cholmod_dense *spare[2];
 } work;
@@ -151,8 +153,8 @@ static int solve(work *w, int system, cholmod_dense *known)
                           &w->spare[1], &w->common);
 }
 
-/* Writes a matrix to `to` in natural order. The rows of `from`, and its columns if it is square,
-   are the sides in the factor's order. */
+/* Copies the matrix `from` to `to` in natural order. In `from` the rows, and if it is square also
+   the columns, are the degrees of freedom of the sides in the factor's order. */
 static void put_in_order(const work *w, const double *from, size_t columns, int square, double *to)
 {
     size_t both = 2 * w->side;
@@ -163,8 +165,8 @@ static void put_in_order(const work *w, const double *from, size_t columns, int 
     }
 }
 
-/* From L y = f, computes L_ss y_s, the forces on the sides, and with x = L_ii'^-1 y_i the
-   compliance x' f. */
+/* Solves L y = f for the loads f. Computes the forces on the sides, L_ss y_s, and the compliance x'
+   f with x = L_ii'^-1 y_i. */
 static int condense_loads(work *w, stiffness_condensed *c, double *product)
 {
     size_t both = 2 * w->side, all = w->inside + both;

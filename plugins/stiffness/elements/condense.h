@@ -11,12 +11,12 @@ typedef struct stiffness_condensed {
     size_t loads;
     double *stiffness; /* stiffness of the sides, 2 side x 2 side, column-major: left (y < 0),
                           then right */
-    double *pull;      /* forces of the loads on the sides, 2 side x loads, column-major */
+    double *pull;      /* forces on the sides due to the loads, 2 side x loads, column-major */
     double *held;      /* compliance between the loads with both sides fixed, loads x loads */
 } stiffness_condensed;
 
-/* Condenses the sector. The loads consist of `parts` parts. Returns one of these values; the caller
-   frees the result, also after an error. */
+/* Condenses the sector. Each load is the sum of some of the `parts` nodal forces `part`. Returns
+   one of these values; the caller frees the result, also after an error. */
 enum { STIFFNESS_CONDENSED, STIFFNESS_CONDENSE_MEMORY, STIFFNESS_CONDENSE_SINGULAR };
 int stiffness_condense(stiffness_condensed *c, const stiffness_sector *sector,
                        const stiffness_material *material, size_t loads, size_t parts,

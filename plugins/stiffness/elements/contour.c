@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Contour of a tooth space from the rack that cuts it. */
+/* Contour of a tooth space, computed from the rack that cuts the space. */
 #include "contour.h"
 
 #include "../../numerics/involute.h"
@@ -13,10 +13,10 @@ static double half_angle_at(const stiffness_contour *o, double roll)
 }
 
 /* Computes the radius of a point of the fillet, and half the angle of the tooth there. The rounded
-   tip of the rack cuts the point when the centre of its rounding is `travel` beside the pitch
-   point; the normal at the point passes through the pitch point (Litvin & Fuentes 2004). At that
-   moment the middle of the tooth space is travel - land beside the pitch point along the reference
-   circle, on the same side. */
+   tip of the rack cuts the point when the centre of its rounding is at the distance `travel` from
+   the line of centres; the normal at the point passes through the pitch point (Litvin & Fuentes
+   2004). At that moment the middle of the tooth space is at the distance travel - land from the
+   line of centres, along the reference circle, on the same side. */
 static void fillet(const stiffness_contour *o, double travel, double *radius, double *half_angle)
 {
     double reach = hypot(travel, o->depth);
@@ -65,7 +65,7 @@ static int cross_undercut(stiffness_contour *o, double last)
 }
 
 /* Finds the rack with a rounded tip that cuts this root circle and this tooth thickness. Returns
-   NULL, or what is wrong. */
+   NULL, or a sentence that says what is wrong. */
 static const char *make_rack(stiffness_contour *o, const stiffness_contour_data *d)
 {
     double r = d->reference_radius, c = d->base_radius / r, s = sqrt(1 - c * c);
@@ -75,11 +75,12 @@ static const char *make_rack(stiffness_contour *o, const stiffness_contour_data 
     if (!(depth > 0))
         return "the root circle lies above the reference circle";
     if (!(tip > 0))
-        return "the tooth space comes to a point above the root circle";
+        return "the flanks of the tooth space meet above the root circle";
     /* largest rounding for which the straight flank still reaches the lowest point of contact */
     double fits = (depth - s * (r * s - d->base_radius * d->contact_roll)) / (1 - s);
     if (!(fits > 0))
-        return "contact reaches below the straight part of the rack that cuts to this root circle";
+        return "contact reaches below the involute, which begins where the straight part of the "
+               "rack ends for this root circle";
     o->round = fmin(fmin(d->round, fits), fmin(tip * c / (1 - s), depth / (1 - s)) * (1 - 1e-9));
     o->depth = depth - o->round;
     o->land = tip - o->round * (1 - s) / c;
@@ -87,7 +88,7 @@ static const char *make_rack(stiffness_contour *o, const stiffness_contour_data 
     /* the straight flank ends at depth - round (1 - s) below the rolling line */
     o->form_roll = (r * s - (depth - o->round * (1 - s)) / s) / d->base_radius;
     if (o->form_roll <= 0 && !cross_undercut(o, o->fillet_end))
-        return "the root is undercut by more than the involute can stand";
+        return "the root is undercut so far that no involute is left";
     return NULL;
 }
 
@@ -108,7 +109,7 @@ const char *stiffness_contour_make(stiffness_contour *o, const stiffness_contour
     if (!(o->form_roll <= d->contact_roll + 1e-9))
         return "contact reaches below the end of the involute";
     if (!(half_angle_at(o, d->tip_roll) > 0))
-        return "the tooth comes to a point below its tip";
+        return "the tooth is pointed below its tip";
     return NULL;
 }
 
@@ -138,7 +139,8 @@ double stiffness_contour_middle(const stiffness_contour *o)
 
 stiffness_flank_force stiffness_contour_force(const stiffness_contour *o, double roll)
 {
-    /* the normal touches the base circle and is at the angle psi to the normal of the axis */
+    /* the normal of the flank touches the base circle; psi is its angle to the normal of the
+       tooth's axis */
     double psi = roll - o->half_angle, c = cos(psi), s = sin(psi);
     return (stiffness_flank_force){.radius = o->base_radius * sqrt(1 + roll * roll),
                                    .direction = {-s, -c},

@@ -12,7 +12,7 @@ typedef struct stiffness_point {
 typedef struct stiffness_contour {
     double base_radius, reference_radius, root_radius, tip_radius; /* m */
     double half_sector;                                            /* pi over the number of teeth */
-    double half_angle; /* of the tooth at the base circle, between its involutes */
+    double half_angle; /* half angle of the tooth at the base circle, between its involutes */
     double depth; /* depth of the centre of the tip's rounding below the rolling line of the rack */
     double round; /* radius of the rack's rounded tip */
     double land;  /* half of the flat part of the rack's tip */
@@ -34,7 +34,8 @@ const char *stiffness_contour_make(stiffness_contour *o, const stiffness_contour
 /* Returns the point at p, which runs from 0 (middle of the space) over 1 (fillet) and 2 (involute)
    to 3 (tip). */
 stiffness_point stiffness_contour_at(const stiffness_contour *o, double p);
-/* Returns the p at which the normal of the fillet has turned halfway. */
+/* Returns the parameter p at which the normal of the fillet has turned by half of its total
+   angle. */
 double stiffness_contour_middle(const stiffness_contour *o);
 
 /* A unit normal force on the flank at a roll angle: its point of application, its direction into

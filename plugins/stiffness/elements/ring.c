@@ -9,8 +9,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* The loads: forces on the flank; forces on the axis below them; and at two places of the flank a
-   pressure, a force in its middle, and a force on the axis. */
+/* The loads: forces on the flank; forces on the axis of the tooth below them; and at two points of
+   the flank a pressure, a force in the middle of the pressure, and a force on the axis below. */
 enum {
     ROLLS = STIFFNESS_RING_ROLLS,
     PLACES = 2,
@@ -23,8 +23,8 @@ enum {
     PARTS = 2 * ROLLS + PLACES * (PRESSURE_PARTS + 2)
 };
 
-/* Places of the pressures on the flank, from its lowest point (0) to the tip (1). The half width of
-   a pressure is relative to the depth of the axis below it. */
+/* Positions of the pressures on the flank, from its lowest point (0) to the tip (1), and their half
+   width, relative to the depth of the tooth's axis below the flank. */
 static const double place[PLACES] = {0.3, 0.7}, width_ratio = 0.3;
 
 /* Chebyshev points including both ends, and their barycentric weights. */
@@ -111,8 +111,9 @@ static void add_thinness(stiffness_ring *r, const stiffness_condensed *c,
     }
 }
 
-/* Rotates x and y of the nodes on the right side into the frame of the next sector: in the rows of
-   a matrix with `columns` columns of 2 side numbers, and in the columns of a square matrix. */
+/* Rotate x and y of the nodes on the right side into the frame of the next sector: turn_rows in the
+   rows of a matrix with `columns` columns of 2 side numbers, turn_columns in the columns of a
+   square matrix. */
 static void turn_rows(double *matrix, size_t side, size_t columns, double c, double s)
 {
     for (size_t k = 0; k < columns; k++)
@@ -138,9 +139,9 @@ typedef struct harmonic {
     double complex *matrix, *load; /* side x side, side x LOADS */
 } harmonic;
 
-/* Harmonic n: the displacement of the right side is z times that of the left side, z = exp(2 pi
-   i n/teeth). Leaves L^-1 h in `load`, where L L^H is the stiffness of the harmonic and h its
-   loads. */
+/* Harmonic n: the displacement of the right side is z times that of the left side, z = exp(2 pi i
+   n/teeth). On return, `load` is L^-1 h, where L L^H is the stiffness matrix of the harmonic and h
+   its loads. */
 static int solve_harmonic(const stiffness_condensed *c, double complex z, harmonic *h)
 {
     size_t n = c->side;
@@ -167,8 +168,8 @@ static double complex product(const harmonic *h, size_t a, size_t b)
     return sum;
 }
 
-/* Adds the contribution of the harmonic to all compliances. A load on one sector contains every
-   harmonic equally. */
+/* Adds the contribution of the harmonic to all compliances, with the factor `part`: a load on one
+   sector contains all harmonics with equal amplitude. */
 static void add_harmonic(stiffness_ring *r, const harmonic *h, double complex z, double part)
 {
     for (size_t a = 0; a < ROLLS; a++) {
@@ -208,7 +209,7 @@ static int add_harmonics(stiffness_ring *r, stiffness_condensed *c, size_t teeth
     return result;
 }
 
-/* Adds the compliance with fixed sides, and measures the asymmetry of the sum. */
+/* Adds the compliance of a sector with fixed sides, and sets `reciprocity`. */
 static void add_held(stiffness_ring *r, const stiffness_condensed *c)
 {
     double worst = 0, largest = 0;

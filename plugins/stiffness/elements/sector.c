@@ -27,7 +27,7 @@ static void arc_table_make(arc_table *m, const stiffness_contour *o, double from
     }
 }
 
-/* Returns the point of the contour at that fraction of its length. */
+/* Returns the point of the contour at the given fraction of its length. */
 static stiffness_point arc_table_at(const arc_table *m, double fraction)
 {
     double length = fraction * m->length[TABLE];
@@ -49,7 +49,8 @@ typedef struct counts {
 
 static counts choose_counts(size_t elements)
 {
-    /* 2q across the tooth, 2q along it, q across each half space, 5q/2 through the body */
+    /* 2q elements across the tooth, 2q along the flank, q across each half of the space, 5q/2
+       through the body */
     double q = sqrt((double)elements / 14);
     size_t half = (size_t)fmax(2, round(q));
     return (counts){2 * half, half, 2 * half, (size_t)fmax(4, round(2.5 * q))};
@@ -60,8 +61,8 @@ static size_t *cell(const stiffness_sector *s, size_t row, size_t column)
     return &s->grid[row * s->columns + column];
 }
 
-/* Whether the grid has a node here. Eight-node elements have no node in their middle; outside the
-   body, only the tooth has nodes. */
+/* Returns whether the grid has a node here. Eight-node elements have no node in their middle;
+   outside the body, only the tooth has nodes. */
 static int has_node(const stiffness_sector *s, size_t row, size_t column)
 {
     if (row % 2 == 1 && column % 2 == 1)
@@ -69,7 +70,8 @@ static int has_node(const stiffness_sector *s, size_t row, size_t column)
     return row < s->body_rows || (column >= s->tooth_from && column <= s->tooth_to);
 }
 
-/* Numbers the nodes of the grid, and lists those of each element. 0 if memory is short. */
+/* Numbers the nodes of the grid, and lists the nodes of each element. Returns 0 if out of
+   memory. */
 static int number_nodes(stiffness_sector *s, const counts *c)
 {
     s->body_rows = 2 * c->body + 1;
@@ -90,7 +92,7 @@ static int number_nodes(stiffness_sector *s, const counts *c)
             if (*cell(s, i + 2, j) == STIFFNESS_NO_NODE ||
                 *cell(s, i + 2, j + 2) == STIFFNESS_NO_NODE)
                 continue;
-            /* rows go outwards along x, columns towards y */
+            /* row numbers increase along x, column numbers along y */
             const size_t at[8][2] = {{i, j},     {i + 2, j},     {i + 2, j + 2}, {i, j + 2},
                                      {i + 1, j}, {i + 2, j + 1}, {i + 1, j + 2}, {i, j + 1}};
             for (int k = 0; k < 8; k++)

@@ -39,9 +39,9 @@ int stiffness_sector_make(stiffness_sector *s, const stiffness_contour *contour,
                           size_t elements);
 void stiffness_sector_free(stiffness_sector *s);
 
-/* stiffness_sector_force is a unit normal force on the flank at that roll angle.
-   stiffness_sector_axis is a unit force in the same direction at the point of the tooth's axis
-   below; it also gives the displacement of that point along the force. */
+/* stiffness_sector_force returns a unit normal force on the flank at that roll angle.
+   stiffness_sector_axis returns a unit force in the same direction on the point of the tooth's axis
+   below; its weights also interpolate the displacement of that point along the force. */
 stiffness_nodal stiffness_sector_force(const stiffness_sector *s, double roll);
 stiffness_nodal stiffness_sector_axis(const stiffness_sector *s, double roll);
 

@@ -116,15 +116,15 @@ def sums():
     check("the mean force of back flanks", found["back_tooth.mesh_load_mean"], found["motion.back_force_mean"], 2e-3)
     for stage in "tooth", "back_tooth":
         line = found["lines"][stage, "mesh_load"]
-        report(line["verdict"] == "good" and "that of the motion" in line["text"], f"{stage}: the line mesh_load, {line['value']:.2g}")
+        report(line["verdict"] == "good" and "mean force of the motion" in line["text"], f"{stage}: the line mesh_load, {line['value']:.2g}")
     back = found["motion.back_force_mean"]
     said, there = (r["lines"].get(("losses", "other_flank")) for r in (alone, found))
-    report(said is not None and said["of"] == "range" and said["verdict"] == "doubtful" and '(add them as "back")' in said["text"] and there is None, "losses without back, and only these, say what they lack")
+    report(said is not None and said["of"] == "range" and said["verdict"] == "doubtful" and '(wire these as "back")' in said["text"] and there is None, "losses without back, and only these, say what they lack")
     if said:
         check("the share of the force that the other flanks balance", said["value"], back / (back + found["duty.line_force"]), 0.01)
     for rule, verdict in (("", "good"), (", bulk_temperature: 110 degC", "good"), (", bulk_rule: standard", "doubtful"), (", thermal_conductance: 20 W/K", "doubtful")):
         line = run(FIRST, duty, names[:2], back="ehl: back_film" + rule)["lines"].get(("back_losses", "other_flank"), {"verdict": "no line", "text": ""})
-        report(line["verdict"] == verdict and "does not press" in line["text"] and ("give bulk_temperature" in line["text"]) == (verdict != "good"),
+        report(line["verdict"] == verdict and "opposite to those that carry" in line["text"] and ("set bulk_temperature" in line["text"]) == (verdict != "good"),
                f"of which flanks the losses are, {rule[2:] or 'teeth as warm as the oil'}: {line['verdict']}")
     for name in parts:
         check(f"{name} of both flanks", found[name], alone[name] + alone["back_" + name], 1e-11)
@@ -166,7 +166,7 @@ def refusals():
             ("a series", "take dynamics/shooting", run(FIRST, duty, forces, "harmonic-balance")),
             ("oil", "without oil in the gap", run(FIRST, duty, forces, "shooting, squeeze: series")),
             ("the loaded error", "does not offer", run(FIRST, duty, forces, "quasi-static")),
-            ("the efficiency of back flanks", "does not press these flanks", run(FIRST, duty, ["back_losses.efficiency"])),
+            ("the efficiency of back flanks", "these flanks do not carry the mean load", run(FIRST, duty, ["back_losses.efficiency"])),
             ("the same flanks twice", "the loss of the same flanks", run(FIRST, duty, ["losses.power_loss_mean"], losses="ehl: film, back: again}\n  again: {use: losses/tooth-mesh, ehl: film")),
             ("a film for its losses", "name a losses stage", run(FIRST, duty, ["losses.power_loss_mean"], losses="ehl: film, back: back_film")),
             ("the tooth of the same flanks", "name a losses stage", run(FIRST, duty, ["losses.power_loss_mean"], losses="ehl: film, back: tooth")),

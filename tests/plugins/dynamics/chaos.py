@@ -72,9 +72,9 @@ def check_engagements():
     said = [line(call(outputs, *more), 'tooth', 'mesh_load')['text']
             for more in ([], ['tooth.engagement=1'], ['tooth.max_engagements=1'])]
     print(*said, sep='\n')
-    assert 'takes more' not in said[0], said
-    assert 'only 1 of 2 engagements are included; engagement: all takes more' in said[1], said
-    assert 'only 1 of 2 engagements are included; max_engagements takes more' in said[2], said
+    assert 'includes more' not in said[0], said
+    assert 'only 1 of 2 engagements are included; engagement: all includes more' in said[1], said
+    assert 'only 1 of 2 engagements are included; max_engagements includes more' in said[2], said
 
 
 if __name__ == '__main__':

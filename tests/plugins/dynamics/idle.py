@@ -251,7 +251,7 @@ def floats():
     for film in "film-formula", "inlet-analysis", "finite-volume, thermal: full", "dense-newton", "control-volume":
         found = run(LOST, film=film)
         report(found["film.h_min_lowest"] > 30e-6 and all(largest(found[name]) == 0 for name in LOST[1:]), f"{film}: the gap, without pressure and loss")
-    report("no power goes" in run(["losses.efficiency"]), "an efficiency is refused")
+    report("transmit no power" in run(["losses.efficiency"]), "an efficiency is refused")
     report("nothing to rate" in run(["scuffing.margin"]), "a rating is refused")
     report("there is no branch" in run(["motion.fold_frequency"]), "an atlas is refused")
 
@@ -280,7 +280,7 @@ def reference():
     check("the levels hold what the torque swings to", levels[-1], 1.2 * swings["duty.largest_force"], 1e-10)
     check("and the mean", levels[3] / levels[-1], 4 / (1.2 * 64), 1e-10)
     report("leave reference_torque" in run(["motion.dte_rms"], "90 N m", "quasi-static", more=", reference_torque: 180 N m"), "no error of another load")
-    report("reference_torque of the duty" in run(["motion.dte_rms"], motion="shooting", mesh="iso-6336"), "a standard that needs a load names it")
+    report("reference_torque of the operating stage" in run(["motion.dte_rms"], motion="shooting", mesh="iso-6336"), "a standard that needs a load names it")
 
 
 floats()

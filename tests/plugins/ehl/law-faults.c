@@ -52,7 +52,7 @@ static void test_slopes(void)
                d->eval(d->self, 2, p, NULL, value, slope, NULL) == FF_BUG);
     check_true("which",
                !strcmp(answers[1].text,
-                       "it gave the slope of rho nan at 0.2 GPa; a law owes finite numbers"));
+                       "it gave the slope of rho nan at 0.2 GPa; a law must give finite numbers"));
 }
 
 /* A slope may be off at a kink, by as much as both sides differ, and steep where the values are. */

@@ -294,7 +294,7 @@ static void test_refusals(void)
     refuse_file("gear, roll_angle [deg]\n1, 2\n", "the column \"deviation [um]\" is missing");
     refuse_file(HEADER "3, 20, 0\n", ":2:1: gear must be at most 2, but is 3");
     refuse_file(HEADER "1.5, 20, 0\n", ":2:1: gear must be a whole number");
-    refuse_file(HEADER "1, 20, 0\n1, 20, 1\n", ":3:4: the roll angles of a gear must rise");
+    refuse_file(HEADER "1, 20, 0\n1, 20, 1\n", ":3:4: the roll angles of a gear must increase");
     refuse_file(HEADER "1, 20\n", ":2:1: 2 fields in this line, but 3 in the header");
     refuse_file(HEADER "1, 20, nan\n", ":2:8: \"nan\" is not a number");
 }

@@ -120,7 +120,7 @@ static void check_limits(void)
     expect(s, "thickness_allowance", "must sum to 0 mm or less");
     s = open_pair("[30, 50]", "3 mm", "[0, 0]");
     stage_set_text(s, "root_diameter", "[82.5 mm, 144.03 mm]");
-    expect(s, "root_diameter", "strikes the root of gear 2");
+    expect(s, "root_diameter", "touches the root of gear 2");
 }
 
 static uint64_t state = 584018036;

@@ -345,7 +345,7 @@ static void test_refusals(void)
     chain c = with("mesh.rim_radius", "72 mm");
     expect_refusal("rim above the root circle", &c, "rim_radius", "root radius");
     c = with("gear.root_diameter", "133 mm");
-    expect_refusal("pointed space", &c, "gear.root_radius", "comes to a point");
+    expect_refusal("pointed space", &c, "gear.root_radius", "tooth space meet");
     c = with("gear.poisson_ratio", "0.5");
     expect_refusal("plane strain without volume change", &c, "plane", "plane stress");
     c = with("mesh.mesh_cycle", "3");

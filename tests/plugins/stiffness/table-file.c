@@ -220,7 +220,8 @@ static void test_forces(void)
     stage *s = open_file(force_table(0, short_of, 2));
     stage_set_text(s, "ends", "jump");
     check_true("a table that ends below the load",
-               stage_run(s) == FF_INVALID && strstr(stage_why(s), ":7:1: the table ends at"));
+               stage_run(s) == FF_INVALID &&
+                   strstr(stage_why(s), ":7:1: the largest force of the table"));
     stage_close(s);
 }
 
@@ -271,35 +272,35 @@ static void test_refusals(void)
     expect_refusal("phase,stiffness [N/m],load_share\n0,4e8,1\n0.5,3e8,-0.1\n",
                    ":3:9: a load share lies between 0 and 1");
     expect_refusal("phase,torque [N m],loaded_transmission_error [um]\n0,0,1\n0,9,2\n",
-                   ":1:7: the mesh force is wanted, force [N]: the torque divided by the base");
+                   ":1:7: give the mesh force, force [N], instead");
     expect_refusal("phase,force [N],stiffness [N/m]\n0,0,1\n",
-                   ":1:7: beside force the header must name loaded_transmission_error");
+                   ":1:7: a table with a column force also needs the column");
     expect_refusal(
         "phase,force [N],transmission_error [um],loaded_transmission_error [um]\n0,0,1,2\n",
-        ":1:17: beside force the transmission error without load");
+        ":1:17: in a table with a column force, the rows of force 0");
     expect_refusal("phase,force [N],loaded_transmission_error [um]\n0,0,1\n0.5,0,1.1\n1,0,1\n"
                    "0,5,2\n0.5,5,2.1\n1,5,2.9\n0,9,3\n0.5,9,3.1\n1,9,3\n",
                    ":7:5: the loaded transmission error is not periodic");
     expect_refusal("phase,force [N],loaded_transmission_error [um]\n0,5,1\n",
                    ":2:3: the first rows must have the force 0");
     expect_refusal("phase,force [N],loaded_transmission_error [um]\n0,0,1\n0.5,0,1\n",
-                   ":3:5: behind the force 0 at least one");
+                   ":3:5: at least one force above 0 is needed");
     expect_refusal("phase,force [N],loaded_transmission_error [um]\n0,0,1\n0,5,2\n0,4,3\n",
-                   ":4:3: the forces must rise; found 4");
+                   ":4:3: the forces must increase; found 4");
     expect_refusal("phase,force [N],loaded_transmission_error [um]\n0,0,1\n0.5,0,1\n0,5,2\n"
                    "0.5,6,2\n",
                    ":5:5: every force must have as many rows");
     expect_refusal("phase,force [N],loaded_transmission_error [um]\n0,0,1\n0.5,0,1\n0,5,2\n",
-                   ":4:3: every force must have as many rows as the first one has, 2");
+                   ":4:3: every force must have as many rows as the first force, 2");
     expect_refusal("phase,force [N],loaded_transmission_error [um]\n0,0,1\n0.5,0,1\n0,5,2\n"
                    "0.6,5,2\n",
                    ":5:1: every force must have the phases");
     expect_refusal("phase,force [N],loaded_transmission_error [um]\n0,0,1\n0.5,0,1\n0,5,2\n"
                    "0.5,5,0.9\n",
-                   ":5:7: the transmission error must exceed that under the force before");
+                   ":5:7: the transmission error, in m, must exceed that under the previous");
     expect_refusal("phase,force [N],loaded_transmission_error [um],stiffness [N/um]\n0,0,0,1\n"
                    "0,5,2,2\n",
-                   ":1:48: beside force a stiffness is the slope");
+                   ":1:48: in a table with a column force, stiffness is the slope");
     expect_refusal("phase,stiffness [N/m],a,b,c,d,e,f,g,h,i,j,k,l,m,n,o\n0,1\n",
                    ":1:23: no column is called \"a\"");
 }

@@ -219,7 +219,7 @@ static void test_refusals(void)
     static const double unknown[] = {0, NAN, 0.5}, none[] = {1e8, NAN, 3e8};
     expect_limit("phase", falls, "must not decrease");
     expect_limit("phase", beyond, "1.25 is too large");
-    expect_refusal(3, thrice, k, "phase", "twice at most");
+    expect_refusal(3, thrice, k, "phase", "at most twice");
     expect_refusal(3, close, k, "phase", "closer than 1e-9");
     expect_refusal(3, ends, k, "phase", "phase 1 is phase 0");
     expect_limit("phase", unknown, "nan");

@@ -43,7 +43,7 @@ static void test_files(void)
     refuse_file("position [um], height [um]\n0, 1\n1, nan\n", ":3:4: \"nan\" is not a number");
     refuse_file("position [um], height [um]\n0, 1e999\n", ":2:4: 1e999 is out of range");
     refuse_file("position [um], height [um]\n0, 1\n\n 1, 2 3\n", ":4:5: \"2 3\" is not a number");
-    refuse_file("position [um], height [um]\n0, 1\n  0, 2\n", ":3:3: the positions must rise");
+    refuse_file("position [um], height [um]\n0, 1\n  0, 2\n", ":3:3: the positions must increase");
     refuse_file("position [mm], height [m]\n0, 1e300\n", ":2:4: height must be at most 1e+06 um");
     refuse_file("position [um], height [um]\n0,1\n1,2\n", "gives 2 points");
 }

@@ -201,8 +201,8 @@ static void refuse(const char *param, const char *value, const char *item, const
 
 static void test_refusals(void)
 {
-    refuse("shortest", "900 um", "shortest", "exceeds longest 800 um");
-    refuse("length", "700 um", "length", "does not hold the longest wave");
+    refuse("shortest", "900 um", "shortest", "must not exceed longest, 800 um");
+    refuse("length", "700 um", "length", "at least the longest wavelength");
     refuse("spacing", "6 um", "spacing", "at most 5 um, a quarter of it");
     refuse("spacing", "0.001 um", "length", "at most 262144 are allowed");
     refuse("shortest", "0.01 um", "length", "at most 262144 are allowed");

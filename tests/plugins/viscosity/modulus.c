@@ -139,7 +139,7 @@ static void test_refusals(void)
 {
     scene s = open_scene("ester", "ISO VG 100");
     check_true("an ester", stage_ready(s.law) == FF_INVALID &&
-                               strstr(stage_why(s.law), "this oil is another") != NULL);
+                               strstr(stage_why(s.law), "this oil has another base") != NULL);
     close_scene(&s);
     s = open_scene("PAO", "ISO VG 68");
     stage_set_text(s.law, "base", "naphthenic");
