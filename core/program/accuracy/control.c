@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The first attempt uses the presets. If it misses a goal, the settings of one repeat are predicted
- * from the errors and the order that the twins show. There is no second repeat: if this one misses
- * a goal, or no settings promise to meet it, the answer says so. Earlier attempts and their twins
- * are reused as twins. */
+/* The first attempt uses the presets. While a goal is missed, and the errors and the order that the
+ * twins show promise to meet it within the finest level, the next attempt is one level finer. A
+ * level costs about four times the one before, so that the coarser attempts, which are its twins,
+ * cost a third of it; and one that does not keep the promise ends the search before the finer, more
+ * expensive ones. */
 #include "control.h"
 
 #include "choice.h"
@@ -24,14 +25,14 @@
 /* Share of a goal allowed to the reference model's own error while cheaper models are compared with
  * it: they may use half of the goal (choice.c), and this error is added to theirs. */
 static const double reference_error = 0.25;
-/* Shares of a goal at which the repeat aims. They are below 1 because orders are observed, not
- * known; the second is for files that fix some settings, whose part of the error stays. */
-static const double aim = 0.7, aim_beside_fixed = 0.5;
 /* Two levels show no order; their error bar is that of order 1/2. A third level may lower it to an
  * eighth (estimate.c). */
 static const double less_by_third_level = 8;
-/* The presets, finer settings where these fail, and the repeat. */
-enum { MOST_ATTEMPTS = 3 };
+/* A series whose error falls with a lower order per level does not converge visibly: it is the
+ * lowest order of estimate.c. */
+static const double least_order = 0.5;
+/* The presets and the three finer levels. */
+enum { MOST_ATTEMPTS = 4 };
 
 typedef struct attempt {
     const accuracy_twin *run;
@@ -50,7 +51,6 @@ typedef struct control {
     attempt kept[MOST_ATTEMPTS]; /* attempts with the current models */
     size_t kept_count;
     attempt *best; /* the last good attempt, else the last one; NULL before the first */
-    bool repeated; /* the repeat with the current models was made */
     size_t attempts;
     bool stopped; /* by the observer */
     const char *failure;
@@ -101,8 +101,20 @@ static size_t count_kept(const control *c, const attempt *a)
     return kept;
 }
 
-/* Writes the progress text: which attempt begins, how many goals the previous one reached, and
- * which output is farthest from its goal. */
+/* Predicts the cost of the next attempt over that of the presets: each open setting of a stage
+ * doubles the CPU time of this stage. */
+static double predict_cost(const control *c)
+{
+    const ff_pipeline *last = c->best->run->pipeline;
+    const double presets = c->kept[0].run->work;
+    double next = 0;
+    for (size_t i = 0; i < last->count; i++)
+        next += last->stages[i].work * exp2((double)accuracy_open_count(&c->open, i));
+    return presets > 0 ? next / presets : 1;
+}
+
+/* Writes the progress text: which attempt begins at what cost, how many goals the previous one
+ * reached, and which output is farthest from its goal. */
 static void tell_attempt(const control *c)
 {
     const accuracy_error *worst = NULL;
@@ -119,9 +131,10 @@ static void tell_attempt(const control *c)
     if (!worst)
         return;
     char *reached = accuracy_print_reached(worst), *goal = accuracy_print_goal(worst);
-    snprintf(c->now, ACCURACY_NOW, "attempt %zu: %zu of %zu as asked, %.40s has %s for %s",
-             c->attempts + 1, count_kept(c, c->best), goals, worst->result->row->name, reached,
-             goal);
+    snprintf(c->now, ACCURACY_NOW,
+             "attempt %zu at %.2g times the cost: %zu of %zu as asked, %.40s has %s for %s",
+             c->attempts + 1, predict_cost(c), count_kept(c, c->best), goals,
+             worst->result->row->name, reached, goal);
     free(goal);
     free(reached);
 }
@@ -164,37 +177,45 @@ static double order_of(const accuracy_error *e)
     return isnan(e->order) ? 1 : fmin(fmax(e->order, 0), 2);
 }
 
-/* Computes the number of levels after which an error above its goal is expected to meet it. False
- * if even the finest level is not expected to suffice, or if the stage estimates the error itself
- * and the file fixes all settings that could lower it. The order of an error that the stage
- * estimates is not measured and taken as 1. */
-static bool predict(const control *c, const accuracy_error *e, double *finer)
+/* True if the output is a single number, and a series of its stage and unit does not converge: the
+ * order that the number shows is then one by chance. */
+static bool is_by_chance(const control *c, const accuracy_error *e)
+{
+    const accuracy_record *record = &c->best->record;
+    bool chance = false;
+    for (size_t i = 0; i < record->count && e->result->rank == 0; i++) {
+        const accuracy_error *series = &record->errors[i];
+        chance = chance || (series->stage == e->stage && series->result->rank == 1 &&
+                            !strcmp(series->result->row->unit, e->result->row->unit) &&
+                            is_missed(c, series) && order_of(series) < least_order);
+    }
+    return chance;
+}
+
+/* True if an error above its goal is expected to meet it within the finest level, in which the part
+ * that the file holds stays. False if the stage estimates the error itself and the file fixes all
+ * settings that could lower it. */
+static bool is_promising(const control *c, const accuracy_error *e)
 {
     const size_t stage = (size_t)(e->stage - c->best->run->pipeline->stages);
     const bool two = c->best->record.two_levels && !e->by_stage;
-    const double goal = goal_of(c, e) * (*c->open.given ? aim_beside_fixed : aim);
-    const double order = e->by_stage ? 1 : two ? 2 : order_of(e);
+    const double order = two ? 2 : order_of(e), levels = c->open.at - accuracy_finest;
     const double error = e->reached / (two ? less_by_third_level : 1);
-    if (e->by_stage && !accuracy_open_has(&c->open, stage))
+    if ((e->by_stage && accuracy_open_count(&c->open, stage) == 0) || is_by_chance(c, e))
         return false;
-    *finer = fmax(1, ceil(log2(error / goal) / order));
-    *finer = fmin(*finer, c->open.at - accuracy_finest);
-    return error * exp2(-order * *finer) <= goal_of(c, e);
+    return e->held + (error - e->held) * exp2(-order * levels) <= goal_of(c, e);
 }
 
 /* Sets the level of the next attempt; false if the present one is the answer. */
 static bool go_on(control *c)
 {
     const accuracy_record *record = &c->best->record;
-    double by = 0, wanted;
-    if (!c->best->run->good) /* finer settings may succeed */
-        return c->kept_count == 1 && accuracy_open_move(&c->open, c->open.at - 1);
-    for (size_t i = 0; !c->repeated && i < record->count; i++)
-        if (is_missed(c, &record->errors[i]) && predict(c, &record->errors[i], &wanted))
-            by = fmax(by, wanted);
-    bool moved = by > 0 && accuracy_open_move(&c->open, c->open.at - by);
-    c->repeated = c->repeated || moved;
-    return moved;
+    bool promising = !c->best->run->good && c->kept_count == 1; /* finer settings may succeed */
+    for (size_t i = 0; c->best->run->good && i < record->count; i++)
+        promising =
+            promising || (is_missed(c, &record->errors[i]) && is_promising(c, &record->errors[i]));
+    return promising && c->open.at > accuracy_finest &&
+           accuracy_open_move(&c->open, c->open.at - 1);
 }
 
 static void drop_attempts(control *c)
@@ -203,7 +224,6 @@ static void drop_attempts(control *c)
         memory_arena_free(&c->kept[i].record.arena);
     c->kept_count = 0;
     c->best = NULL;
-    c->repeated = false;
 }
 
 /* Starts again with the accepted models. */

@@ -158,6 +158,11 @@ char *accuracy_describe(const accuracy_error *e)
         fprintf(out, "%sas the stage estimates", between);
         between = "; ";
     }
+    if (e->held > least_part * e->reached) {
+        fprintf(out, "%s%.0f %% of it by settings of the file", between,
+                100 * e->held / e->reached);
+        between = "; ";
+    }
     if (isfinite(e->order))
         fprintf(out, "%sorder %.2g", between, e->order);
     fclose(out);

@@ -14,9 +14,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Share of a goal that the stages' estimates must stay below for the first twin to be the cheapest:
-   its difference from the answer is many times the error. */
-static const double far_below = 0.25;
+/* Error bar from one twin two levels coarser, over an error of order 2: 1.25 times the difference
+   from the twin (estimate.c), which is 4^2 - 1 times the error. */
+static const double bar_of_two_levels = 1.25 * 15;
 
 /* Smallest error that is stated, as a share of the goal: twins may agree by chance. */
 static const double least_error = 0.1;
@@ -165,9 +165,24 @@ static accuracy_ladder ladder_of(const accuracy_twins *t, const accuracy_error *
                              .twice = numbers_of_twin(t, e, t->twice)};
 }
 
+/* Order at which the stage's own estimate falls from a coarser twin to the answer; NaN if one of
+   the two has none. */
+static double order_of_estimate(const accuracy_twins *t, const accuracy_error *e)
+{
+    const accuracy_twin *twin = t->half ? t->half : t->quarter;
+    const ff_stage *there = twin ? &twin->pipeline->stages[e->stage - t->answer->stages] : NULL;
+    const int output =
+        there ? ff_model_find_output(there->loaded->model, e->result->row->name) : -1;
+    if (output < 0)
+        return NAN;
+    return log2(accuracy_estimated_share(there, &there->results[output]) /
+                accuracy_estimated_share(e->stage, e->result)) /
+           (t->half ? 1 : 2);
+}
+
 /* Raises the bar of each number to the stage's estimate: a stage may know a source of error that
    the twins do not see. */
-static void hold_to_estimate(const double *at, accuracy_error *e)
+static void hold_to_estimate(const accuracy_twins *t, const double *at, accuracy_error *e)
 {
     const ff_result *estimate = accuracy_estimate_of(e->stage, e->result);
     const double measured = e->relative;
@@ -177,6 +192,8 @@ static void hold_to_estimate(const double *at, accuracy_error *e)
         e->bar[i] = fmax(e->bar[i], fabs(estimate->data[i]));
     find_relative(at, e);
     e->by_stage = e->relative > measured;
+    if (e->by_stage)
+        e->order = order_of_estimate(t, e);
 }
 
 static void measure_output(const accuracy_twins *t, accuracy_error *e)
@@ -196,19 +213,20 @@ static void measure_output(const accuracy_twins *t, accuracy_error *e)
         e->bar[i] = fmax(e->bar[i], least_error * e->goal * levels.scale[i]);
     find_relative(levels.at, e);
     add_parts(t, shares, e);
-    hold_to_estimate(levels.at, e);
+    hold_to_estimate(t, levels.at, e);
     add_changes(t, &levels, e);
 }
 
 /* Widens the bar of a number to the bar of the series from which it is picked; the contributions of
  * the settings keep their ratios, and the bar falls no faster than that of the series. */
-static void widen(accuracy_error *number, double bar, double order)
+static void widen(accuracy_error *number, double bar, const accuracy_error *series)
 {
     if (!(bar > number->bar[0] && isfinite(bar)) || number->result->data[0] == 0)
         return;
     double factor = bar / number->bar[0];
     number->bar[0] = bar;
-    number->order = fmin(number->order, order); /* drops NaN */
+    number->order = fmin(number->order, series->order); /* drops NaN */
+    number->by_stage = series->by_stage;
     find_relative(NULL, number);
     for (size_t i = 0; isfinite(factor) && i < number->part_count; i++)
         number->parts[i].error *= factor;
@@ -240,7 +258,7 @@ static void hold_to_series(const accuracy_twins *t, accuracy_error *number)
         const accuracy_error *e = &t->record->errors[i];
         if (e->stage == number->stage && e->result->rank == 1 && e->bar &&
             !strcmp(e->result->row->unit, number->result->row->unit))
-            widen(number, bar_at_extreme(number->result, e), e->order);
+            widen(number, bar_at_extreme(number->result, e), e);
     }
 }
 
@@ -253,30 +271,57 @@ static void conclude(const accuracy_twins *t)
         hold_to_series(t, &record->errors[i]);
 }
 
-/* True if all errors estimated by stages are far below their goals. */
+/* True if stages estimate errors, all of them so small that a twin two levels coarser is expected
+   to show that the goals are met. */
 static bool are_far_below(const accuracy_record *record)
 {
-    bool all = true;
+    bool some = false, all = true;
     for (size_t i = 0; i < record->count; i++) {
         const accuracy_error *e = &record->errors[i];
         const ff_result *estimate = accuracy_estimate_of(e->stage, e->result);
         const accuracy_series answer = series_of(NULL, e);
-        double largest;
-        all = all && !(estimate &&
-                       accuracy_relative(estimate->data, &answer, &largest) > far_below * e->goal);
+        double largest, limit = e->goal / bar_of_two_levels;
+        some = some || estimate;
+        all = all && !(estimate && accuracy_relative(estimate->data, &answer, &largest) > limit);
     }
-    return all;
+    return some && all;
 }
 
-/* Whether an error is above its goal or unknown: another twin may tell it. */
+/* True if another twin may lower an error that is above its goal, or tell one that is unknown. No
+   twin lowers an error below the stage's own estimate. */
 static bool misses(const accuracy_record *record)
 {
     bool missed = false;
     for (size_t i = 0; i < record->count; i++) {
         const accuracy_error *e = &record->errors[i];
-        missed = missed || isnan(e->reached) || e->reached > e->goal;
+        missed = missed || isnan(e->reached) || (e->reached > e->goal && !e->by_stage);
     }
     return missed;
+}
+
+/* Difference of an output between two twins. */
+static double between_twins(const accuracy_twins *t, const accuracy_error *e,
+                            const accuracy_twin *one, const accuracy_twin *other)
+{
+    const ff_stage *stage = &one->pipeline->stages[e->stage - t->answer->stages];
+    const int output = ff_model_find_output(stage->loaded->model, e->result->row->name);
+    return output < 0 ? (double)NAN
+                      : accuracy_distance(one->pipeline, stage, &stage->results[output], e->zero,
+                                          e->absolute, other->pipeline, &t->record->arena);
+}
+
+/* Tells which part of each missed error the settings of the file cause: their share of the
+   difference between the two coarser twins. */
+static void find_held(accuracy_twins *t)
+{
+    accuracy_twins_run_held(t);
+    for (size_t i = 0; t->held && i < t->record->count; i++) {
+        accuracy_error *e = &t->record->errors[i];
+        const double all = between_twins(t, e, t->quarter, t->half);
+        const double share = between_twins(t, e, t->quarter, t->held) / all;
+        if (all > 0 && e->reached > e->goal && !e->by_stage) /* NaN: not comparable */
+            e->held = e->reached * fmin(fmax(share, 0), 1);
+    }
 }
 
 /* Returns the twins for the answer of an attempt, or of the file's own run. */
@@ -306,6 +351,8 @@ bool accuracy_measure(accuracy_record *record, const accuracy_scene *scene,
         conclude(&t);
         missed = effort == ACCURACY_ORDER || (effort == ACCURACY_ENOUGH && misses(record));
     }
+    if (t.few && t.half && t.quarter && !t.stopped && misses(record))
+        find_held(&t);
     record->two_levels = t.half && !t.quarter;
     return !t.stopped;
 }

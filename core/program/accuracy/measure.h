@@ -19,7 +19,7 @@ typedef struct accuracy_part {
 #define ACCURACY_BAR "_error_bar"
 
 /* Room for what is being run, in words for a progress line. */
-enum { ACCURACY_NOW = 100 };
+enum { ACCURACY_NOW = 120 };
 
 /* The numerical error of an output. */
 typedef struct accuracy_error {
@@ -34,10 +34,12 @@ typedef struct accuracy_error {
     double relative; /* relative error; for a series, at 95 of 100 points; NaN if it is not
                       * known */
     double largest;  /* largest relative error along a series */
-    double order;    /* observed order; NaN if none was seen */
-    double apart;    /* difference from a finer twin, in the form of `reached`; NaN if not
-                      * comparable */
-    bool by_stage; /* the bar is the stage's own estimate, which is larger than that of the twins */
+    double order; /* observed order, of the stage's estimate if `by_stage`; NaN if none was seen */
+    double apart; /* difference from a finer twin, in the form of `reached`; NaN if not
+                   * comparable */
+    double held;  /* part of a missed error that settings of the file cause; 0 if it is not known */
+    bool by_stage; /* the bar comes from the stage's own estimate, which is larger than that of the
+                    * twins */
     accuracy_part *parts; /* contributions of the settings, largest first; empty if no twin
                            * separates them */
     size_t part_count;

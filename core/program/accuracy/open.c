@@ -99,10 +99,10 @@ bool accuracy_open_move(accuracy_open *open, double to)
     return moved;
 }
 
-bool accuracy_open_has(const accuracy_open *open, size_t stage)
+size_t accuracy_open_count(const accuracy_open *open, size_t stage)
 {
-    bool has = false;
+    size_t count = 0;
     for (size_t i = 0; i < open->count; i++)
-        has = has || (open->knobs[i].stage == stage && !open->levels[i].idle);
-    return has;
+        count += open->knobs[i].stage == stage && !open->levels[i].idle;
+    return count;
 }

@@ -37,7 +37,7 @@ void accuracy_open_leave_idle(accuracy_open *open, const ff_report *said, ff_pla
 bool accuracy_open_move(accuracy_open *open, double to);
 /* Returns the assignment of a setting, such as "film.cells=362". */
 const char *accuracy_open_set(accuracy_open *open, size_t knob);
-/* True if a setting of the stage with that index is open. */
-bool accuracy_open_has(const accuracy_open *open, size_t stage);
+/* Returns how many settings of the stage with that index are open. */
+size_t accuracy_open_count(const accuracy_open *open, size_t stage);
 
 #endif

@@ -42,14 +42,30 @@ static const char *assignment_at(const accuracy_twins *t, const accuracy_knob *k
     return accuracy_setting_at(&t->answer->stages[k->stage], k->param, coarser, &t->record->arena);
 }
 
+/* True for a setting that stands in the file. */
+static bool is_given(const accuracy_twins *t, const accuracy_knob *k)
+{
+    const ff_place place = t->answer->stages[k->stage].params[k->param].place;
+    return place.source && !(place.source == t->asked.source && place.line == t->asked.line &&
+                             place.column == t->asked.column);
+}
+
+/* Instead of the index of a setting: none, or all that the file fixes. */
+static const size_t no_setting = SIZE_MAX, given_settings = SIZE_MAX - 1;
+
+static bool is_one(const accuracy_twins *t, size_t i, size_t which)
+{
+    return i == which || (which == given_settings && is_given(t, &t->knobs[i]));
+}
+
 /* Fills the assignments of a twin and marks the stages that they change. False if a setting's
    limits forbid one. */
 static bool list_sets(accuracy_twins *t, int at, size_t finer, const char **sets, bool *changed)
 {
     for (size_t i = 0; i < t->count; i++) {
         const accuracy_knob *k = &t->knobs[i];
-        sets[i] = assignment_at(t, k, i == finer ? half : at);
-        changed[k->stage] |= finer == SIZE_MAX || i == finer;
+        sets[i] = assignment_at(t, k, is_one(t, i, finer) ? half : at);
+        changed[k->stage] |= finer == no_setting || is_one(t, i, finer);
         if (sets[i])
             continue;
         char *why = memory_print_text("%s.%s has no %s value within its limits",
@@ -78,15 +94,15 @@ static void tell_twin(const accuracy_twins *t, int at)
                  record->attempts);
 }
 
-/* Runs a twin. The setting `finer` is at the level of `half`; SIZE_MAX: none is. NULL if a
-   setting's limits forbid it. */
+/* Runs a twin. The setting `finer` is at the level of `half`. NULL if a setting's limits forbid
+   it. */
 static const accuracy_twin *run_twin(accuracy_twins *t, int at, size_t finer)
 {
     const accuracy_twin *twin = NULL;
     const char **sets = memory_alloc((t->count + 1) * sizeof *sets);
     bool *changed = memory_alloc((t->answer->count + 1) * sizeof *changed);
     tell_twin(t, at);
-    t->scene.donor = finer == SIZE_MAX ? t->answer : t->quarter->pipeline;
+    t->scene.donor = finer == no_setting ? t->answer : t->quarter->pipeline;
     if (list_sets(t, at, finer, sets, changed)) {
         twin = accuracy_twin_run(&t->scene, sets, t->count, NULL, changed);
         t->stopped = twin->stopped;
@@ -129,7 +145,7 @@ static const accuracy_twin *find_twin(accuracy_twins *t, int at)
 {
     const accuracy_twin *twin = known_twin(t, at);
     if (!twin && !t->stopped)
-        twin = run_twin(t, at, SIZE_MAX);
+        twin = run_twin(t, at, no_setting);
     return twin && twin->good ? twin : NULL;
 }
 
@@ -149,7 +165,7 @@ bool accuracy_twins_find(accuracy_twins *t)
         list_knobs(t);
     if (t->record->count == 0)
         return false;
-    if (t->few && (again ? t->half != NULL : t->far)) {
+    if (t->few && (again ? t->half != NULL : t->far && !known_twin(t, half))) {
         t->quarter = find_twin(t, quarter);
         if (t->quarter || again)
             return t->quarter != NULL;
@@ -169,5 +185,14 @@ const accuracy_twin *accuracy_twins_find_finer(accuracy_twins *t)
     list_knobs(t);
     const accuracy_twin *known = t->count > 0 ? known_twin(t, twice) : NULL;
     t->checking = true;
-    return known ? known : run_twin(t, twice, SIZE_MAX);
+    return known ? known : run_twin(t, twice, no_setting);
+}
+
+void accuracy_twins_run_held(accuracy_twins *t)
+{
+    bool some = false;
+    for (size_t i = 0; i < t->count; i++)
+        some = some || is_given(t, &t->knobs[i]);
+    const accuracy_twin *twin = some ? run_twin(t, quarter, given_settings) : NULL;
+    t->held = twin && twin->good ? twin : NULL;
 }

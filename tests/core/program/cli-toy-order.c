@@ -141,7 +141,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     o->host->quality(o->host->ctx, "balance", (double)o->sure / (double)o->cells, 1,
                      o->cells < o->sure ? FF_DOUBTFUL : FF_GOOD, "no estimate of an error");
     if (o->seen > 0)
-        o->host->quality(o->host->ctx, "wave_seen_error", seen, 0.1, FF_DOUBTFUL, "a guess");
+        o->host->quality(o->host->ctx, "wave_seen_error", seen + o->scatter, 0.1, FF_DOUBTFUL,
+                         "a guess");
     if (o->heat > 0)
         o->host->quality(o->host->ctx, "heat", o->heat, 0, FF_DOUBTFUL, "whatever the cells are");
     return FF_OK;
