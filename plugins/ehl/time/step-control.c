@@ -254,7 +254,7 @@ ff_status ehl_step_control_next(ehl_step_control *p, ehl_march *m)
         dt = at.time - m->state[0].time;
         status = ehl_march_try(m, &at);
         double allowed = p->tolerance * (ehl_contact_is_lost(m, &at) ? CONTACT_LOSS_ALLOWANCE : 1);
-        error = status == FF_OK ? ehl_march_truncation(m) * forgetting_time(m) / (dt * allowed) : 0;
+        error = status == FF_OK ? ehl_truncation_sum(m, forgetting_time(m)) / (dt * allowed) : 0;
         if (status != FF_OK && status != FF_NOCONV)
             return status;
         futile = status == FF_OK && before > ALLOWED_EXCESS && error * longer > before * dt;

@@ -9,6 +9,11 @@
 /* Returns the largest |local| over all nodes. */
 double ehl_march_truncation(const ehl_march *m);
 
+/* Returns the sum of truncation errors as large as those of the trial along the path of the oil,
+   times the length of the step: over `time` in the contact, over at most the time in which the oil
+   crosses the outlet there, s. */
+double ehl_truncation_sum(const ehl_march *m, double time);
+
 /* Estimates the truncation error of the step to the trial, in `local`. */
 void ehl_estimate_truncation(ehl_march *m);
 
