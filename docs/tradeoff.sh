@@ -37,8 +37,8 @@ table() { # STUDY
     { head -1 "$work/$1.csv" && tail -n +2 "$work/$1.csv" | sort -t, -k3,3g; } | awk -F, '
         function percent(x) { return x == "" ? "" : sprintf("%.3g", 100 * x) }
         NR == 1 {
-            head = "| candidate | cost ms | spread % |"
-            for (i = 7; i <= NF; i++) {
+            head = "| candidate | cost ms | spread % | run ms |"
+            for (i = 8; i <= NF; i++) {
                 if ($i ~ / error$/) { errors[++outputs] = i; head = head " " $i " % |" }
                 else if (!outputs) { counts[++work] = i; head = head " " $i " |" }
             }
@@ -50,7 +50,7 @@ table() { # STUDY
         {
             gsub(/"/, "", $1)
             gsub(/;/, ",", $1)
-            row = sprintf("| %s | %.3g | %.0f |", $1, 1e3 * $3, 100 * ($5 - $4) / $3)
+            row = sprintf("| %s | %.3g | %.0f | %.3g |", $1, 1e3 * $3, 100 * ($5 - $4) / $3, 1e3 * $7)
             for (k = 1; k <= work; k++) row = row " " $(counts[k]) " |"
             for (k = 1; k <= outputs; k++) {
                 i = errors[k]
@@ -124,7 +124,7 @@ sh "$here/draw.sh" "$program" "$work/film/tradeoff.figure.json" "$here/tradeoff.
 Written by \`docs/tradeoff.sh\` on $(field date). Processor: $(field processor), one of $(nproc) cores; load of the
 machine at the beginning and at the end: $load and $(cut -d' ' -f1 /proc/loadavg).
 
-Cost is the processor time of the stages that the candidates change, the median of the repeats.
+Cost is the processor time of the stages that the candidates change, the median of the repeats; *run* is that of all stages.
 *Error* is the relative difference from the reference that
 is not exceeded on 95 % of the mesh cycle. It is **bold** if the candidate is on the front: no cheaper candidate has as
 small an error. The files of all

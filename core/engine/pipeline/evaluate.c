@@ -4,6 +4,7 @@
 
 #include <assert.h>
 #include <stdlib.h>
+#include <sys/resource.h>
 #include <time.h>
 
 bool fe_check_quality(const ff_stage *stage, ff_report *report)
@@ -20,11 +21,22 @@ bool fe_check_quality(const ff_stage *stage, ff_report *report)
     return good;
 }
 
-static double seconds_of(clockid_t clock)
+static double wall_seconds(void)
 {
     struct timespec now;
-    clock_gettime(clock, &now);
+    clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* Returns the processor time of the process. CLOCK_PROCESS_CPUTIME_ID would advance by ticks of
+   some milliseconds while the process has a timer on it or a limit of its time, as the workers of a
+   study have. */
+static double cpu_seconds(void)
+{
+    struct rusage used;
+    getrusage(RUSAGE_SELF, &used);
+    return (double)(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
+           1e-6 * (double)(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
 }
 
 /* Whether another stage requires the output, or the output closes a loop. */
@@ -80,10 +92,10 @@ static bool call_model(const ff_pipeline *pipeline, ff_stage *stage, const ff_ar
             return false;
         fe_call call = fe_call_begin(stage, "evaluate");
         instance->evaluating = true;
-        double start = seconds_of(CLOCK_MONOTONIC), work = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
+        double start = wall_seconds(), work = cpu_seconds();
         stage->status = stage->loaded->model->evaluate(instance->self, fe_wanted_of(stage), in);
-        stage->work += seconds_of(CLOCK_PROCESS_CPUTIME_ID) - work;
-        stage->seconds += seconds_of(CLOCK_MONOTONIC) - start;
+        stage->work += cpu_seconds() - work;
+        stage->seconds += wall_seconds() - start;
         instance->evaluating = false;
         again = drop_refused(pipeline, stage);
         good = fe_call_end(&call, again ? FF_OK : stage->status, report);

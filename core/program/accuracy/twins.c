@@ -165,7 +165,7 @@ bool accuracy_twins_find(accuracy_twins *t)
         list_knobs(t);
     if (t->record->count == 0)
         return false;
-    if (t->few && (again ? t->half != NULL : t->far && !known_twin(t, half))) {
+    if (t->few && (again ? t->half != NULL : t->far)) {
         t->quarter = find_twin(t, quarter);
         if (t->quarter || again)
             return t->quarter != NULL;

@@ -16,7 +16,7 @@ typedef struct accuracy_twins {
     ff_place asked;        /* place of the accuracy request in the file; chosen settings have this
                             * place */
     bool few; /* find one twin at a time, and none that separates the effects of settings */
-    bool far; /* if `few`: the first twin is two levels coarser, unless the other one is known */
+    bool far; /* if `few`: the first twin is two levels coarser */
     accuracy_knob *knobs; /* the settings of all stages on which a measured output depends */
     size_t count;
     const accuracy_twin *half, *quarter, *twice; /* all settings 1 and 2 levels coarser, and 1 level
