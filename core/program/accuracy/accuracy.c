@@ -26,6 +26,6 @@ bool accuracy_run(accuracy_record *record, ff_run *run, ff_engine *engine, const
     if (good && accuracy_has_check(run))
         good = accuracy_check_twin(record, &scene);
     if (good)
-        accuracy_tell(record, record->answer);
+        accuracy_add_lines(record, record->answer);
     return good;
 }

@@ -24,8 +24,8 @@ typedef struct trial {
     const accuracy_record *measured;
     const char *const *settings;
     size_t setting_count;
-    const ff_pipeline *now; /* the answer with which the next one is compared */
-    double *moved;          /* by how much the accepted models move each measured output */
+    const ff_pipeline *current; /* the answer with which the next one is compared */
+    double *moved;              /* by how much the accepted models move each measured output */
 } trial;
 
 static size_t place_of(const trial *t, const accuracy_error *e)
@@ -37,10 +37,10 @@ static size_t place_of(const trial *t, const accuracy_error *e)
    compared. */
 static double distance(trial *t, const accuracy_error *e, const ff_pipeline *next)
 {
-    const ff_stage *stage = &t->now->stages[place_of(t, e)];
+    const ff_stage *stage = &t->current->stages[place_of(t, e)];
     int output = ff_model_find_output(stage->loaded->model, e->result->row->name);
     return output < 0 ? (double)NAN
-                      : accuracy_distance(t->now, stage, &stage->results[output], e->zero,
+                      : accuracy_distance(t->current, stage, &stage->results[output], e->zero_point,
                                           e->absolute, next, &t->choice->arena);
 }
 
@@ -62,7 +62,8 @@ static const char *doubt_of(const ff_stage *stage)
 
 /* Computes how far each output moves. Returns NULL if all stay within their share, else the reason
    for rejecting the model. */
-static const char *object_to(trial *t, size_t stage, const accuracy_twin *next, double *moves)
+static const char *reason_to_reject(trial *t, size_t stage, const accuracy_twin *next,
+                                    double *moves)
 {
     const char *doubt = next->good ? doubt_of(&next->pipeline->stages[stage]) : NULL;
     if (!next->good)
@@ -118,7 +119,7 @@ static const accuracy_twin *run(trial *t, size_t stage, const char *use)
         if (!is_of_other(t, t->settings[i], stage))
             sets[count++] = t->settings[i];
     changed[stage] = true;
-    t->scene.donor = t->now;
+    t->scene.reuse_from = t->current;
     const accuracy_twin *next = accuracy_twin_run(&t->scene, sets, count, &place, changed);
     free(changed);
     free(sets);
@@ -126,7 +127,7 @@ static const accuracy_twin *run(trial *t, size_t stage, const char *use)
 }
 
 /* Accepts the model: adds its changes to the record and continues from its answer. */
-static void take(trial *t, size_t stage, const double *moves, const accuracy_twin *next)
+static void accept_model(trial *t, size_t stage, const double *moves, const accuracy_twin *next)
 {
     accuracy_choice *choice = t->choice;
     for (size_t i = 0; i < t->measured->count; i++) {
@@ -134,12 +135,12 @@ static void take(trial *t, size_t stage, const double *moves, const accuracy_twi
         t->moved[i] += moves[i];
         choice->changes[choice->change_count++] = (accuracy_change){
             .stage = stage,
-            .of = place_of(t, e),
+            .output_stage = place_of(t, e),
             .output = e->result->row->name,
             .error = moves[i],
         };
     }
-    t->now = next->pipeline;
+    t->current = next->pipeline;
     choice->differs = true;
 }
 
@@ -151,11 +152,11 @@ static bool try_model(trial *t, size_t stage, const char *model, bool *stopped)
     const char *use = keep(t, memory_print_text("%s.use=%s", t->base->stages[stage].name, model));
     const accuracy_twin *next = run(t, stage, use);
     *stopped = next->stopped;
-    const char *reason = *stopped ? "" : object_to(t, stage, next, moves);
+    const char *reason = *stopped ? "" : reason_to_reject(t, stage, next, moves);
     choice->tried[choice->tried_count++] =
         (accuracy_tried){.stage = stage, .model = model, .taken = !reason, .reason = reason};
     if (!reason) {
-        take(t, stage, moves, next);
+        accept_model(t, stage, moves, next);
         choice->uses[choice->use_count++] = use;
     }
     free(moves);
@@ -182,7 +183,7 @@ bool accuracy_choose(accuracy_choice *choice, const accuracy_scene *scene,
                .measured = measured,
                .settings = settings,
                .setting_count = setting_count,
-               .now = base->pipeline};
+               .current = base->pipeline};
     bool stopped = false;
     t.moved = memory_alloc((measured->count + 1) * sizeof *t.moved);
     make_room(choice, &t);

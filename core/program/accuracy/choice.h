@@ -17,10 +17,10 @@ typedef struct accuracy_tried {
 
 /* The error that an accepted model adds to an output. */
 typedef struct accuracy_change {
-    size_t stage;       /* stage of the model */
-    size_t of;          /* the stage of the output */
-    const char *output; /* "h_min" */
-    double error;       /* relative, or in SI if the goal is absolute */
+    size_t stage;        /* stage of the model */
+    size_t output_stage; /* the stage of the output */
+    const char *output;  /* "h_min" */
+    double error;        /* relative, or in SI if the goal is absolute */
 } accuracy_change;
 
 /* Starts zeroed. */

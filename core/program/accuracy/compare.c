@@ -15,9 +15,9 @@ void accuracy_error_scales(const accuracy_series *answer, double *scales)
 {
     double most = 0;
     for (size_t i = 0; i < answer->count; i++)
-        most = fmax(most, fabs(answer->value[i] - answer->zero));
+        most = fmax(most, fabs(answer->value[i] - answer->zero_point));
     for (size_t i = 0; i < answer->count; i++) {
-        const double own = fabs(answer->value[i] - answer->zero);
+        const double own = fabs(answer->value[i] - answer->zero_point);
         scales[i] = answer->absolute ? 1 : fmax(answer->rank ? fmax(own, 0.1 * most) : own, 1e-300);
     }
 }
@@ -84,7 +84,7 @@ bool accuracy_compare(const accuracy_series *answer, const accuracy_series *refe
     for (size_t i = 0; i < reference->count; i++) {
         off[i] = fabs(accuracy_value_at(answer, reference, i) - reference->value[i]);
         finite = finite && isfinite(off[i]);
-        zero = zero && reference->value[i] == reference->zero;
+        zero = zero && reference->value[i] == reference->zero_point;
     }
     scaled.absolute = d->absolute = reference->absolute || zero;
     d->typical = accuracy_relative(off, &scaled, &d->largest);

@@ -11,8 +11,8 @@ typedef struct accuracy_series {
     size_t rank, count;
     const double *at; /* the axis, which never falls; NULL if it is the index */
     const double *value;
-    double zero;   /* zero point of relative errors, such as the oil's temperature */
-    bool absolute; /* errors are in the unit of the values, not relative to them */
+    double zero_point; /* zero point of relative errors, such as the oil's temperature */
+    bool absolute;     /* errors are in the unit of the values, not relative to them */
 } accuracy_series;
 
 typedef struct accuracy_difference {

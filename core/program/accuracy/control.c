@@ -42,7 +42,7 @@ typedef struct attempt {
 
 typedef struct control {
     accuracy_scene scene;
-    ff_pipeline *asked;          /* the file's pipeline, or the one with the accepted models */
+    ff_pipeline *pipeline;       /* the file's pipeline, or the one with the accepted models */
     accuracy_choice *choice;     /* the choice of models; NULL if it was not made yet, or if the
                                   * file names all models */
     ff_run *chosen;              /* the run with the accepted models, not started; NULL while the
@@ -54,7 +54,7 @@ typedef struct control {
     size_t attempts;
     bool stopped; /* by the observer */
     const char *failure;
-    char *now; /* text for the progress line */
+    char *progress; /* text for the progress line */
 } control;
 
 static bool leaves_models_open(const ff_pipeline *pipeline)
@@ -80,7 +80,7 @@ static const char **list_sets(control *c, size_t *count)
    is their reference. */
 static double goal_share(const control *c)
 {
-    return !c->choice && leaves_models_open(c->asked) ? reference_error : 1;
+    return !c->choice && leaves_models_open(c->pipeline) ? reference_error : 1;
 }
 
 static double goal_of(const control *c, const accuracy_error *e)
@@ -115,13 +115,13 @@ static double predict_cost(const control *c)
 
 /* Writes the progress text: which attempt begins at what cost, how many goals the previous one
  * reached, and which output is farthest from its goal. */
-static void tell_attempt(const control *c)
+static void write_progress(const control *c)
 {
     const accuracy_error *worst = NULL;
     size_t goals = 0;
-    if (!c->now)
+    if (!c->progress)
         return;
-    snprintf(c->now, ACCURACY_NOW, "attempt %zu, by the presets", c->attempts + 1);
+    snprintf(c->progress, ACCURACY_PROGRESS, "attempt %zu, by the presets", c->attempts + 1);
     for (size_t i = 0; c->best && c->best->run->good && i < c->best->record.count; i++) {
         const accuracy_error *e = &c->best->record.errors[i];
         goals += isnan(e->goal) ? 0 : 1;
@@ -131,7 +131,7 @@ static void tell_attempt(const control *c)
     if (!worst)
         return;
     char *reached = accuracy_print_reached(worst), *goal = accuracy_print_goal(worst);
-    snprintf(c->now, ACCURACY_NOW,
+    snprintf(c->progress, ACCURACY_PROGRESS,
              "attempt %zu at %.2g times the cost: %zu of %zu as asked, %.40s has %s for %s",
              c->attempts + 1, predict_cost(c), count_kept(c, c->best), goals,
              worst->result->row->name, reached, goal);
@@ -143,7 +143,7 @@ static void tell_attempt(const control *c)
 static void measure(control *c, attempt *a)
 {
     a->record.choice = c->choice;
-    a->record.now = c->now;
+    a->record.progress = c->progress;
     a->record.attempts = c->attempts + 1;
     c->stopped = !accuracy_measure(&a->record, &c->scene, a->run,
                                    goal_share(c) < 1 ? ACCURACY_ORDER : ACCURACY_ENOUGH);
@@ -154,15 +154,15 @@ static void try_settings(control *c, attempt *next)
 {
     size_t count;
     const char **sets = list_sets(c, &count);
-    bool *changed = memory_alloc((c->asked->count + 1) * sizeof *changed);
+    bool *changed = memory_alloc((c->pipeline->count + 1) * sizeof *changed);
     const ff_place place = accuracy_place(c->scene.file);
-    c->scene.donor = c->best && c->best->run->good ? c->best->run->pipeline : NULL;
+    c->scene.reuse_from = c->best && c->best->run->good ? c->best->run->pipeline : NULL;
     for (size_t i = 0; i < c->open.count; i++)
         changed[c->open.knobs[i].stage] = true;
-    tell_attempt(c);
+    write_progress(c);
     next->run = accuracy_twin_run(&c->scene, sets, count, &place, changed);
     c->stopped = next->run->stopped;
-    accuracy_open_leave_idle(&c->open, next->run->report, place);
+    accuracy_open_freeze_idle(&c->open, next->run->report, place);
     next->at = c->open.at;
     if (next->run->good)
         measure(c, next);
@@ -203,7 +203,7 @@ static bool is_promising(const control *c, const accuracy_error *e)
     const double error = e->reached / (two ? less_by_third_level : 1);
     if ((e->by_stage && accuracy_open_count(&c->open, stage) == 0) || is_by_chance(c, e))
         return false;
-    return e->held + (error - e->held) * exp2(-order * levels) <= goal_of(c, e);
+    return e->fixed_part + (error - e->fixed_part) * exp2(-order * levels) <= goal_of(c, e);
 }
 
 /* Sets the level of the next attempt; false if the present one is the answer. */
@@ -233,11 +233,11 @@ static void begin_with(control *c, const accuracy_choice *choice)
     c->chosen = run_copy(c->scene.file);
     for (size_t i = 0; i < choice->use_count; i++)
         run_set(c->chosen, choice->uses[i], &place, &place);
-    c->asked = run_build(c->chosen, false); /* as for a try, so that it repeats no message */
-    accuracy_hand_states(c->scene.start, c->asked);
-    c->scene.start = c->asked;
+    c->pipeline = run_build(c->chosen, false); /* as for a try, so that it repeats no message */
+    accuracy_copy_states(c->scene.start, c->pipeline);
+    c->scene.start = c->pipeline;
     drop_attempts(c);
-    accuracy_open_list(&c->open, c->asked);
+    accuracy_open_list(&c->open, c->pipeline);
 }
 
 /* Chooses models where the file leaves them open. Returns true if there is more to do. */
@@ -294,7 +294,7 @@ static bool search(control *c)
     for (bool again = true; again;) {
         again = try_next(c) && go_on(c) && c->kept_count < MOST_ATTEMPTS;
         if (!again && !c->stopped && c->best->run->good && !c->choice &&
-            leaves_models_open(c->asked))
+            leaves_models_open(c->pipeline))
             again = choose_models(c) && c->kept_count < MOST_ATTEMPTS;
     }
     if (!c->stopped)
@@ -305,19 +305,19 @@ static bool search(control *c)
 /* Makes the best attempt the answer. */
 static void adopt(control *c, accuracy_record *record)
 {
-    const accuracy_record asked = *record;
+    const accuracy_record request = *record;
     accuracy_open_move(&c->open, c->best->at);
     *record = c->best->record;
-    record->now = asked.now;
-    record->runs = asked.runs;
+    record->progress = request.progress;
+    record->runs = request.runs;
     record->twin = c->best->run;
-    record->answer = c->best->run->pipeline ? c->best->run->pipeline : asked.answer;
+    record->answer = c->best->run->pipeline ? c->best->run->pipeline : request.answer;
     c->kept_count--; /* the best one is the last */
     record->choice = c->choice;
     c->choice = NULL;
     record->attempts = c->attempts;
     record->failure = c->failure ? c->failure : record->failure;
-    record->given = memory_arena_text(&record->arena, c->open.given, strlen(c->open.given));
+    record->fixed = memory_arena_text(&record->arena, c->open.fixed, strlen(c->open.fixed));
     size_t models = record->choice ? record->choice->use_count : 0;
     record->chosen =
         memory_arena_alloc(&record->arena, (models + c->open.count + 1) * sizeof *record->chosen);
@@ -334,12 +334,13 @@ static void adopt(control *c, accuracy_record *record)
 
 bool accuracy_control(accuracy_record *record, const accuracy_scene *scene, ff_report *report)
 {
-    control c = {.scene = *scene, .asked = record->answer, .now = record->now};
-    accuracy_open_list(&c.open, c.asked);
+    control c = {.scene = *scene, .pipeline = record->answer, .progress = record->progress};
+    accuracy_open_list(&c.open, c.pipeline);
     bool finished = search(&c);
     if (finished) {
         adopt(&c, record);
-        accuracy_twin_hand_on(record->twin, accuracy_place(scene->file), scene->watch, report);
+        accuracy_twin_copy_messages(record->twin, accuracy_place(scene->file), scene->watch,
+                                    report);
     }
     bool good = finished && record->twin->good;
     drop_attempts(&c);

@@ -65,7 +65,7 @@ double accuracy_typical(const double *values, const double *at, size_t count)
 }
 
 /* Relative difference of two answers at number i. */
-static double apart(const accuracy_ladder *l, const double *a, const double *b, size_t i)
+static double difference(const accuracy_ladder *l, const double *a, const double *b, size_t i)
 {
     return fabs(a[i] - b[i]) / (l->scale ? l->scale[i] : 1);
 }
@@ -86,7 +86,7 @@ static double between(const accuracy_ladder *l, const double *a, const double *b
     for (size_t i = 0; i < l->count; i++) {
         if (marks && !marks[i])
             continue;
-        squares += apart(l, a, b, i) * apart(l, a, b, i);
+        squares += difference(l, a, b, i) * difference(l, a, b, i);
         count++;
     }
     return sqrt(squares / count);
@@ -98,7 +98,7 @@ static double typical_between(const accuracy_ladder *l, const double *a, const d
     double *sizes = memory_alloc(l->count * sizeof *sizes);
     bool *typical = memory_alloc(l->count * sizeof *typical);
     for (size_t i = 0; i < l->count; i++)
-        sizes[i] = apart(l, a, b, i);
+        sizes[i] = difference(l, a, b, i);
     mark_typical(l, sizes, typical);
     double root = between(l, a, b, typical);
     free(typical);
@@ -165,8 +165,8 @@ static double coarse_difference(const accuracy_ladder *l, size_t i)
 {
     double sum = 0;
     for (size_t k = 0; l->quarter && k < l->refined_count; k++)
-        sum += l->refined[k] ? apart(l, l->refined[k], l->quarter, i) : 0;
-    return l->half && l->quarter ? fmax(apart(l, l->quarter, l->half, i), sum) : sum;
+        sum += l->refined[k] ? difference(l, l->refined[k], l->quarter, i) : 0;
+    return l->half && l->quarter ? fmax(difference(l, l->quarter, l->half, i), sum) : sum;
 }
 
 static double coarse_limit(const accuracy_ladder *l)
@@ -184,7 +184,7 @@ static void mark_answer(const accuracy_ladder *l, bool *typical)
 {
     double *sizes = memory_alloc(l->count * sizeof *sizes);
     for (size_t i = 0; i < l->count; i++)
-        sizes[i] = apart(l, nearest(l), l->answer, i);
+        sizes[i] = difference(l, nearest(l), l->answer, i);
     mark_typical(l, sizes, typical);
     free(sizes);
 }
@@ -195,7 +195,7 @@ static double error_at(const accuracy_ladder *l, size_t i, bool typical, const c
     double observed = typical ? c->typical : c->all, growth = growth_to_use(l, observed);
     double coarse = fmax(growth, fmin(fabs(observed), most_coarse_growth)); /* fmax and fmin drop
                                                                                NaN */
-    double near = apart(l, nearest(l), l->answer, i), far = coarse_difference(l, i);
+    double near = difference(l, nearest(l), l->answer, i), far = coarse_difference(l, i);
     if (!goes_down(l))
         return safety * near * growth / (growth - 1);
     if (!l->half)

@@ -30,7 +30,7 @@ static bool is_measured(const ff_node *node)
     return node->kind == FF_SCALAR && !strcmp(node->text, row.choices);
 }
 
-bool accuracy_is_asked(const ff_run *run)
+bool accuracy_is_requested(const ff_run *run)
 {
     return node_of(run) != NULL;
 }

@@ -11,7 +11,7 @@
 #include <flankfilm/engine.h>
 
 /* True if the file asks for errors. */
-bool accuracy_is_asked(const ff_run *run);
+bool accuracy_is_requested(const ff_run *run);
 /* True if the file says `check: twins`: the answer is held against a finer twin. */
 bool accuracy_has_check(const ff_run *run);
 /* True if the file states a goal. */

@@ -158,9 +158,9 @@ char *accuracy_describe(const accuracy_error *e)
         fprintf(out, "%sas the stage estimates", between);
         between = "; ";
     }
-    if (e->held > least_part * e->reached) {
+    if (e->fixed_part > least_part * e->reached) {
         fprintf(out, "%s%.0f %% of it by settings of the file", between,
-                100 * e->held / e->reached);
+                100 * e->fixed_part / e->reached);
         between = "; ";
     }
     if (isfinite(e->order))
@@ -193,24 +193,25 @@ char *accuracy_print_goal(const accuracy_error *e)
 
 char *accuracy_print_check(const accuracy_record *record, const accuracy_error *e)
 {
-    if (record->unchecked)
-        return memory_print_text("the finer run failed: %s", record->unchecked);
-    if (isnan(e->apart))
+    if (record->check_failure)
+        return memory_print_text("the finer run failed: %s", record->check_failure);
+    if (isnan(e->twin_difference))
         return memory_print_text("it cannot be compared with a finer run");
-    char *apart = print_error(e, e->apart);
-    char *text = memory_print_text("%s from a twin a level finer%s%s", apart,
-                                   record->told_by_finer ? ", which has also told the error" : "",
-                                   isnan(e->reached)        ? "; the error itself is not known"
-                                   : e->apart <= e->reached ? ""
-                                                            : ": more than the error told");
-    free(apart);
+    char *difference = print_error(e, e->twin_difference);
+    char *text =
+        memory_print_text("%s from a twin a level finer%s%s", difference,
+                          record->from_finer ? ", which has also told the error" : "",
+                          isnan(e->reached)                  ? "; the error itself is not known"
+                          : e->twin_difference <= e->reached ? ""
+                                                             : ": more than the error told");
+    free(difference);
     return text;
 }
 
 static void add_line(const accuracy_record *record, const accuracy_error *e, ff_stage *stage)
 {
     double limit = isnan(e->goal) ? doubtful_above : e->goal;
-    const bool held = !record->checked || e->apart <= e->reached; /* not if one is NaN */
+    const bool held = !record->checked || e->twin_difference <= e->reached; /* not if one is NaN */
     char *name = memory_print_text("%s_error", e->result->row->name);
     char *error = accuracy_print_reached(e), *rest = accuracy_describe(e);
     char *check = held ? memory_print_text("%s", "") : accuracy_print_check(record, e);
@@ -225,7 +226,7 @@ static void add_line(const accuracy_record *record, const accuracy_error *e, ff_
     free(name);
 }
 
-void accuracy_tell(const accuracy_record *record, const ff_pipeline *answer)
+void accuracy_add_lines(const accuracy_record *record, const ff_pipeline *answer)
 {
     drop_estimates(record, answer);
     for (size_t i = 0; i < record->count; i++)

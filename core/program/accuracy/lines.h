@@ -7,7 +7,7 @@
 
 /* Adds a quality line for each measured error to its stage and removes the stage's own estimate.
    For the final answer only, not for attempts whose results others reuse. */
-void accuracy_tell(const accuracy_record *record, const ff_pipeline *answer);
+void accuracy_add_lines(const accuracy_record *record, const ff_pipeline *answer);
 
 /* Prints the measured error in the form of its goal, "0.54 %" or "0.31 K", or "not known" if no
    twin could determine it. The text must be freed. */

@@ -66,7 +66,7 @@ static void list_outputs(accuracy_twins *t)
             accuracy_error *e = &record->errors[record->count++];
             *e = (accuracy_error){.stage = stage,
                                   .result = &stage->results[i],
-                                  .zero = zero_of(answer, stage, &stage->results[i]),
+                                  .zero_point = zero_of(answer, stage, &stage->results[i]),
                                   .relative = NAN,
                                   .reached = NAN,
                                   .largest = NAN,
@@ -85,7 +85,7 @@ static void list_outputs(accuracy_twins *t)
 static accuracy_series series_of(const double *at, const accuracy_error *e)
 {
     return (accuracy_series){e->result->rank, e->result->count, at,
-                             e->result->data, e->zero,          e->absolute};
+                             e->result->data, e->zero_point,    e->absolute};
 }
 
 /* Computes the relative error of an output: typical along a series, and largest. */
@@ -136,7 +136,7 @@ static void add_changes(const accuracy_twins *t, const accuracy_ladder *levels, 
     const double share = e->absolute ? e->relative / e->reached : 1;
     for (size_t i = 0; choice && i < choice->change_count; i++) {
         const accuracy_change *c = &choice->changes[i];
-        if (c->of != (size_t)(e->stage - t->answer->stages) ||
+        if (c->output_stage != (size_t)(e->stage - t->answer->stages) ||
             strcmp(c->output, result->row->name) != 0)
             continue;
         for (size_t k = 0; k < result->count; k++) /* NaN: the two could not be compared */
@@ -305,22 +305,23 @@ static double between_twins(const accuracy_twins *t, const accuracy_error *e,
 {
     const ff_stage *stage = &one->pipeline->stages[e->stage - t->answer->stages];
     const int output = ff_model_find_output(stage->loaded->model, e->result->row->name);
-    return output < 0 ? (double)NAN
-                      : accuracy_distance(one->pipeline, stage, &stage->results[output], e->zero,
-                                          e->absolute, other->pipeline, &t->record->arena);
+    return output < 0
+               ? (double)NAN
+               : accuracy_distance(one->pipeline, stage, &stage->results[output], e->zero_point,
+                                   e->absolute, other->pipeline, &t->record->arena);
 }
 
 /* Tells which part of each missed error the settings of the file cause: their share of the
    difference between the two coarser twins. */
-static void find_held(accuracy_twins *t)
+static void find_fixed_part(accuracy_twins *t)
 {
-    accuracy_twins_run_held(t);
-    for (size_t i = 0; t->held && i < t->record->count; i++) {
+    accuracy_twins_run_fixed(t);
+    for (size_t i = 0; t->fixed_finer && i < t->record->count; i++) {
         accuracy_error *e = &t->record->errors[i];
         const double all = between_twins(t, e, t->quarter, t->half);
-        const double share = between_twins(t, e, t->quarter, t->held) / all;
+        const double share = between_twins(t, e, t->quarter, t->fixed_finer) / all;
         if (all > 0 && e->reached > e->goal && !e->by_stage) /* NaN: not comparable */
-            e->held = e->reached * fmin(fmax(share, 0), 1);
+            e->fixed_part = e->reached * fmin(fmax(share, 0), 1);
     }
 }
 
@@ -332,8 +333,8 @@ static accuracy_twins twins_of(accuracy_record *record, const accuracy_scene *sc
     accuracy_twins t = {.record = record,
                         .scene = *scene,
                         .answer = ff_run_pipeline(run),
-                        .said = attempt ? attempt->report : NULL,
-                        .asked = accuracy_place(scene->file)};
+                        .messages = attempt ? attempt->report : NULL,
+                        .request = accuracy_place(scene->file)};
     t.scene.file = run;
     t.scene.start = t.answer;
     t.scene.outputs = NULL;
@@ -344,15 +345,15 @@ bool accuracy_measure(accuracy_record *record, const accuracy_scene *scene,
                       const accuracy_twin *attempt, enum accuracy_effort effort)
 {
     accuracy_twins t = twins_of(record, scene, attempt);
-    t.few = effort != ACCURACY_PARTS;
+    t.one_by_one = effort != ACCURACY_PARTS;
     list_outputs(&t);
-    t.far = t.few && are_far_below(record);
+    t.far_first = t.one_by_one && are_far_below(record);
     for (bool missed = true; missed && accuracy_twins_find(&t) && !t.stopped;) {
         conclude(&t);
         missed = effort == ACCURACY_ORDER || (effort == ACCURACY_ENOUGH && misses(record));
     }
-    if (t.few && t.half && t.quarter && !t.stopped && misses(record))
-        find_held(&t);
+    if (t.one_by_one && t.half && t.quarter && !t.stopped && misses(record))
+        find_fixed_part(&t);
     record->two_levels = t.half && !t.quarter;
     return !t.stopped;
 }
@@ -366,15 +367,15 @@ bool accuracy_check_twin(accuracy_record *record, const accuracy_scene *scene)
     const accuracy_twin *finer = accuracy_twins_find_finer(&t);
     const bool good = finer && finer->good;
     record->checked = true;
-    record->told_by_finer = finer && scene->runs->count == before;
+    record->from_finer = finer && scene->runs->count == before;
     if (!good)
-        record->unchecked = finer ? accuracy_twin_reason(finer) : record->failure;
+        record->check_failure = finer ? accuracy_twin_reason(finer) : record->failure;
     record->failure = failure ? failure : record->failure;
     for (size_t i = 0; i < record->count; i++) {
         accuracy_error *e = &record->errors[i];
-        e->apart = good ? accuracy_distance(t.answer, e->stage, e->result, e->zero, e->absolute,
-                                            finer->pipeline, &record->arena)
-                        : (double)NAN;
+        e->twin_difference = good ? accuracy_distance(t.answer, e->stage, e->result, e->zero_point,
+                                                      e->absolute, finer->pipeline, &record->arena)
+                                  : (double)NAN;
     }
     return !t.stopped;
 }

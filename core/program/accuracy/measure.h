@@ -19,25 +19,26 @@ typedef struct accuracy_part {
 #define ACCURACY_BAR "_error_bar"
 
 /* Room for what is being run, in words for a progress line. */
-enum { ACCURACY_NOW = 120 };
+enum { ACCURACY_PROGRESS = 120 };
 
 /* The numerical error of an output. */
 typedef struct accuracy_error {
     const ff_stage *stage;
     const ff_result *result;
-    double goal;     /* the file's goal; NaN if it states none */
-    bool absolute;   /* the goal is absolute, in SI, not relative */
-    double reached;  /* the error to be compared with the goal: `relative`, or absolute in SI
-                      */
-    double zero;     /* zero point of relative errors, SI */
-    double *bar;     /* error bar of each number, SI, at least 0; NULL if it is not known */
-    double relative; /* relative error; for a series, at 95 of 100 points; NaN if it is not
-                      * known */
-    double largest;  /* largest relative error along a series */
+    double goal;       /* the file's goal; NaN if it states none */
+    bool absolute;     /* the goal is absolute, in SI, not relative */
+    double reached;    /* the error to be compared with the goal: `relative`, or absolute in SI
+                        */
+    double zero_point; /* zero point of relative errors, SI */
+    double *bar;       /* error bar of each number, SI, at least 0; NULL if it is not known */
+    double relative;   /* relative error; for a series, at 95 of 100 points; NaN if it is not
+                        * known */
+    double largest;    /* largest relative error along a series */
     double order; /* observed order, of the stage's estimate if `by_stage`; NaN if none was seen */
-    double apart; /* difference from a finer twin, in the form of `reached`; NaN if not
-                   * comparable */
-    double held;  /* part of a missed error that settings of the file cause; 0 if it is not known */
+    double twin_difference; /* difference from a finer twin, in the form of `reached`; NaN if not
+                             * comparable */
+    double fixed_part; /* part of a missed error that settings of the file cause; 0 if it is not
+                          known */
     bool by_stage; /* the bar comes from the stage's own estimate, which is larger than that of the
                     * twins */
     accuracy_part *parts; /* contributions of the settings, largest first; empty if no twin
@@ -57,17 +58,17 @@ typedef struct accuracy_record {
     const char **chosen; /* "film.cells=362": the answer's values of the settings that the file
                             leaves open */
     size_t chosen_count;
-    const char *given;   /* "film.cells, film.steps": settings fixed by the file; "" if there are
+    const char *fixed;   /* "film.cells, film.steps": settings fixed by the file; "" if there are
                             none */
     ff_pipeline *answer; /* the pipeline with the answer, of the file's run or of `twin` */
     const accuracy_twin *twin; /* the attempt that is the answer; NULL if there were none */
     struct accuracy_choice
-        *choice;           /* Choice of models, whose errors are included; NULL if none was made. */
-    bool checked;          /* the file asks that a finer twin checks the errors */
-    bool told_by_finer;    /* the errors come from that same twin */
-    const char *unchecked; /* why there is no such twin; NULL if there is one */
-    char *now; /* set by the caller: receives the progress text, at most ACCURACY_NOW characters; or
-                * NULL */
+        *choice;     /* Choice of models, whose errors are included; NULL if none was made. */
+    bool checked;    /* the file asks that a finer twin checks the errors */
+    bool from_finer; /* the errors come from that same twin */
+    const char *check_failure; /* why there is no such twin; NULL if there is one */
+    char *progress; /* set by the caller: receives the progress text, at most ACCURACY_PROGRESS
+                     * characters; or NULL */
     memory_arena arena;
 } accuracy_record;
 

@@ -151,7 +151,7 @@ static bool was_open(const ff_node *stage)
 }
 
 /* Removes the key `reference`, which is no parameter of a model. */
-static void take_reference_away(ff_run *run, const char *name)
+static void remove_reference(ff_run *run, const char *name)
 {
     char *none = memory_print_text("pipeline.%s.reference=", name);
     run_set(run, none, NULL, NULL);
@@ -177,7 +177,7 @@ static bool name_references(ff_run *run, ff_engine *engine)
         if (is_open_node(ff_node_get(stage, "use")))
             name_reference(run, name, stage, engine);
         if (!empty && was_open(stage))
-            take_reference_away(run, name);
+            remove_reference(run, name);
     }
     return ff_report_errors(report) == errors;
 }

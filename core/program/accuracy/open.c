@@ -8,8 +8,8 @@
 #include <string.h>
 
 /* A stage is cheap if its model states at most this share of the most expensive one's cost, or
-   states none and is not asked for itself. */
-static const double little = 0.1;
+   states none and is not requested itself. */
+static const double cheap_share = 0.1;
 /* Levels by which the settings of cheap stages are finer than those of the most expensive stage, in
    every attempt and twin. If all of them sampled too coarsely, no twin would show it. */
 static const double ahead = 1;
@@ -24,35 +24,35 @@ static double largest_cost(const ff_pipeline *pipeline)
 }
 
 /* Stages of a loop cost as much as its most expensive one. A stage that states no cost may be the
-   most expensive if its own outputs are asked for. */
+   most expensive if its own outputs are requested. */
 static bool costs_little(const ff_stage *stage, double most)
 {
     double cost = ff_model_cost(stage->loaded->model);
-    bool asked = false;
+    bool requested = false;
     for (size_t i = 0; i < stage->loaded->model->output_count; i++)
-        asked = asked || stage->results[i].requested;
-    return most > 0 && !stage->loop && cost <= little * most && (cost > 0 || !asked);
+        requested = requested || stage->results[i].requested;
+    return most > 0 && !stage->loop && cost <= cheap_share * most && (cost > 0 || !requested);
 }
 
 static void note_given(accuracy_open *open, const char *stage, const char *setting)
 {
     char *list =
-        memory_print_text("%s%s%s.%s", open->given, *open->given ? ", " : "", stage, setting);
-    open->given = memory_arena_take(&open->arena, list);
+        memory_print_text("%s%s%s.%s", open->fixed, *open->fixed ? ", " : "", stage, setting);
+    open->fixed = memory_arena_take(&open->arena, list);
 }
 
-void accuracy_open_list(accuracy_open *open, const ff_pipeline *asked)
+void accuracy_open_list(accuracy_open *open, const ff_pipeline *presets)
 {
-    const double most = largest_cost(asked);
+    const double most = largest_cost(presets);
     size_t count;
-    accuracy_knob *all = accuracy_knobs(asked, &count, &open->arena);
-    open->asked = asked;
+    accuracy_knob *all = accuracy_knobs(presets, &count, &open->arena);
+    open->presets = presets;
     open->knobs = all;
     open->levels = memory_arena_alloc(&open->arena, (count + 1) * sizeof *open->levels);
     open->count = 0;
-    open->given = "";
+    open->fixed = "";
     for (size_t i = 0; i < count; i++) {
-        const ff_stage *stage = &asked->stages[all[i].stage];
+        const ff_stage *stage = &presets->stages[all[i].stage];
         if (!all[i].open) {
             note_given(open, stage->name, all[i].name);
         } else if (accuracy_setting_at(stage, all[i].param, 0, &open->arena)) {
@@ -66,7 +66,7 @@ void accuracy_open_list(accuracy_open *open, const ff_pipeline *asked)
 const char *accuracy_open_set(accuracy_open *open, size_t knob)
 {
     const accuracy_knob *k = &open->knobs[knob];
-    return accuracy_setting_at(&open->asked->stages[k->stage], k->param, open->levels[knob].level,
+    return accuracy_setting_at(&open->presets->stages[k->stage], k->param, open->levels[knob].level,
                                &open->arena);
 }
 
@@ -79,11 +79,11 @@ static void move(accuracy_open *open, size_t knob, double level)
         l->level = fabs(l->level) < 1 ? 0 : l->level - copysign(1, l->level);
 }
 
-void accuracy_open_leave_idle(accuracy_open *open, const ff_report *said, ff_place place)
+void accuracy_open_freeze_idle(accuracy_open *open, const ff_report *said, ff_place place)
 {
     for (size_t i = 0; i < open->count; i++)
         open->levels[i].idle |= accuracy_is_idle(
-            said, place, open->asked->stages[open->knobs[i].stage].name, open->knobs[i].name);
+            said, place, open->presets->stages[open->knobs[i].stage].name, open->knobs[i].name);
 }
 
 bool accuracy_open_move(accuracy_open *open, double to)

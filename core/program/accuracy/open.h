@@ -17,11 +17,11 @@ typedef struct accuracy_level {
 
 /* Starts zeroed. */
 typedef struct accuracy_open {
-    const ff_pipeline *asked; /* pipeline with the presets */
+    const ff_pipeline *presets; /* pipeline with the presets */
     accuracy_knob *knobs;
     accuracy_level *levels; /* one for each knob */
     size_t count;
-    const char *given; /* "film.cells, film.steps": settings fixed by the file; "" if there are
+    const char *fixed; /* "film.cells, film.steps": settings fixed by the file; "" if there are
                           none */
     double at;         /* levels coarser than the presets */
     memory_arena arena;
@@ -29,9 +29,9 @@ typedef struct accuracy_open {
 
 /* Lists the open settings of the needed stages, at their presets, or one level finer for cheap
  * stages. */
-void accuracy_open_list(accuracy_open *open, const ff_pipeline *asked);
+void accuracy_open_list(accuracy_open *open, const ff_pipeline *presets);
 /* Freezes the settings that had no effect in a run, which had set them at the place. */
-void accuracy_open_leave_idle(accuracy_open *open, const ff_report *said, ff_place place);
+void accuracy_open_freeze_idle(accuracy_open *open, const ff_report *said, ff_place place);
 /* Sets the level; each setting gets the nearest one within its limits. Returns true if a setting
  * changes. */
 bool accuracy_open_move(accuracy_open *open, double to);

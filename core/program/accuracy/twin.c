@@ -57,13 +57,13 @@ static bool has_all(const ff_stage *from, const ff_stage *to)
 static bool recall(void *ctx, const ff_pipeline *pipeline, ff_stage *stage)
 {
     const observation *o = ctx;
-    const ff_pipeline *donor = o->scene->donor;
+    const ff_pipeline *from = o->scene->reuse_from;
     ff_stage *to;
-    bool all = donor && !o->affected[stage - pipeline->stages];
+    bool all = from && !o->affected[stage - pipeline->stages];
     for (size_t i = 0; all && (to = run_together(pipeline, stage, i)); i++)
-        all = has_all(&donor->stages[to - pipeline->stages], to);
+        all = has_all(&from->stages[to - pipeline->stages], to);
     for (size_t i = 0; all && (to = run_together(pipeline, stage, i)); i++)
-        copy_results(&donor->stages[to - pipeline->stages], to);
+        copy_results(&from->stages[to - pipeline->stages], to);
     return all;
 }
 
@@ -85,7 +85,7 @@ static void take_note(void *ctx, const ff_stage *stage, int32_t level, const cha
                         .text = memory_arena_text(&twin->arena, text, strlen(text))};
 }
 
-void accuracy_hand_states(const ff_pipeline *from, ff_pipeline *to)
+void accuracy_copy_states(const ff_pipeline *from, ff_pipeline *to)
 {
     to->chained = from->chained;
     for (size_t i = 0; to->chained && i < to->count; i++)
@@ -133,7 +133,7 @@ const accuracy_twin *accuracy_twin_run(const accuracy_scene *scene, const char *
     if (twin->pipeline && !run_has_errors(twin->run)) {
         spread(twin->pipeline, affected); /* the new model of a stage may have other wires */
         accuracy_want_beside(twin->pipeline, !scene->outputs);
-        accuracy_hand_states(like, twin->pipeline);
+        accuracy_copy_states(like, twin->pipeline);
         if (!scene->outputs)
             want_the_same(like, twin->pipeline);
         twin->good = run_start(twin->run, &watch) && !run_has_errors(twin->run);
@@ -180,8 +180,8 @@ bool accuracy_is_idle(const ff_report *report, ff_place place, const char *stage
     return idle;
 }
 
-void accuracy_twin_hand_on(const accuracy_twin *run, ff_place chosen, const ff_observer *watch,
-                           ff_report *report)
+void accuracy_twin_copy_messages(const accuracy_twin *run, ff_place chosen,
+                                 const ff_observer *watch, ff_report *report)
 {
     for (size_t i = 0; i < ff_report_count(run->report); i++) {
         const ff_message *m = ff_report_at(run->report, i);

@@ -19,7 +19,7 @@ typedef struct accuracy_scene {
     const ff_run *file;  /* the file that a twin copies */
     ff_engine *engine;
     /* Stages that do not depend on the changes take their results from here; NULL if none do. */
-    const ff_pipeline *donor;
+    const ff_pipeline *reuse_from;
     const ff_pipeline *start; /* same file; in a chain of cases the twin starts from its states */
     const char *outputs;      /* "outputs=[film.h_min]"; NULL if the outputs are unchanged */
     const ff_observer *watch; /* receives the progress; may be NULL */
@@ -51,7 +51,7 @@ const accuracy_twin *accuracy_twin_run(const accuracy_scene *scene, const char *
                                        size_t count, const ff_place *place, const bool *changed);
 /* In a chain of cases the answer started from its neighbour's state. Its twin starts from the
    answer's final state, so that both follow the same branch. */
-void accuracy_hand_states(const ff_pipeline *from, ff_pipeline *to);
+void accuracy_copy_states(const ff_pipeline *from, ff_pipeline *to);
 /* Returns why the twin is not usable. */
 const char *accuracy_twin_reason(const accuracy_twin *twin);
 /* True if a setting at that place changes nothing, such as a tolerance of steps that the file
@@ -60,8 +60,8 @@ bool accuracy_is_idle(const ff_report *report, ff_place place, const char *stage
                       const char *setting);
 /* Copies the run's messages to the report, except those that it already has and those about the
  * place. */
-void accuracy_twin_hand_on(const accuracy_twin *run, ff_place chosen, const ff_observer *watch,
-                           ff_report *report);
+void accuracy_twin_copy_messages(const accuracy_twin *run, ff_place chosen,
+                                 const ff_observer *watch, ff_report *report);
 void accuracy_runs_free(accuracy_runs *runs);
 
 #endif

@@ -20,8 +20,8 @@ static void list_knobs(accuracy_twins *t)
     size_t all;
     t->knobs = accuracy_knobs(t->answer, &all, arena);
     for (size_t i = 0; i < all; i++)
-        if (!t->said ||
-            !accuracy_is_idle(t->said, t->asked, t->answer->stages[t->knobs[i].stage].name,
+        if (!t->messages ||
+            !accuracy_is_idle(t->messages, t->request, t->answer->stages[t->knobs[i].stage].name,
                               t->knobs[i].name))
             t->knobs[t->count++] = t->knobs[i];
     t->refined = memory_arena_alloc(arena, (t->count + 1) * sizeof *t->refined);
@@ -43,19 +43,19 @@ static const char *assignment_at(const accuracy_twins *t, const accuracy_knob *k
 }
 
 /* True for a setting that stands in the file. */
-static bool is_given(const accuracy_twins *t, const accuracy_knob *k)
+static bool is_fixed_by_file(const accuracy_twins *t, const accuracy_knob *k)
 {
     const ff_place place = t->answer->stages[k->stage].params[k->param].place;
-    return place.source && !(place.source == t->asked.source && place.line == t->asked.line &&
-                             place.column == t->asked.column);
+    return place.source && !(place.source == t->request.source && place.line == t->request.line &&
+                             place.column == t->request.column);
 }
 
 /* Instead of the index of a setting: none, or all that the file fixes. */
-static const size_t no_setting = SIZE_MAX, given_settings = SIZE_MAX - 1;
+static const size_t no_setting = SIZE_MAX, fixed_settings = SIZE_MAX - 1;
 
 static bool is_one(const accuracy_twins *t, size_t i, size_t which)
 {
-    return i == which || (which == given_settings && is_given(t, &t->knobs[i]));
+    return i == which || (which == fixed_settings && is_fixed_by_file(t, &t->knobs[i]));
 }
 
 /* Fills the assignments of a twin and marks the stages that they change. False if a setting's
@@ -79,19 +79,19 @@ static bool list_sets(accuracy_twins *t, int at, size_t finer, const char **sets
 }
 
 /* Writes the progress text. */
-static void tell_twin(const accuracy_twins *t, int at)
+static void write_progress(const accuracy_twins *t, int at)
 {
     const accuracy_record *record = t->record;
     const char *which = at < 0 ? "finer" : "coarser";
-    if (!record->now)
+    if (!record->progress)
         return;
     if (t->checking)
-        snprintf(record->now, ACCURACY_NOW, "a %s twin checks the errors", which);
+        snprintf(record->progress, ACCURACY_PROGRESS, "a %s twin checks the errors", which);
     else if (record->attempts == 0)
-        snprintf(record->now, ACCURACY_NOW, "a %s twin tells the errors", which);
+        snprintf(record->progress, ACCURACY_PROGRESS, "a %s twin tells the errors", which);
     else
-        snprintf(record->now, ACCURACY_NOW, "a %s twin tells the errors of attempt %zu", which,
-                 record->attempts);
+        snprintf(record->progress, ACCURACY_PROGRESS, "a %s twin tells the errors of attempt %zu",
+                 which, record->attempts);
 }
 
 /* Runs a twin. The setting `finer` is at the level of `half`. NULL if a setting's limits forbid
@@ -101,8 +101,8 @@ static const accuracy_twin *run_twin(accuracy_twins *t, int at, size_t finer)
     const accuracy_twin *twin = NULL;
     const char **sets = memory_alloc((t->count + 1) * sizeof *sets);
     bool *changed = memory_alloc((t->answer->count + 1) * sizeof *changed);
-    tell_twin(t, at);
-    t->scene.donor = finer == no_setting ? t->answer : t->quarter->pipeline;
+    write_progress(t, at);
+    t->scene.reuse_from = finer == no_setting ? t->answer : t->quarter->pipeline;
     if (list_sets(t, at, finer, sets, changed)) {
         twin = accuracy_twin_run(&t->scene, sets, t->count, NULL, changed);
         t->stopped = twin->stopped;
@@ -165,17 +165,17 @@ bool accuracy_twins_find(accuracy_twins *t)
         list_knobs(t);
     if (t->record->count == 0)
         return false;
-    if (t->few && (again ? t->half != NULL : t->far)) {
+    if (t->one_by_one && (again ? t->half != NULL : t->far_first)) {
         t->quarter = find_twin(t, quarter);
         if (t->quarter || again)
             return t->quarter != NULL;
     }
     t->half = find_twin(t, half);
-    if (!t->few && t->half) {
+    if (!t->one_by_one && t->half) {
         t->quarter = find_twin(t, quarter);
         run_refined(t);
     }
-    if (!t->half || (!t->few && !t->quarter))
+    if (!t->half || (!t->one_by_one && !t->quarter))
         t->twice = find_twin(t, twice);
     return t->half || t->twice;
 }
@@ -188,11 +188,11 @@ const accuracy_twin *accuracy_twins_find_finer(accuracy_twins *t)
     return known ? known : run_twin(t, twice, no_setting);
 }
 
-void accuracy_twins_run_held(accuracy_twins *t)
+void accuracy_twins_run_fixed(accuracy_twins *t)
 {
     bool some = false;
     for (size_t i = 0; i < t->count; i++)
-        some = some || is_given(t, &t->knobs[i]);
-    const accuracy_twin *twin = some ? run_twin(t, quarter, given_settings) : NULL;
-    t->held = twin && twin->good ? twin : NULL;
+        some = some || is_fixed_by_file(t, &t->knobs[i]);
+    const accuracy_twin *twin = some ? run_twin(t, quarter, fixed_settings) : NULL;
+    t->fixed_finer = twin && twin->good ? twin : NULL;
 }

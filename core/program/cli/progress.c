@@ -38,8 +38,8 @@ static int on_progress(void *ctx, const ff_stage *stage, double fraction)
     }
     if (progress->terminal && now - progress->started >= first_after &&
         now - progress->drawn >= redraw_after) {
-        fprintf(stderr, "\r\033[K%s%s%.32s (%.40s) %3.0f %%  %.1f s", progress->now,
-                *progress->now ? "; " : "", stage->name, stage->use, 100 * fraction,
+        fprintf(stderr, "\r\033[K%s%s%.32s (%.40s) %3.0f %%  %.1f s", progress->text,
+                *progress->text ? "; " : "", stage->name, stage->use, 100 * fraction,
                 now - progress->started);
         progress->drawn = now;
     }

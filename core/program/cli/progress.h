@@ -12,7 +12,7 @@ typedef struct cli_progress {
     ff_report *report;
     json_t *log; /* [{stage, level, text}]; the caller frees it */
     bool terminal;
-    char now[ACCURACY_NOW]; /* what is being run, if there are several runs; otherwise "" */
+    char text[ACCURACY_PROGRESS]; /* what is being run, if there are several runs; otherwise "" */
     const ff_stage
         *stage; /* the stage that is running: since `started`; its line was last drawn at `drawn` */
     double started, drawn; /* s; 0: no line is shown */

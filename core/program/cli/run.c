@@ -102,10 +102,10 @@ static int run_session(cli_session *session, const cli_options *options, const r
 {
     cli_progress progress;
     cli_progress_begin(&progress, session->report);
-    accuracy_record errors = {.answer = session->pipeline, .now = progress.now};
+    accuracy_record errors = {.answer = session->pipeline, .progress = progress.text};
     accuracy_want_points(session->pipeline);
     bool good =
-        accuracy_is_asked(session->run)
+        accuracy_is_requested(session->run)
             ? accuracy_run(&errors, session->run, session->engine, &progress.watch, session->report)
             : run_start(session->run, &progress.watch);
     ff_report_append(session->report, ff_run_report(session->run));

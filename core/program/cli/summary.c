@@ -301,8 +301,8 @@ static void print_error_row(const paper *page, const accuracy_error *e, int widt
 /* Prints how the search for the accuracy ended. */
 static void print_search(const accuracy_record *errors, size_t missed)
 {
-    if (missed > 0 && *errors->given)
-        terminal_print_wrapped(errors->given, printf("  settings fixed by the file: "), 4);
+    if (missed > 0 && *errors->fixed)
+        terminal_print_wrapped(errors->fixed, printf("  settings fixed by the file: "), 4);
     else if (missed > 0 && errors->attempts > 1)
         puts("  the repeat, with the settings predicted from the observed order, missed the "
              "others");

@@ -98,7 +98,7 @@ static json_t *describe_error(const accuracy_error *e, bool checked, results_arr
     if (e->absolute)
         json_object_set_new(entry, "absolute", study_json_real(e->reached));
     if (checked)
-        json_object_set_new(entry, "from_finer", study_json_real(e->apart));
+        json_object_set_new(entry, "from_finer", study_json_real(e->twin_difference));
     if (e->bar && e->result->rank && is_elsewhere(e->result, arrays))
         json_object_set_new(entry, "file", name_file(e->stage, e->result, ACCURACY_BAR, arrays));
     else if (e->bar)

@@ -234,7 +234,7 @@ static void test_no_difference(void)
 static void check_words(const accuracy_record *record, double reached, double apart,
                         const char *words)
 {
-    const accuracy_error error = {.reached = reached, .apart = apart};
+    const accuracy_error error = {.reached = reached, .twin_difference = apart};
     char *text = accuracy_print_check(record, &error);
     if (strcmp(text, words) != 0)
         printf("found: %s\n", text);
@@ -245,8 +245,8 @@ static void check_words(const accuracy_record *record, double reached, double ap
 /* What a finer twin says, if there is one and it can be compared. */
 static void test_words_of_a_check(void)
 {
-    const accuracy_record run = {.checked = true}, same = {.checked = true, .told_by_finer = true},
-                          none = {.checked = true, .unchecked = "too many cells"};
+    const accuracy_record run = {.checked = true}, same = {.checked = true, .from_finer = true},
+                          none = {.checked = true, .check_failure = "too many cells"};
     check_words(&run, 0.02, 0.01, "1 % from a twin a level finer");
     check_words(&run, 0.02, 0.03, "3 % from a twin a level finer: more than the error told");
     check_words(&run, 0.02, NAN, "it cannot be compared with a finer run");

@@ -143,12 +143,12 @@ void study_case_open(study_case *c, const study_run *run, size_t index, study_ke
     uint64_t fingerprint = hash_assignments(study, index);
     if (study_case_is_good(c)) {
         study_measure_want(study, c->pipeline);
-        if (accuracy_is_asked(c->run))
+        if (accuracy_is_requested(c->run))
             accuracy_want_beside(c->pipeline, true);
         c->fingerprints = memory_alloc(c->pipeline->count * sizeof *c->fingerprints);
         fingerprint = study_fingerprint(c->pipeline, c->fingerprints);
     }
-    if (c->pipeline && accuracy_is_asked(c->run)) {
+    if (c->pipeline && accuracy_is_requested(c->run)) {
         char *asked = accuracy_print_key(c->run, run->engine);
         fingerprint = study_hash_text(study_hash_text(fingerprint, "accuracy"), asked);
         free(asked);
@@ -195,7 +195,7 @@ static void compute(study_case *c, const study_run *run, study_reuse *reuse,
                          .keep = study_reuse_keep};
     reuse->fresh = fresh;
     study_chain_restore_states(c);
-    if (accuracy_is_asked(c->run))
+    if (accuracy_is_requested(c->run))
         accuracy_run(errors, c->run, run->engine, &watch, c->report);
     else
         run_start(c->run, &watch);
