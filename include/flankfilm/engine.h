@@ -218,7 +218,7 @@ ff_status ff_run_quality(const ff_run *run, size_t index, const ff_quality **lin
  * that use it.
  *
  * Besides the statuses above, a call can return a status of the model: FF_DOMAIN if the model
- * warned, FF_UNSUPPORTED if it does not serve the request. A failed call leaves the instance
+ * warned, FF_UNSUPPORTED if it does not support the request. A failed call leaves the instance
  * unchanged except for its results.
  */
 
@@ -474,7 +474,7 @@ struct ff_node {
 /* The allowed top-level keys of a file: "format", "title", ...; NULL-terminated. */
 const char *const *ff_file_keys(void);
 
-/* NULL: the key is absent, or `map` is no map */
+/* NULL: the key is absent, or `map` is not a map */
 const ff_node *ff_node_get(const ff_node *map, const char *key);
 
 /* Resolves `path` relative to `directory`. The caller frees the result. */
@@ -679,8 +679,9 @@ ff_status ff_run_build(ff_run *run, bool everything);
  * same as for a run read with these values. A model instance is reused if its values are unchanged,
  * it has no connected service and it hands on no state (`carry`); all others are created again.
  *
- * FF_UNSUPPORTED: an assignment is no plain value of a parameter that had a value, or it causes a
- * message. The run can then only be closed; a new run with these values gives the message.
+ * FF_UNSUPPORTED: an assignment causes a message, does not set a plain value, or sets a parameter
+ * that had no value before. The run can then only be closed; a new run with these values gives the
+ * message.
  *
  * If `objects` is false, all model instances are destroyed and none is created; the pipeline then
  * only provides its parameters and wires, and no model checks the values.

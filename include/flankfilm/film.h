@@ -60,8 +60,9 @@ typedef struct ff_film_instant {
     double radius;      /* R, m */
     int32_t loaded;     /* 1: h00 follows from the load; 0: h00 is given, and the load follows */
     double load;        /* N/m, when loaded */
-    double rate;        /* in d(rho h)/dt = rate rho h + past, 1/s; 0: steady */
-    const double *past; /* from rho h of the earlier instants, kg/(m2 s); NULL: 0 */
+    double rate;        /* factor in d(rho h)/dt = rate rho h + past, 1/s; 0: steady */
+    const double
+        *past; /* term in the same sum, from rho h of earlier instants, kg/(m2 s); NULL: 0 */
 } ff_film_instant;
 
 /* On input: the last film, an extrapolation of the last films, or a first guess. On output: the

@@ -45,7 +45,7 @@ enum {
     FF_STOPPED = 3,  /* stopped because host->progress returned non-zero */
     FF_INVALID = -1, /* a parameter or an input cannot be used */
     FF_NOMEM = -2,   /* memory is missing */
-    FF_UNSUPPORTED = -3, /* a legal request, but not one that this model serves */
+    FF_UNSUPPORTED = -3, /* a legal request that this model does not support */
     FF_BUG = -4          /* an internal invariant of the model is broken */
 };
 

@@ -82,7 +82,7 @@ PRINTED = {"print": 'printed "here I am"', "write": 'printed "here I am"'}
 HIDDEN = {
     "thread": "left a thread behind",
     **dict.fromkeys(["vfork", "child", "popen", "spawn"], "started another process"),
-    "umask": "changed the mask of new files",
+    "umask": "changed the permission mask of new files",
     **dict.fromkeys(["handler", "action"], "changed a signal handler"),
     **dict.fromkeys(["mask", "process-mask"], "changed which signals are blocked"),
     "stack": "changed the stack of the signal handlers",

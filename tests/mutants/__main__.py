@@ -266,4 +266,4 @@ if __name__ == '__main__':
     except Bad as why:
         sys.exit(f'tests/mutants: {why}')
     except KeyboardInterrupt:
-        sys.exit('tests/mutants: interrupted; the same command goes on from here')
+        sys.exit('tests/mutants: interrupted; the same command continues')

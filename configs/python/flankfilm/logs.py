@@ -71,7 +71,7 @@ class Logs:
                 raise Error(f"{path} cannot be read: {error}") from None
             if self._maps[name][:64] != TITLE:
                 del self._maps[name]
-                raise Error(f"{path} cannot be read: it is not a log of arrays of format 1")
+                raise Error(f"{path} cannot be read: it is not a log of arrays with format 1")
         return self._maps[name]
 
     def read(self, record, output):
@@ -93,6 +93,6 @@ class Logs:
         found = np.lib.format.read_array_header_1_0(head)
         label = (key.rstrip(b"\0").decode(), log[offset + 40:offset + start].rstrip(b"\0").decode())
         if label != (record["key"], output) or found != (tuple(shape), False, np.dtype("<f8")):
-            raise Error(where + " is of another array")
+            raise Error(where + " belongs to another array")
         count = int(np.prod(shape, dtype=int))
         return np.frombuffer(log, "<f8", count, offset + start + head.tell()).reshape(shape)

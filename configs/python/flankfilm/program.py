@@ -107,7 +107,7 @@ class Study(Mapping):
         with _file(path, "study.json") as file:
             about = json.load(file)
         if about.get("format", 1) != FORMAT:
-            raise Error(f"{path}: its files are of format {about.get('format', 1)} of studies, not {FORMAT}")
+            raise Error(f"{path}: its files have format {about.get('format', 1)}, not {FORMAT}")
         with _file(path, "table.csv") as file:
             rows = list(csv.reader(file))
         self.title, self.shape = about.get("title"), tuple(about["lengths"])

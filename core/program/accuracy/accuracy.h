@@ -8,9 +8,9 @@
 
 /*
  * Runs a file that asks for numerical errors and measures them. If the file states goals, the
- * settings that it leaves open are chosen to meet them, and the answer is that of the last run; its
- * messages go to `report`. The record refers to `run` and `engine`. Returns false after an error,
- * or if the observer stopped the run.
+ * settings that it leaves open are chosen to meet them; `report` then receives the messages of the
+ * run that gives the answer. `run` and `engine` must outlive the record. Returns false after an
+ * error, or if the observer stopped the run.
  */
 bool accuracy_run(accuracy_record *record, ff_run *run, ff_engine *engine, const ff_observer *watch,
                   ff_report *report);

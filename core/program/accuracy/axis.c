@@ -26,7 +26,7 @@ static bool has_plateaus(const ff_result *series)
     return false;
 }
 
-/* Grades a series as an axis; 0 if it cannot be one. */
+/* Returns how well a series suits as an axis; 0: not at all. */
 static int fitness_of(const ff_result *series, bool own, const char *dim, const char *named)
 {
     const char *unit = series->row->unit, *name = series->row->name;
@@ -119,8 +119,8 @@ bool accuracy_may_be_axis(const ff_port *row, const ff_port *of)
            suits(row, of->dims);
 }
 
-/* Makes a stage compute the points on its series of angles, such as those where a second pair of
-   teeth comes in. */
+/* If the stage has a series of angles, marks its scalar angles as wanted, such as the roll angle at
+ * which a second pair of teeth enters contact. */
 static void want_points(const ff_stage *stage, size_t count)
 {
     bool angles = false;

@@ -7,11 +7,11 @@
 
 #include <flankfilm/engine.h>
 
-/* Finds the axis of dimension `dim` (length `count`) of a stage. Candidates are the stage's own
- * series, then with a pipeline its inputs: first the series named like the dimension, then the
- * first rising series in rad, then in s, then the first rising one of the stage. If `named` is not
- * NULL, only the series with that name is a candidate. `self` is the series that asks, or NULL.
- * Returns NULL if there is none: the axis is the index. */
+/* Finds the axis of dimension `dim` (length `count`) of a stage. Candidates are the rising series
+   of the stage and, with a pipeline, those that feed it. The best one is named like the dimension,
+   else in rad, else in s, else any of the stage's own. If `named` is not NULL, only the series with
+   that name is a candidate. `self`, which may be NULL, is the series to be plotted: it is no
+   candidate. Returns NULL if there is none: the axis is the index. */
 const ff_result *accuracy_axis(const ff_pipeline *pipeline, const ff_stage *stage, const char *dim,
                                size_t count, const ff_result *self, const char *named);
 
@@ -38,12 +38,12 @@ double accuracy_distance(const ff_pipeline *pipeline, const ff_stage *stage,
                          const ff_result *result, double zero, bool absolute,
                          const ff_pipeline *other, memory_arena *arena);
 
-/* If a series is requested, makes the pipeline also compute its points on angles, such as those
- * where a second pair of teeth enters. Called before the run. */
+/* If a series is requested, makes stages with a series of angles also compute their scalar angles,
+   such as the one at which a second pair of teeth enters contact. Called before the run. */
 void accuracy_want_points(const ff_pipeline *pipeline);
 
-/* Marks, before the run, two kinds of outputs to be computed as well: the axes of series and, for
- * an answer, the stages' error estimates of its outputs. */
+/* Marks as wanted, before the run, the axes of the requested series and, if `estimates`, the
+ * outputs in which stages estimate errors of requested outputs. */
 void accuracy_want_beside(const ff_pipeline *pipeline, bool estimates);
 
 #endif

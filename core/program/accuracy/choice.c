@@ -14,7 +14,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Share of a goal that the models may use; the rest is left for numerical errors. */
+/* Share of a goal that the errors of cheaper models may take; the rest is left for numerical
+ * errors. */
 static const double share_of_models = 0.5;
 
 typedef struct trial {
@@ -51,7 +52,7 @@ static const char *keep(trial *t, char *text)
     return kept;
 }
 
-/* Name of the first quality line in which the model doubts itself; NULL if there is none. */
+/* Name of the first quality line with which the model reports a doubt; NULL if there is none. */
 static const char *doubt_of(const ff_stage *stage)
 {
     for (size_t i = 0; i < stage->quality_count; i++)
@@ -69,7 +70,7 @@ static const char *reason_to_reject(trial *t, size_t stage, const accuracy_twin 
     if (!next->good)
         return keep(t, memory_print_text("%s", accuracy_twin_reason(next)));
     if (doubt)
-        return keep(t, memory_print_text("%s of it is doubtful", doubt));
+        return keep(t, memory_print_text("its quality line %s is doubtful", doubt));
     if (t->measured->count == 0)
         return "no output can be compared";
     for (size_t i = 0; i < t->measured->count; i++) {
@@ -82,7 +83,7 @@ static const char *reason_to_reject(trial *t, size_t stage, const accuracy_twin 
             return keep(t, memory_print_text("%s.%s cannot be compared", e->stage->name,
                                              e->result->row->name));
         return keep(t,
-                    memory_print_text("%s.%s may be off by %.2g %%, and %.2g %% may come of models",
+                    memory_print_text("%s.%s may be off by %.2g %%, and models may cause %.2g %%",
                                       e->stage->name, e->result->row->name, 100 * moves[i],
                                       100 * (most - t->moved[i])));
     }

@@ -39,8 +39,8 @@ typedef struct accuracy_choice {
 /*
  * Goes through the stages in order and tries the models that cost less than the reference, cheapest
  * first. The first model with which all outputs stay well within their goals is accepted. `base`
- * was run with the references and `settings`, and its errors are measured; `like` has its stages.
- * Consecutive tries differ by one model. Returns false if the observer stopped it.
+ * was run with the reference models and `settings`; `measured` has its errors. Consecutive tries
+ * differ by one model. Returns false if the observer stopped it.
  */
 bool accuracy_choose(accuracy_choice *choice, const accuracy_scene *scene,
                      const accuracy_twin *base, const accuracy_record *measured,

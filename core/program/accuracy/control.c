@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The first attempt uses the presets. While a goal is missed, and the errors and the order that the
- * twins show promise to meet it within the finest level, the next attempt is one level finer. A
- * level costs about four times the one before, so that the coarser attempts, which are its twins,
- * cost a third of it; and one that does not keep the promise ends the search before the finer, more
- * expensive ones. */
+/* The first attempt uses the presets. If a goal is missed, and the measured errors and orders
+ * predict that the finest level meets it, the next attempt is one level finer. A level costs about
+ * four times the previous one, so all coarser attempts together, which serve as its twins, cost a
+ * third of it. The prediction is repeated after each attempt, so the search ends before the most
+ * expensive levels if they would not help. */
 #include "control.h"
 
 #include "choice.h"
@@ -25,11 +25,11 @@
 /* Share of a goal allowed to the reference model's own error while cheaper models are compared with
  * it: they may use half of the goal (choice.c), and this error is added to theirs. */
 static const double reference_error = 0.25;
-/* Two levels show no order; their error bar is that of order 1/2. A third level may lower it to an
- * eighth (estimate.c). */
+/* Two levels show no order, so their error bar assumes order 1/2. A third level may reduce the bar
+ * to an eighth (estimate.c). */
 static const double less_by_third_level = 8;
-/* A series whose error falls with a lower order per level does not converge visibly: it is the
- * lowest order of estimate.c. */
+/* A series whose error falls with less than this order, the lowest one that estimate.c assumes,
+ * does not visibly converge. */
 static const double least_order = 0.5;
 /* The presets and the three finer levels. */
 enum { MOST_ATTEMPTS = 4 };
@@ -101,8 +101,8 @@ static size_t count_kept(const control *c, const attempt *a)
     return kept;
 }
 
-/* Predicts the cost of the next attempt over that of the presets: each open setting of a stage
- * doubles the CPU time of this stage. */
+/* Predicts the cost of the next attempt relative to the one with the presets: each open setting of
+ * a stage doubles the CPU time of the stage. */
 static double predict_cost(const control *c)
 {
     const ff_pipeline *last = c->best->run->pipeline;
@@ -113,15 +113,15 @@ static double predict_cost(const control *c)
     return presets > 0 ? next / presets : 1;
 }
 
-/* Writes the progress text: which attempt begins at what cost, how many goals the previous one
- * reached, and which output is farthest from its goal. */
+/* Writes the progress text: the number and the predicted cost of the attempt that begins, how many
+ * goals the previous one met, and which output is farthest from its goal. */
 static void write_progress(const control *c)
 {
     const accuracy_error *worst = NULL;
     size_t goals = 0;
     if (!c->progress)
         return;
-    snprintf(c->progress, ACCURACY_PROGRESS, "attempt %zu, by the presets", c->attempts + 1);
+    snprintf(c->progress, ACCURACY_PROGRESS, "attempt %zu, with the presets", c->attempts + 1);
     for (size_t i = 0; c->best && c->best->run->good && i < c->best->record.count; i++) {
         const accuracy_error *e = &c->best->record.errors[i];
         goals += isnan(e->goal) ? 0 : 1;
@@ -132,7 +132,7 @@ static void write_progress(const control *c)
         return;
     char *reached = accuracy_print_reached(worst), *goal = accuracy_print_goal(worst);
     snprintf(c->progress, ACCURACY_PROGRESS,
-             "attempt %zu at %.2g times the cost: %zu of %zu as asked, %.40s has %s for %s",
+             "attempt %zu at %.2g times the cost: %zu of %zu goals met, %.40s has %s, goal %s",
              c->attempts + 1, predict_cost(c), count_kept(c, c->best), goals,
              worst->result->row->name, reached, goal);
     free(goal);
@@ -177,8 +177,8 @@ static double order_of(const accuracy_error *e)
     return isnan(e->order) ? 1 : fmin(fmax(e->order, 0), 2);
 }
 
-/* True if the output is a single number, and a series of its stage and unit does not converge: the
- * order that the number shows is then one by chance. */
+/* True if the output is a single number, and a series of the same stage and unit does not converge:
+ * the observed order of the number is then accidental. */
 static bool is_by_chance(const control *c, const accuracy_error *e)
 {
     const accuracy_record *record = &c->best->record;
@@ -192,9 +192,9 @@ static bool is_by_chance(const control *c, const accuracy_error *e)
     return chance;
 }
 
-/* True if an error above its goal is expected to meet it within the finest level, in which the part
- * that the file holds stays. False if the stage estimates the error itself and the file fixes all
- * settings that could lower it. */
+/* True if an error above its goal is expected to meet the goal at the finest level, where the part
+ * that is due to settings of the file stays. False if the stage estimates the error itself and the
+ * file fixes all settings that could lower it. */
 static bool is_promising(const control *c, const accuracy_error *e)
 {
     const size_t stage = (size_t)(e->stage - c->best->run->pipeline->stages);

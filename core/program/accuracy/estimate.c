@@ -64,7 +64,7 @@ double accuracy_typical(const double *values, const double *at, size_t count)
     return typical;
 }
 
-/* Relative difference of two answers at number i. */
+/* Relative difference of two answers in number i. */
 static double difference(const accuracy_ladder *l, const double *a, const double *b, size_t i)
 {
     return fabs(a[i] - b[i]) / (l->scale ? l->scale[i] : 1);
@@ -92,7 +92,8 @@ static double between(const accuracy_ladder *l, const double *a, const double *b
     return sqrt(squares / count);
 }
 
-/* The same over the numbers where the difference is typical. */
+/* Root mean square of the differences of two answers at the numbers where the difference is
+ * typical. */
 static double typical_between(const accuracy_ladder *l, const double *a, const double *b)
 {
     double *sizes = memory_alloc(l->count * sizeof *sizes);
@@ -140,7 +141,7 @@ static bool goes_down(const accuracy_ladder *l)
     return (l->half && l->quarter) || !l->twice;
 }
 
-/* The level whose difference from the answer counts. */
+/* Returns the level from whose difference to the answer the error is estimated. */
 static const double *nearest(const accuracy_ladder *l)
 {
     return !goes_down(l) ? l->twice : l->half ? l->half : l->quarter;

@@ -10,7 +10,7 @@
 
 static const ff_param row = {.name = "accuracy",
                              .unit = "%",
-                             .doc = "largest error of an output, over its value",
+                             .doc = "largest error of an output, relative to its value",
                              .type = FF_REAL,
                              .flags = FF_MIN_OPEN,
                              .max = 100,
@@ -63,7 +63,7 @@ static bool is_absolute(const ff_node *node, const ff_port *of)
            ff_number_parse(node->text, &number, &end) && *end && !strchr(end, '%');
 }
 
-/* Reads "2 %" as a share of 1, or "0.5 K" in SI; NaN for `measured`, and after an error. */
+/* Reads "2 %" as 0.02, or "0.5 K" in SI; NaN for `measured`, and after an error. */
 static double read_goal(const ff_node *node, const ff_port *of, const char *name, ff_report *report)
 {
     ff_unit unit;
@@ -119,8 +119,8 @@ char *accuracy_print_goals(const ff_run *run)
     return text;
 }
 
-/* True for a scalar or a series, or an output that is one because its optional dimension is absent.
-   Fields and estimates of errors have no measured error. */
+/* True for a scalar or a series, and for an output whose optional dimension may be absent. Errors
+ * of fields and of error estimates are not measured. */
 static bool may_have_goal(const ff_stage *stage, const ff_result *result)
 {
     const char *dims = result->row->dims;
@@ -171,11 +171,10 @@ static bool check_name(const ff_node *map, size_t item, char *const *names, size
             return true;
     const char *nearest = ff_nearest(map->keys[item], (const char *const *)names, count);
     char *hint = nearest ? memory_print_text("did you mean \"%s\"?", nearest) : NULL;
-    ff_error(
-        report, FF_FAULT_INPUT, map->key_places[item], hint,
-        "accuracy: \"%.100s\" is no scalar or series that \"outputs\" asks for, or estimates the "
-        "error of one",
-        map->keys[item]);
+    ff_error(report, FF_FAULT_INPUT, map->key_places[item], hint,
+             "accuracy: \"%.100s\" is not a scalar or series that \"outputs\" requests, or it is "
+             "an error estimate",
+             map->keys[item]);
     free(hint);
     return false;
 }
@@ -184,7 +183,7 @@ static void check_word(const ff_node *node, ff_report *report)
 {
     if (node->kind != FF_SCALAR || strcmp(node->text, by_twins) != 0)
         ff_error(report, FF_FAULT_INPUT, node->place, "write check: twins",
-                 "accuracy.check: only \"twins\" can be said here");
+                 "accuracy.check: the only possible value is \"twins\"");
 }
 
 /* The output's row; it exists. */
@@ -216,7 +215,7 @@ bool accuracy_check(ff_run *run)
             read_goal(node->items[i], port_of(pipeline, node->keys[i]), node->keys[i], report);
     if (count == 0 && ff_report_errors(report) == errors)
         ff_warn(report, node->place,
-                "accuracy: no scalar or series is asked for, so that it changes nothing");
+                "accuracy: this changes nothing, since no scalar or series is requested");
     free_names(names, count);
     return ff_report_errors(report) == errors;
 }

@@ -43,8 +43,8 @@ static const ff_result *estimated(const ff_stage *stage, const char *line)
     return found && found->requested && found->rank > 1 ? NULL : found;
 }
 
-/* True if a line states the error of the result, or of an output whose name begins the result's
-   name. */
+/* True if a line states the error of the result, or of an output such as "h_min" if the result is
+ * "h_min_lowest". */
 static bool is_of(const ff_stage *stage, const ff_quality *line, const ff_result *result)
 {
     const char *name = result->row->name;
@@ -116,7 +116,7 @@ bool accuracy_is_estimate(const ff_stage *stage, const ff_result *result)
 }
 
 /* Removes the stages' own estimates for outputs with a measured error: two numbers for one error
-   would contradict each other. The measured error includes what comes from stages before. */
+   would contradict each other. The measured error includes the errors of the stages upstream. */
 static void drop_estimates(const accuracy_record *record, const ff_pipeline *answer)
 {
     bool *feeds = memory_alloc((answer->count + 1) * sizeof *feeds);
@@ -159,7 +159,7 @@ char *accuracy_describe(const accuracy_error *e)
         between = "; ";
     }
     if (e->fixed_part > least_part * e->reached) {
-        fprintf(out, "%s%.0f %% of it by settings of the file", between,
+        fprintf(out, "%s%.0f %% of it due to settings of the file", between,
                 100 * e->fixed_part / e->reached);
         between = "; ";
     }
@@ -169,7 +169,7 @@ char *accuracy_describe(const accuracy_error *e)
     return text;
 }
 
-/* Prints an error as the goal is stated, "0.54 %" or "0.31 K"; to be freed. */
+/* Prints an error in the form of its goal, "0.54 %" or "0.31 K"; to be freed. */
 static char *print_number(const accuracy_error *e, double error, int digits)
 {
     return e->absolute ? memory_print_text("%.*g %s", digits, error, e->result->row->unit)
@@ -200,10 +200,10 @@ char *accuracy_print_check(const accuracy_record *record, const accuracy_error *
     char *difference = print_error(e, e->twin_difference);
     char *text =
         memory_print_text("%s from a twin a level finer%s%s", difference,
-                          record->from_finer ? ", which has also told the error" : "",
+                          record->from_finer ? ", which also gave the error" : "",
                           isnan(e->reached)                  ? "; the error itself is not known"
                           : e->twin_difference <= e->reached ? ""
-                                                             : ": more than the error told");
+                                                             : ": more than the stated error");
     free(difference);
     return text;
 }

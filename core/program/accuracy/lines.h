@@ -26,12 +26,13 @@ char *accuracy_print_check(const accuracy_record *record, const accuracy_error *
 double accuracy_estimated_share(const ff_stage *stage, const ff_result *result);
 /* True if a line of the stage says that the output's error is not known. */
 bool accuracy_is_unknown(const ff_stage *stage, const ff_result *result);
-/* True if the stage knows the output only from below: its error is infinite. */
+/* True if the stage knows only a lower bound of the output, which it states by an infinite error.
+ */
 bool accuracy_is_least(const ff_stage *stage, const ff_result *result);
-/* True if the row may be an error estimate of `of`, as "h_min_error" of "h_min": same unit and
-   dimensions. */
+/* True if the row may be an error estimate of `of`, such as "h_min_error" for "h_min": both must
+ * have the same unit and dimensions. */
 bool accuracy_may_estimate(const ff_port *row, const ff_port *of);
-/* True if the result is an error estimate of an output that is asked for. */
+/* True if the result is an error estimate of a requested output. */
 bool accuracy_is_estimate(const ff_stage *stage, const ff_result *result);
 /* Returns the output in which the stage itself estimates the error of the given output, number by
    number; NULL if there is none. Such an estimate counts only if the stage also has a quality line

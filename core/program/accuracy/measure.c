@@ -14,8 +14,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Error bar from one twin two levels coarser, over an error of order 2: 1.25 times the difference
-   from the twin (estimate.c), which is 4^2 - 1 times the error. */
+/* Ratio of the error bar from one twin two levels coarser to the error, if its order is 2: the bar
+ * is 1.25 times the difference from the twin (estimate.c), and the difference is 4^2 - 1 times the
+ * error. */
 static const double bar_of_two_levels = 1.25 * 15;
 
 /* Smallest error that is stated, as a share of the goal: twins may agree by chance. */
@@ -36,8 +37,8 @@ static bool is_headline(const ff_stage *stage, const ff_result *result)
     return finite && !accuracy_is_axis(result);
 }
 
-/* Zero point of an output's relative errors: for a temperature that of the oil, as its row states.
- */
+/* Zero point of an output's relative errors, which its row names: for a temperature, that of the
+ * oil. */
 static double zero_of(const ff_pipeline *answer, const ff_stage *stage, const ff_result *result)
 {
     const char *origin = result->row->origin;
@@ -165,8 +166,8 @@ static accuracy_ladder ladder_of(const accuracy_twins *t, const accuracy_error *
                              .twice = numbers_of_twin(t, e, t->twice)};
 }
 
-/* Order at which the stage's own estimate falls from a coarser twin to the answer; NaN if one of
-   the two has none. */
+/* Order at which the stage's own estimate falls from a coarser twin to the answer; NaN if the twin
+ * or the answer has no estimate. */
 static double order_of_estimate(const accuracy_twins *t, const accuracy_error *e)
 {
     const accuracy_twin *twin = t->half ? t->half : t->quarter;
@@ -180,8 +181,8 @@ static double order_of_estimate(const accuracy_twins *t, const accuracy_error *e
            (t->half ? 1 : 2);
 }
 
-/* Raises the bar of each number to the stage's estimate: a stage may know a source of error that
-   the twins do not see. */
+/* Raises the bar of each number to at least the stage's estimate: a stage may know a source of
+ * error that the twins do not show. */
 static void hold_to_estimate(const accuracy_twins *t, const double *at, accuracy_error *e)
 {
     const ff_result *estimate = accuracy_estimate_of(e->stage, e->result);
@@ -232,8 +233,8 @@ static void widen(accuracy_error *number, double bar, const accuracy_error *seri
         number->parts[i].error *= factor;
 }
 
-/* Largest bar of the series at the points where it has this number as its largest or smallest
-   value; 0 if it is neither. */
+/* Largest bar of the series at the points where the series has its maximum or minimum, if the
+ * number equals that extreme; 0 if it equals neither. */
 static double bar_at_extreme(const ff_result *number, const accuracy_error *series)
 {
     const double value = number->data[0], *data = series->result->data;
@@ -248,8 +249,8 @@ static double bar_at_extreme(const ff_result *number, const accuracy_error *seri
     return above > 0 && below > 0 ? 0 : bar;
 }
 
-/* Gives the extreme of a series at least the bar of the series there: a single number may agree on
-   two levels by chance. */
+/* Gives a number that is the extreme of a series at least the bar of the series at that point: a
+ * single number may agree on two levels by chance. */
 static void hold_to_series(const accuracy_twins *t, accuracy_error *number)
 {
     if (number->result->rank != 0 || !number->bar)
@@ -271,8 +272,8 @@ static void conclude(const accuracy_twins *t)
         hold_to_series(t, &record->errors[i]);
 }
 
-/* True if stages estimate errors, all of them so small that a twin two levels coarser is expected
-   to show that the goals are met. */
+/* True if stages estimate errors, and all these errors are so small that a twin two levels coarser
+ * is expected to show that the goals are met. */
 static bool are_far_below(const accuracy_record *record)
 {
     bool some = false, all = true;
@@ -287,8 +288,8 @@ static bool are_far_below(const accuracy_record *record)
     return some && all;
 }
 
-/* True if another twin may lower an error that is above its goal, or tell one that is unknown. No
-   twin lowers an error below the stage's own estimate. */
+/* True if another twin may lower the bar of an error that is above its goal, or determine an
+ * unknown error. No twin lowers a bar below the stage's own estimate. */
 static bool misses(const accuracy_record *record)
 {
     bool missed = false;
@@ -311,8 +312,8 @@ static double between_twins(const accuracy_twins *t, const accuracy_error *e,
                                    e->absolute, other->pipeline, &t->record->arena);
 }
 
-/* Tells which part of each missed error the settings of the file cause: their share of the
-   difference between the two coarser twins. */
+/* Finds which part of each error above its goal is due to settings of the file: their share of the
+ * difference between the two coarser twins. */
 static void find_fixed_part(accuracy_twins *t)
 {
     accuracy_twins_run_fixed(t);

@@ -18,7 +18,7 @@ typedef struct accuracy_part {
 /* Suffix of an output's error bar in files and pages, as in "h_min_error_bar". */
 #define ACCURACY_BAR "_error_bar"
 
-/* Room for what is being run, in words for a progress line. */
+/* Size of a progress text, which says what is being run. */
 enum { ACCURACY_PROGRESS = 120 };
 
 /* The numerical error of an output. */
@@ -34,11 +34,12 @@ typedef struct accuracy_error {
     double relative;   /* relative error; for a series, at 95 of 100 points; NaN if it is not
                         * known */
     double largest;    /* largest relative error along a series */
-    double order; /* observed order, of the stage's estimate if `by_stage`; NaN if none was seen */
+    double order; /* observed order; if `by_stage`, that of the stage's estimate; NaN if none was
+                     observed */
     double twin_difference; /* difference from a finer twin, in the form of `reached`; NaN if not
                              * comparable */
-    double fixed_part; /* part of a missed error that settings of the file cause; 0 if it is not
-                          known */
+    double fixed_part; /* part of `reached`, if above the goal, that is due to settings of the file;
+                          0 if unknown */
     bool by_stage; /* the bar comes from the stage's own estimate, which is larger than that of the
                     * twins */
     accuracy_part *parts; /* contributions of the settings, largest first; empty if no twin
@@ -53,8 +54,8 @@ typedef struct accuracy_record {
     accuracy_runs runs;  /* all attempts and twins */
     bool two_levels;     /* the errors come from a single coarser twin */
     const char *failure; /* why a twin failed; NULL if none did */
-    size_t attempts;     /* number of answers measured, the last one included; 0 if there are no
-                            goals */
+    size_t
+        attempts; /* number of answers measured, including the last one; 0 if there are no goals */
     const char **chosen; /* "film.cells=362": the answer's values of the settings that the file
                             leaves open */
     size_t chosen_count;
@@ -76,20 +77,19 @@ typedef struct accuracy_record {
 enum accuracy_effort {
     ACCURACY_ENOUGH, /* a second one only if the first leaves an error above its goal */
     ACCURACY_ORDER,  /* two, which show the order */
-    ACCURACY_PARTS,  /* also those that separate the contributions of the settings, which are more
-                      * than all others */
+    ACCURACY_PARTS,  /* also one for each setting, which shows the contribution of that setting */
 };
 
 /*
- * Measures the errors of the scalars and series that the file asks for, of an attempt or, if that
- * is NULL, of the file's own run. The scene's runs serve as twins if their settings fit. Returns
- * false if the observer stopped it.
+ * Measures the errors of the requested scalars and series in an attempt or, if `attempt` is NULL,
+ * in the file's own run. The scene's runs serve as twins if their settings fit. Returns false if
+ * the observer stopped it.
  */
 bool accuracy_measure(accuracy_record *record, const accuracy_scene *scene,
                       const accuracy_twin *attempt, enum accuracy_effort effort);
 /* Compares the answer of a measured record with a twin whose settings are all a level finer, as
- * `accuracy: {check: twins}` asks. If it fails, the record says why. Returns false if the observer
- * stopped it. */
+ * `accuracy: {check: twins}` asks. If the twin fails, the record has the reason. Returns false if
+ * the observer stopped it. */
 bool accuracy_check_twin(accuracy_record *record, const accuracy_scene *scene);
 size_t accuracy_twin_count(const accuracy_record *record);
 /* CPU time of the twins and of the attempts that are not the answer, s. */

@@ -26,7 +26,7 @@ const char *accuracy_open_use(const ff_stage *stage)
     const ff_node *use = ff_node_get(stage->node, "use"), *was = use ? use->replaced : NULL;
     bool same = is_open_node(was) && was->place.source == use->place.source &&
                 was->place.line == use->place.line && was->place.column == use->place.column;
-    return same ? was->text : NULL; /* a model that the user names stands at another place */
+    return same ? was->text : NULL; /* a model named by the user has another place */
 }
 
 /* True if the id belongs to the kind before the slash of `use`. */
@@ -90,8 +90,7 @@ static bool refuse(const ff_node *use, const char *name, ff_report *report)
     return ff_error(report, FF_FAULT_INPUT, use->place,
                     "write \"reference: MODEL\", or a set of parameters for each model under "
                     "\"with\", the most exact first",
-                    "%s: which model of %s is the one that the others are held against?", name,
-                    use->text);
+                    "%s: with which model of %s are the others to be compared?", name, use->text);
 }
 
 /* Replaces KIND/auto by the reference. */
@@ -112,8 +111,8 @@ static void name_reference(ff_run *run, const char *name, const ff_node *stage, 
         return;
     }
     if (!is_of_kind(reference, use->text)) {
-        ff_error(report, FF_FAULT_INPUT, place, NULL, "%s.reference: \"%.80s\" is no model of %s",
-                 name, reference, use->text);
+        ff_error(report, FF_FAULT_INPUT, place, NULL,
+                 "%s.reference: \"%.80s\" is not a model of %s", name, reference, use->text);
         return;
     }
     char *set = memory_print_text("pipeline.%s.use=%s", name, reference);
@@ -130,7 +129,7 @@ static void check_asked(ff_run *run)
         if (stage->needed && accuracy_open_use(stage))
             ff_error(ff_run_report(run), FF_FAULT_INPUT, stage->use_place,
                      "accuracy: 2 %, or name the model",
-                     "%s: %s is chosen for an accuracy, and the file says none", stage->name,
+                     "%s: %s needs an accuracy, but the file states none", stage->name,
                      accuracy_open_use(stage));
     }
 }
@@ -141,7 +140,7 @@ static size_t stage_count(const ff_run *run)
     return stages && stages->kind == FF_MAP ? stages->count : 0;
 }
 
-/* True if the stage said KIND/auto, in this layer or an earlier one. */
+/* True if the stage has KIND/auto, in this layer or an earlier one. */
 static bool was_open(const ff_node *stage)
 {
     for (const ff_node *use = ff_node_get(stage, "use"); use; use = use->replaced)

@@ -10,10 +10,10 @@
 /* Gives each stage that says KIND/auto its reference model, and then builds the pipeline as
  * run_build does. Returns NULL only if no pipeline can be shown. */
 ff_pipeline *accuracy_build_alone(ff_run *run, ff_engine *engine, bool everything);
-/* Does the same as accuracy_build_alone, and checks the file's accuracy request. */
+/* Builds as accuracy_build_alone does, and checks the file's accuracy request. */
 ff_pipeline *accuracy_build(ff_run *run, ff_engine *engine, bool everything);
 
-/* Returns the value of `use` of such a stage, "ehl/auto"; NULL if the stage names its model. */
+/* Returns the value "ehl/auto" of the stage's `use`; NULL if the stage names its model. */
 const char *accuracy_open_use(const ff_stage *stage);
 bool accuracy_is_open_use(const char *use); /* true for KIND/auto */
 

@@ -70,7 +70,8 @@ const char *accuracy_open_set(accuracy_open *open, size_t knob)
                                &open->arena);
 }
 
-/* Sets the level, or the nearest one towards the preset that the setting's limits allow. */
+/* Sets the level. If the setting's limits forbid it, uses the nearest allowed level towards the
+ * preset. */
 static void move(accuracy_open *open, size_t knob, double level)
 {
     accuracy_level *l = &open->levels[knob];

@@ -44,8 +44,8 @@ static void copy_results(const ff_stage *from, ff_stage *to)
     to->seconds = from->seconds;
 }
 
-/* True if the stage of the donor (twin.h) has computed every output that the twin needs. The twin
-   may have another model that needs more outputs. */
+/* True if the stage `from` has computed every output that the twin needs. The twin may have another
+ * model that needs more outputs. */
 static bool has_all(const ff_stage *from, const ff_stage *to)
 {
     bool all = from->ran;

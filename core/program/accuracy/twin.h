@@ -18,7 +18,8 @@ typedef struct accuracy_scene {
     accuracy_runs *runs; /* receives the twins */
     const ff_run *file;  /* the file that a twin copies */
     ff_engine *engine;
-    /* Stages that do not depend on the changes take their results from here; NULL if none do. */
+    /* Stages that do not depend on the changes reuse the results of this pipeline; NULL: none do.
+     */
     const ff_pipeline *reuse_from;
     const ff_pipeline *start; /* same file; in a chain of cases the twin starts from its states */
     const char *outputs;      /* "outputs=[film.h_min]"; NULL if the outputs are unchanged */
@@ -45,8 +46,8 @@ typedef struct accuracy_twin {
 } accuracy_twin;
 
 /* Runs the file with the assignments, as if they were in the file at `place`. `changed` marks the
- * stages whose settings differ from the donor's: these and all stages downstream are computed, and
- * in a loop all of its stages. */
+   stages whose settings differ from those in scene->reuse_from. These and all stages downstream are
+   computed; if a stage of a loop is computed, all stages of the loop are. */
 const accuracy_twin *accuracy_twin_run(const accuracy_scene *scene, const char *const *sets,
                                        size_t count, const ff_place *place, const bool *changed);
 /* In a chain of cases the answer started from its neighbour's state. Its twin starts from the
@@ -58,8 +59,8 @@ const char *accuracy_twin_reason(const accuracy_twin *twin);
    fixes. */
 bool accuracy_is_idle(const ff_report *report, ff_place place, const char *stage,
                       const char *setting);
-/* Copies the run's messages to the report, except those that it already has and those about the
- * place. */
+/* Copies the run's messages to the report, except those that the report already has and those about
+ * assignments with the place `chosen`. */
 void accuracy_twin_copy_messages(const accuracy_twin *run, ff_place chosen,
                                  const ff_observer *watch, ff_report *report);
 void accuracy_runs_free(accuracy_runs *runs);

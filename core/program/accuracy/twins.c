@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Twins of one answer, a ladder of levels: all settings of all stages are one level coarser, or two
- * levels. If few twins are wanted, one of the two is run first, and the other only if it is needed.
- * Otherwise further twins have one setting each a level finer than in the coarser twin, which shows
- * the contribution of that setting. These are cheap: all else is coarse, and stages upstream are
- * known. If a coarser twin fails because the answer itself is coarse, a finer one takes its place.
- */
+ * levels. If twins are run one by one, one of these two is run first, and the other only if it is
+ * needed. Otherwise further twins have one setting each a level finer than in the coarser twin,
+ * which shows the contribution of that setting. These are cheap: all other settings are coarse, and
+ * results of stages upstream are reused. If a coarser twin fails because the answer itself is
+ * coarse, a finer one takes its place. */
 #include "twins.h"
 
 #include <math.h>
@@ -42,7 +42,7 @@ static const char *assignment_at(const accuracy_twins *t, const accuracy_knob *k
     return accuracy_setting_at(&t->answer->stages[k->stage], k->param, coarser, &t->record->arena);
 }
 
-/* True for a setting that stands in the file. */
+/* True for a setting that the file gives, not the program. */
 static bool is_fixed_by_file(const accuracy_twins *t, const accuracy_knob *k)
 {
     const ff_place place = t->answer->stages[k->stage].params[k->param].place;
@@ -50,7 +50,7 @@ static bool is_fixed_by_file(const accuracy_twins *t, const accuracy_knob *k)
                              place.column == t->request.column);
 }
 
-/* Instead of the index of a setting: none, or all that the file fixes. */
+/* Values in place of the index of a setting: no setting, or all settings that the file fixes. */
 static const size_t no_setting = SIZE_MAX, fixed_settings = SIZE_MAX - 1;
 
 static bool is_one(const accuracy_twins *t, size_t i, size_t which)
@@ -88,14 +88,14 @@ static void write_progress(const accuracy_twins *t, int at)
     if (t->checking)
         snprintf(record->progress, ACCURACY_PROGRESS, "a %s twin checks the errors", which);
     else if (record->attempts == 0)
-        snprintf(record->progress, ACCURACY_PROGRESS, "a %s twin tells the errors", which);
+        snprintf(record->progress, ACCURACY_PROGRESS, "a %s twin measures the errors", which);
     else
-        snprintf(record->progress, ACCURACY_PROGRESS, "a %s twin tells the errors of attempt %zu",
-                 which, record->attempts);
+        snprintf(record->progress, ACCURACY_PROGRESS,
+                 "a %s twin measures the errors of attempt %zu", which, record->attempts);
 }
 
-/* Runs a twin. The setting `finer` is at the level of `half`. NULL if a setting's limits forbid
-   it. */
+/* Runs a twin at the level `at`, except for the setting `finer`, which has the level of `half`.
+ * NULL if a setting's limits forbid it. */
 static const accuracy_twin *run_twin(accuracy_twins *t, int at, size_t finer)
 {
     const accuracy_twin *twin = NULL;

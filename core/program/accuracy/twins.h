@@ -15,8 +15,8 @@ typedef struct accuracy_twins {
     const ff_report *messages; /* messages of the answer; NULL if no setting was chosen */
     ff_place request; /* place of the accuracy request in the file; chosen settings have this
                        * place */
-    bool one_by_one;  /* find one twin at a time, and none that separates the effects of settings */
-    bool far_first;   /* if `one_by_one`: the first twin is two levels coarser */
+    bool one_by_one; /* each call finds one twin, and none that separates the effects of settings */
+    bool far_first;  /* if `one_by_one`: the first twin is two levels coarser */
     accuracy_knob *knobs; /* the settings of all stages on which a measured output depends */
     size_t count;
     const accuracy_twin *half, *quarter, *twice; /* all settings 1 and 2 levels coarser, and 1 level
@@ -33,8 +33,8 @@ typedef struct accuracy_twins {
  * record. With `one_by_one`, the first call finds one twin and the second call another. False if
  * there are no more. */
 bool accuracy_twins_find(accuracy_twins *twins);
-/* Runs the twin that shows the effect of the settings that the file fixes, if there are some. The
-   two coarser twins exist. */
+/* Runs the twin that shows the effect of the settings that the file fixes, if there are any. `half`
+ * and `quarter` must exist. */
 void accuracy_twins_run_fixed(accuracy_twins *twins);
 /* Returns a twin whose settings are all a level finer: an earlier run, or one with the outputs of
    the answer. NULL if no setting can be finer. The first three members are given. */

@@ -128,7 +128,8 @@ bool arrays_reader_read(arrays_reader *reader, const char *name, off_t offset,
         return false;
     }
     if (memcmp(found, head.bytes, head.size) != 0) {
-        snprintf(why, ARRAYS_WHY, "the record at byte %lld is of another array", (long long)offset);
+        snprintf(why, ARRAYS_WHY, "the record at byte %lld belongs to another array",
+                 (long long)offset);
         return false;
     }
     arrays_npy_clean(out, head.count);

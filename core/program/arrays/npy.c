@@ -116,7 +116,7 @@ static bool read_header(int fd, char header[LONGEST_HEADER], size_t *length, cha
     if (!file_read(fd, start, sizeof start, -1) || memcmp(start, magic, MAGIC) != 0)
         snprintf(why, ARRAYS_WHY, "it is not a .npy file");
     else if (start[MAGIC] != 1 || start[MAGIC + 1] != 0)
-        snprintf(why, ARRAYS_WHY, "it is of version %d.%d of the format, not 1.0", start[MAGIC],
+        snprintf(why, ARRAYS_WHY, "its format has version %d.%d, not 1.0", start[MAGIC],
                  start[MAGIC + 1]);
     else if ((*length = start[MAGIC + 2] + 256U * start[MAGIC + 3]) >= LONGEST_HEADER)
         snprintf(why, ARRAYS_WHY, "its header is longer than %d bytes", LONGEST_HEADER);
@@ -137,7 +137,7 @@ static bool check_size(const struct stat *info, size_t before, const size_t *sha
     expected += (double)before;
     if ((double)info->st_size == expected)
         return true;
-    snprintf(why, ARRAYS_WHY, "it has %.0f bytes where its shape takes %.0f", (double)info->st_size,
+    snprintf(why, ARRAYS_WHY, "it has %.0f bytes, but its shape needs %.0f", (double)info->st_size,
              expected);
     return false;
 }

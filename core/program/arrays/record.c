@@ -54,7 +54,7 @@ bool arrays_log_check_title(const char title[ARRAYS_LOG_HEAD], char why[ARRAYS_W
     if (memcmp(title, title_start, START) != 0)
         snprintf(why, ARRAYS_WHY, "it is not a log of arrays");
     else
-        snprintf(why, ARRAYS_WHY, "it is of format %s of such logs; this flankfilm reads %d",
-                 format, ARRAYS_LOG_FORMAT);
+        snprintf(why, ARRAYS_WHY, "it has format %s; this flankfilm reads format %d", format,
+                 ARRAYS_LOG_FORMAT);
     return false;
 }

@@ -77,10 +77,9 @@ static void print_page(const ff_model *model)
     for (size_t i = 0; i < ff_model_columns(model); i++)
         print_param(ff_model_column(model, i));
     if (model->input_count)
-        printf(
-            "\n## Inputs\n\nWritten `wire.output`: the wire is a key of the stage, the output is "
-            "one of the stage that feeds it.\n\n"
-            "| input | unit | over | from | | meaning |\n|---|---|---|---|---|---|\n");
+        printf("\n## Inputs\n\nAn input is written `wire.output`: the wire is a key of the stage; "
+               "the output belongs to the stage that feeds it.\n\n"
+               "| input | unit | over | from | | meaning |\n|---|---|---|---|---|---|\n");
     for (size_t i = 0; i < model->input_count; i++)
         print_port(ff_model_input(model, i), true);
     if (model->output_count)

@@ -261,7 +261,7 @@ static json_t *feedback_schema(void)
     const ff_param *rows = ff_feedback_rows(&count);
     json_t *map = open_map();
     json_object_set_new(map, "description",
-                        json_string("how loops that feedback wires close are iterated"));
+                        json_string("how to iterate loops that feedback wires close"));
     for (size_t i = 0; i < count; i++)
         add_param(map, &rows[i]);
     return map;
@@ -282,20 +282,20 @@ static json_t *whole_schema(const catalogue *c, const char *version)
         json_object_set_new(
             top, *key,
             json_pack("{s:[s, s], s:{s:s}}", "type", "array", "string", "items", "type", "string"));
-    json_object_set_new(
-        top, "accuracy",
-        json_pack("{s:[s, s], s:s, s:{s:s}}", "type", "string", "object", "description",
-                  "largest error of what is asked for, \"2 %\", or of each output by itself; "
-                  "\"measured\" measures the errors alone",
-                  "additionalProperties", "type", "string"));
+    json_object_set_new(top, "accuracy",
+                        json_pack("{s:[s, s], s:s, s:{s:s}}", "type", "string", "object",
+                                  "description",
+                                  "largest error of all requested outputs, \"2 %\", or a map with "
+                                  "that of each output; \"measured\" only measures the errors",
+                                  "additionalProperties", "type", "string"));
     json_object_set_new(
         top, "limits",
         json_pack("{s:s, s:s, s:{s:[s, s]}}", "type", "object", "description",
-                  "what is enough, by output: \"> 1.5\", \"<= 120 degC\", or a list of such",
+                  "limits of outputs: \"> 1.5\", \"<= 120 degC\", or a list of these",
                   "additionalProperties", "type", "string", "array"));
     json_object_set_new(top, "accept",
                         json_pack("{s:s, s:s, s:{s:s}}", "type", "object", "description",
-                                  "why a doubtful line of quality, STAGE.LINE, is none",
+                                  "why the doubt of a quality line, STAGE.LINE, is no problem",
                                   "additionalProperties", "type", "string"));
     json_object_set_new(top, "study", study_schema());
     json_object_set_new(top, "feedback", feedback_schema());

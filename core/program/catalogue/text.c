@@ -122,6 +122,7 @@ void catalogue_print_text(const catalogue *c, bool page)
         print_page(&c->entries[0]);
     if (!page) {
         print_list(c, false, "");
-        print_list(c, true, "\nNot for a pipeline: of verify, --executor, export and --with\n");
+        print_list(c, true,
+                   "\nNot for a pipeline: used by verify, --executor, export and --with\n");
     }
 }

@@ -15,7 +15,7 @@
 
 enum { NOT_THERE = 127, MOST_SAID = 2000 };
 
-/* Returns the path of a program in the folder of this one; the caller frees it. */
+/* Returns the path of a program in the same folder as flankfilm; the caller frees it. */
 static char *path_beside(const char *name)
 {
     char own[4096];
@@ -78,7 +78,7 @@ bool cli_beside(const char *name, const char *first, const char *second, ff_repo
         return ff_error(
             report, FF_FAULT_INPUT, FF_NOWHERE,
             "flankfilm installs it if Python is available; it needs the Python package netCDF4",
-            "the program %s is not in the folder of this one", name);
+            "the program %s is not in the folder of flankfilm", name);
     return ff_error(report, FF_FAULT_RUN, FF_NOWHERE, NULL, "%s: %s", name,
                     *said ? said : "it ended early");
 }

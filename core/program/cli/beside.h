@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Programs in the folder of this one. */
+/* Programs in the same folder as flankfilm. */
 #ifndef CLI_BESIDE_H
 #define CLI_BESIDE_H
 

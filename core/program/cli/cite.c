@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The command cite: the program with version and commit, and the literature of every model that
- * runs. */
+/* The command cite: prints the entry of the program with version and commit, and the literature of
+ * every model that runs. */
 #include "../catalogue/catalogue.h"
 #include "command.h"
 #include "commit.h"

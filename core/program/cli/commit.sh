@@ -1,6 +1,6 @@
 #!/bin/sh
-# Prints the commit of the sources: the one that an archive of them holds, or that of the working copy, with "-dirty" if
-# files differ from it. Prints nothing if neither is there. As a script of `meson dist` it writes it into the archive.
+# Prints the commit of the sources: the one recorded in a source archive, or that of the working copy, with "-dirty" if
+# files differ from it. Prints nothing if there is neither. Run by `meson dist`, it writes the commit into the archive.
 # commit.sh SOURCE_ROOT
 set -eu
 kept=core/program/cli/commit

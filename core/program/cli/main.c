@@ -67,7 +67,7 @@ static const cli_command commands[] = {
      "DIR is a directory written by run. NAME is csv (a directory) or netcdf (one file). Without\n"
      "-o the files are written to DIR. An interrupted export leaves no partial files.\n",
      cli_export},
-    {"verify", "FILE.so", "test whether a plugin keeps the rules",
+    {"verify", "FILE.so", "test whether a plugin follows the rules",
      "Runs named tests, each in its own process, and prints the results in TAP. A law is tested\n"
      "with random parameters and inputs. If a stage refuses these, name a file whose pipeline\n"
      "uses it. FLANKFILM_VERIFY_LIMIT: seconds that a test may take (60). Exit code 3: a test\n"
@@ -76,8 +76,9 @@ static const cli_command commands[] = {
     {"new", "KIND/NAME", "write a plugin of your own, ready to build",
      "Makes the folder NAME (or DIR) with the source of a working model, its build file, a\n"
      "pipeline that uses it, and a README with the next three commands. The template is\n"
-     "<kind>.template.c in a directory of plugins; if the kind has none, that of a stage which\n"
-     "stands alone.\n",
+     "<kind>.template.c in a directory of plugins; if the kind has none, a general one for a "
+     "stage\n"
+     "without inputs.\n",
      cli_new},
     {"schema", "[FILE]", "print the JSON Schema of all models",
      "Editors use it to complete and check YAML files. It is printed, or written to FILE.\n",

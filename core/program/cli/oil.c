@@ -85,7 +85,7 @@ static ff_status ask(void *ctx)
     return density->eval(density->self, 1, &p, &q->T, &q->answer, NULL, NULL);
 }
 
-/* Returns eta0 or rho0 of the law at T; NaN if the law cannot tell it. */
+/* Returns eta0 or rho0 of the law at T; NaN if the law does not give it. */
 static double ask_law(ff_instance *law, int what, double T)
 {
     question q = {.what = what, .T = T, .answer = NAN};
@@ -126,12 +126,13 @@ static void hold(cli_session *session, const ff_stage *law, ff_run *oils, const 
         return;
     char there[200];
     ff_message_print(&(ff_message){.place = oil->place, .text = ""}, there, sizeof there);
-    ff_error(session->report, FF_FAULT_INPUT, place_of(law, asked[what]),
-             "wire the oil to the law, or leave it out where both are used (oil: none)",
-             "%s: the law and the oil contradict each other: at %g degC %s is %.4g %s by the law "
-             "and %.4g %s by the oil, the stage \"%s\" (%.*s)",
-             law->name, T - 273.15, asked[what], by_law, units[what], by_oil, units[what],
-             oil->name, (int)(strlen(there) > 2 ? strlen(there) - 2 : 0), there);
+    ff_error(
+        session->report, FF_FAULT_INPUT, place_of(law, asked[what]),
+        "connect the oil to the law, or disconnect it from the stage that uses both (oil: none)",
+        "%s: the law and the oil contradict each other: at %g degC %s is %.4g %s in the law and "
+        "%.4g %s in the oil, the stage \"%s\" (%.*s)",
+        law->name, T - 273.15, asked[what], by_law, units[what], by_oil, units[what], oil->name,
+        (int)(strlen(there) > 2 ? strlen(there) - 2 : 0), there);
 }
 
 static const ff_stage *stage_on(const ff_pipeline *pipeline, const ff_stage *stage,
@@ -179,7 +180,7 @@ void cli_check_temperatures(cli_session *session)
         if (!own || !there || fabs(own->value.real - there->value.real) <= 1e-6)
             continue;
         ff_bound_origin(there, place, sizeof place);
-        ff_error(session->report, FF_FAULT_INPUT, own->place, "leave this one out",
+        ff_error(session->report, FF_FAULT_INPUT, own->place, "remove this one",
                  "%s.temperature: the temperature of the oil is given in two places: here %g degC, "
                  "and as %s.oil_temperature %g degC (%s)",
                  oil->name, own->value.real - 273.15, duty->name, there->value.real - 273.15,

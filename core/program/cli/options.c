@@ -32,8 +32,8 @@ static bool set_rerun(cli_options *options, const char *argument);
 
 static const option_row rows[] = {
     {"law", 0, "NAME", "fit", "fit this law, such as roelands; repeatable", REPEATABLE, NULL},
-    {"at", 0, "QUANTITY", "fit", "data at \"80 degC\" alone; values of the laws at \"0.6 GPa\"",
-     REPEATABLE, NULL},
+    {"at", 0, "QUANTITY", "fit",
+     "fit only data at \"80 degC\"; print the laws' values at \"0.6 GPa\"", REPEATABLE, NULL},
     {"pipeline", 0, "FILE", "verify",
      "take parameters and inputs from the stage of that file that uses the model", OPTIONAL, NULL},
     {"only", 0, "TEST,...", "verify", "run only these tests", OPTIONAL, NULL},
@@ -43,7 +43,7 @@ static const option_row rows[] = {
      "keep this parameter fixed; NAME=free fits one that has a preset; repeatable", REPEATABLE,
      NULL},
     {"set", 0, "PATH=VALUE", "run plan check explain cite verify",
-     "use VALUE instead of what the file says; repeatable", REPEATABLE, NULL},
+     "use VALUE instead of the file's; repeatable", REPEATABLE, NULL},
     {"to", 0, "NAME", "export", "csv or netcdf", REQUIRED, NULL},
     {"executor", 0, "NAME", "run",
      "distribute a study over the processes that this model connects, such as mpi", OPTIONAL, NULL},

@@ -9,15 +9,16 @@
 #include <math.h>
 #include <string.h>
 
-static const double noise = 1e-9; /* noise, relative to the greatest number; at most 5 digits are
-                                   * printed */
+static const double noise =
+    1e-9; /* numbers below this share of the greatest are noise; at most 5 digits are printed */
 
 static study_readable unit_of(const ff_port *row, double most)
 {
     return study_readable_output(row->name, row->unit, most);
 }
 
-/* Numbers of one quantity. Those that are only noise relative to the greatest are set to 0. */
+/* Prints the range from a to b. A number that is only noise relative to the greatest one of the
+ * result is printed as 0. */
 static void print_range(const ff_result *result, double a, double b, char *out, size_t size)
 {
     const double most = fmax(fabs(a), fabs(b)), least = fmin(fabs(a), fabs(b));

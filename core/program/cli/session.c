@@ -121,7 +121,8 @@ static void try_case(cli_session *session, const cli_options *options, size_t in
     ff_run_close(run);
 }
 
-/* For each model that the study swaps in, reports the settings of the file that it cannot take. */
+/* Reports, for each model that the study swaps in, the settings of the file that the model cannot
+ * take. */
 static void try_swaps(cli_session *session, const cli_options *options)
 {
     const study_definition *study = session->study;

@@ -65,8 +65,8 @@ static void describe(void *ctx, const study_definition *study, const study_tally
     results_write_study_json(&of, study, tally, out);
 }
 
-/* Removes the table of an earlier run, since a table stands for the run that wrote it. The cases
- * stay in the journal, whatever the inputs. A driver calls this for each batch of its cases. */
+/* Removes the table of an earlier run, which is about other cases. The cases stay in the journal,
+ * whatever their inputs. A driver calls this for each batch of its cases. */
 static bool enter(void *ctx, ff_report *report)
 {
     teller *t = ctx;
@@ -83,7 +83,7 @@ static bool enter(void *ctx, ff_report *report)
 }
 
 /* Answers a row at once, since the program that sends rows may wait for the answer before it sends
- * the next. If that program has ended, the run ends, as any program in a pipe does. */
+ * the next row. If nobody reads the answers any more, the run ends. */
 static void answer_row(void *ctx, size_t index, const json_t *record, bool known)
 {
     const teller *t = ctx;

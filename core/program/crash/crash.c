@@ -177,7 +177,7 @@ static void on_fault(int number, siginfo_t *info, void *context)
         die(&running, NULL, crashed, "a floating-point trap that it switched on");
     const ff_guard_mark *touched = running.path ? ff_guard_written_over(&running) : NULL;
     if (touched)
-        die(&running, touched, crashed, "its file was written over while it was in use");
+        die(&running, touched, crashed, "its file was overwritten while it was in use");
     const ff_guard_mark *who =
         running.path && running.code ? culprit(&running, number, context) : NULL;
     if (who && who != &running)

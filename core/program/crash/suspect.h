@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Finds out which of several plugins wrote outside its memory. A law that writes past the arrays it
- * was given makes the stage crash that gave them, and the sentence names both.
+ * Finds out which of several plugins wrote outside its memory. If a law writes past the arrays that
+ * a stage passes to it, the stage crashes, and the sentence names both plugins.
  */
 #ifndef CRASH_SUSPECT_H
 #define CRASH_SUSPECT_H

@@ -156,10 +156,9 @@ static bool check_rows(const fit *f, const fit_data *d)
         return ff_error(f->report, FF_FAULT_INPUT, place_of(f, SIZE_MAX, FIT_VISCOSITY), NULL,
                         "the viscosity is the same in all rows: there is no rise to fit");
     if (d->isothermal && covariance(d) < 0)
-        return ff_error(
-            f->report, FF_FAULT_INPUT, place_of(f, SIZE_MAX, FIT_VISCOSITY), NULL,
-            "the viscosity falls with pressure, unlike that of any oil: are the columns "
-            "what they say?");
+        return ff_error(f->report, FF_FAULT_INPUT, place_of(f, SIZE_MAX, FIT_VISCOSITY), NULL,
+                        "the viscosity falls with pressure, unlike that of any oil: do the columns "
+                        "contain what their names say?");
     return true;
 }
 
@@ -181,7 +180,7 @@ static bool select_rows(fit *f)
     if (d->n == 0) {
         list_isotherms(T, n, list, sizeof list);
         return ff_error(f->report, FF_FAULT_INPUT, place_of(f, SIZE_MAX, FIT_TEMPERATURE), NULL,
-                        "no row is within %g K of %.4g degC; there are %s degC", ISOTHERM,
+                        "no row is within %g K of %.4g degC; the data have %s degC", ISOTHERM,
                         f->at[FIT_TEMPERATURE] - 273.15, list);
     }
     find_temperature(d);
@@ -234,7 +233,7 @@ static bool set_condition(fit *f, const char *text)
         ff_quantity_print(low, &f->units[k], row->unit, first, sizeof first);
         ff_quantity_print(high, &f->units[k], row->unit, last, sizeof last);
         return ff_error(f->report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
-                        "--at \"%s\" lies outside the data, whose %s goes from %s to %s: a fit "
+                        "--at \"%s\" lies outside the data, whose %s ranges from %s to %s: a fit "
                         "says nothing beyond",
                         text, row->name, first, last);
     }

@@ -34,7 +34,7 @@ FILE *file_stream(int directory, const char *name)
     return stream;
 }
 
-/* Whether to continue after a call that moved so many bytes. */
+/* Whether to continue after a call that transferred this many bytes. */
 static bool goes_on(ssize_t moved)
 {
     errno = moved == 0 ? EIO : errno;

@@ -26,7 +26,7 @@ except ImportError as error:
 
 TAKEN = {"use", "status", "seconds", "reason", "command", "point", "verdict", "reasons"}  # names of other variables
 VERDICTS = ["good", "doubtful", "bad", "failed"]
-SMALL = 1 << 13  # arrays of fewer numbers are not worth a compression
+SMALL = 1 << 13  # arrays with fewer numbers are not compressed
 
 
 class Run:
@@ -107,11 +107,11 @@ def is_coordinate(name, series, other_name, other, dim):
 
 
 class Dimensions:
-    """The dimensions of stages: the length of each is the largest of all cases. A dimension that is plotted
-    against a series of another stage is that of the series, where both have one length in all cases."""
+    """The dimensions of stages. The length of each is its largest length in any case. A dimension that is plotted against a
+    series of another stage is the same as that of the series if both have one length in all cases."""
 
     def __init__(self, variables, shapes):
-        self.lengths = {}  # (stage, dimension): all lengths that it has
+        self.lengths = {}  # (stage, dimension): all its lengths
         for name, found in shapes.items():
             dims = variables[name].dims
             for shape in found:
@@ -201,7 +201,7 @@ def write_status(nc, source, records):
 
 
 def write_quality(nc, source, records):
-    lines = {}  # (stage, name): of the first case that has it
+    lines = {}  # (stage, name): the line in the first case that has it
     for r in records:
         for stage, found in (r.get("quality") or {}).items():
             for name, line in found.items():
@@ -229,7 +229,7 @@ def define_dimensions(nc, source, variables, dimensions):
             continue
         name = f"{stage}.{dim}"
         if name in variables and len(variables[name].dims) + len(source.shape) > 1:
-            name += ".index"  # a variable over the study is no coordinate of its own dimension
+            name += ".index"  # a variable over the study cannot be the coordinate of its own dimension
         nc.createDimension(name, max(lengths) or 1)
         dimensions.lengths[stage, dim] = (name, lengths)
         if len(lengths) > 1:
@@ -320,7 +320,7 @@ def main(argv):
     except (OSError, RuntimeError) as error:
         print(f"the file could not be written: {error}", file=sys.stderr)
         sys.stderr.flush()
-        os._exit(1)  # at the end of the program HDF5 would try again what a full disk refused, and crash
+        os._exit(1)  # a regular exit would let HDF5 write again to the full disk, and crash
 
 
 if __name__ == "__main__":

@@ -1,9 +1,9 @@
-/* Figures of what studies, spectra and comparisons found. Beside the caption of each lie its numbers, with the name of a function of
- * this file as `sort`; the function describes the figure for figure.js. */
+/* Figures of studies, load spectra and comparisons. The page has the numbers of each figure beside its caption; their member `sort`
+ * names a function of this file, which describes the figure for figure.js. */
 var answers = (function () {
   'use strict';
   var MOST_GROUPS = 8, NUMBER = /^([-+]?[\d.]+(?:e[-+]?\d+)?) *(.*)$/i;
-  /* Of the verdicts of a map, from good to bad: colours that the colour-blind tell apart (Okabe & Ito 2008), light enough for a letter. */
+  /* Colours of the verdicts of a map, from good to bad: distinct for the colour-blind (Okabe & Ito 2008), and light enough for a letter. */
   var VERDICTS = ['#009e73', '#56b4e9', '#cc79a7', '#f0f0f0', '#f0e442', '#ffffff', '#d55e00', '#999999'];
 
   function labelled(words, unit) { return unit ? words + ' (' + unit + ')' : words; }
@@ -14,7 +14,7 @@ var answers = (function () {
   }
   function values(map) { return Object.keys(map).map(function (key) { return map[key]; }); }
 
-  /* Where a pipeline can be trusted: a cell is [class, line, value, limit, reason, note], of a good one the class alone. */
+  /* Map of where a pipeline can be trusted. A cell is [class, line, value, limit, reason, note]; a good cell has only its class. */
   function side(axis) {
     var found = axis.values.map(function (text) { return NUMBER.exec(text); }), at = found.map(function (m, i) { return m ? parseFloat(m[1]) : axis.values[i]; });
     function share(value) {
@@ -27,14 +27,14 @@ var answers = (function () {
   function trust(of) {
     var sides = of.axes.map(side), x = sides[0], y = sides[1] || {label: '', at: ['']}, rows = y.at.length;
     return {sort: 'classes', x: x, y: y, classes: of.classes.map(function (kind, k) { return Object.assign({colour: VERDICTS[k]}, kind); }),
-      height: rows < 5 ? 230 : rows < 8 ? 34 * rows + 70 : rows < 20 ? 22 * rows + 60 : 440, /* the name of the rows is as long as they are high */
+      height: rows < 5 ? 230 : rows < 8 ? 34 * rows + 70 : rows < 20 ? 22 * rows + 60 : 440, /* so that the name of the vertical axis fits */
       cells: of.cells.map(function (cell) { return cell[0]; }),
       reasons: of.cells.map(function (cell) {
         var value = cell[2] === null ? 'not known' : figures.text(cell[2] || 0);
         return [of.classes[cell[0]].name, cell[1] && cell[1] + ' = ' + value + ', limit ' + figures.text(cell[3]), cell[4], cell[5]]
           .filter(Boolean).join('; ');
       }),
-      edges: of.boundaries.map(function (b) { /* across a cell, where the halvings found it */
+      edges: of.boundaries.map(function (b) { /* a boundary, drawn across a cell where the halvings found it */
         var place = (sides[b[0]].place(b[3]) + sides[b[0]].place(b[4])) / 2, c = b[1], r = b[2];
         return b[0] === 0 ? [place, r, place, r + 1] : [c, place, c + 1, place];
       })};
@@ -68,7 +68,7 @@ var answers = (function () {
       groups.concat(line), {room: 1});
   }
 
-  /* What the inputs make of an output, with its percentiles. */
+  /* The distribution of an output under uncertain inputs, with its percentiles. */
   function histogram(of) {
     var shares = of.histogram.shares, low = convert(of.histogram.from, of), width = (convert(of.histogram.to, of) - low) / shares.length;
     function edges(shift) { return shares.map(function (_, i) { return low + width * (i + shift); }); }
@@ -80,7 +80,7 @@ var answers = (function () {
       })});
   }
 
-  /* Numbers with bars in percent, one for each name; of several kinds beside each other. */
+  /* For each name, numbers in percent with error bars, one for each kind, beside each other. */
   function named(names, kinds, step, label, log) {
     return curves(260, {label: '', low: -0.5, high: names.length - 0.5}, {label: label, log: log}, kinds.map(function (kind, k) {
       return curve('dots', kind.name, k, names.map(function (_, i) { return i + step * (k - (kinds.length - 1) / 2); }),
@@ -101,7 +101,7 @@ var answers = (function () {
     }), 0.12, 'of the value (%)', 1);
   }
 
-  /* For how much of the time of a load spectrum an output is below a value. */
+  /* The share of the time of a load spectrum in which an output is below a value. */
   function durations(of) {
     var steps = of.values.map(function (v, i) { return [v, of.times[i]]; }).filter(function (s) { return s[0] !== null; })
       .sort(function (a, b) { return a[0] - b[0]; });
@@ -113,7 +113,8 @@ var answers = (function () {
     return curves(260, {label: 'time below (%)'}, {label: labelled(of.name, of.unit)}, [curve('line', '', 0, x, y)]);
   }
 
-  /* A series of several designs along paths of contact of any length, each scaled to the points that all have, such as SAP and tip. */
+  /* A series of several designs along the path of contact. Paths differ in length, so each is scaled to the points that all designs
+   * have, such as SAP and tip. */
   function path(of) {
     var out = of.outputs[of.series[0].of], points = of.cases.map(function (one) {
       return one.marks.reduce(function (map, m) { map[m[1]] = m[0]; return map; }, {});

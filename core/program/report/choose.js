@@ -1,8 +1,8 @@
-/* Chooses what a page draws of the numbers that lie in it, and describes each figure for figure.js.
+/* Chooses which of the page's numbers are drawn, and describes each figure for figure.js.
  * sections(data) returns a list of {at, title, note, folded, figures}: `at` names the element of the page. */
 var choice = (function () {
   'use strict';
-  /* Series that share a figure, by what models call them: stages that offer the same output are compared. */
+  /* Title of a figure, and the names of the outputs that it shows. Stages with the same output are compared in it. */
   var PATH = [
     ['Film thickness', 'h_min', 'h_central'],
     ['Pressure', 'p_max', 'hertz_pressure'],
@@ -41,8 +41,8 @@ var choice = (function () {
     return low + 1 < sorted.length ? sorted[low] + (at - low) * (sorted[low + 1] - sorted[low]) : sorted[sorted.length - 1];
   }
   function labelled(words, unit) { return unit ? words + ' (' + unit + ')' : words; }
-  /* Of a long curve the first, lowest, highest and last of each run of points and the begin of each gap, so that no peak and no gap is
-   * lost; of many dots, some. */
+  /* Shortens a long curve to the first, lowest, highest and last of each group of points and the start of each gap, so that no peak and
+   * no gap is lost; of many dots, keeps some. */
   function thinned(curve, most) {
     var y = curve.y, count = y.length, kept = [], dots = curve.style === 'dots', run = Math.ceil(count / most) * (dots ? 1 : 4);
     if (count <= most) return curve;
@@ -60,9 +60,10 @@ var choice = (function () {
   function label(of) { return labelled(of.label, of.unit); }
   function figure(title, more) { return Object.assign({sort: 'curves', title: title, class: '', marks: [], curves: []}, more); }
   function line(name, colour, dash, x, y) { return {name: name, colour: colour, dash: dash, style: 'line', x: x, y: y}; }
-  /* Whether the values are above 0 and span so much that a linear axis hides some; beyond the most, what is small is as good as 0. */
+  /* Whether an axis is logarithmic: the values are positive and span more than a factor of 30. If they span
+   * more than 1e4, the small ones count as 0, and the axis is linear. */
   function wide(low, high) { return low > 0 && high > 30 * low && high < 1e4 * low; }
-  function spread(curves) { /* each stage has a colour; where there is only one stage, each curve has one */
+  function spread(curves) { /* curves have the colours of their stages; if there is only one stage, each curve has its own */
     if (curves.every(function (c) { return c.colour === curves[0].colour; }))
       curves.forEach(function (c, k) { c.colour = k; });
   }
@@ -77,7 +78,7 @@ var choice = (function () {
     function anyOf(name) {
       return data.series.some(function (s) { return data.outputs[s.of].output === name; });
     }
-    /* The gap of a contact is 0 as soon as damping loads the flanks again; beside that of a motion it says nothing. */
+    /* Leaves out the gap of a contact if a motion has a gap too: the first is 0 as soon as damping loads the flanks again. */
     function isOtherGap(s) {
       return data.outputs[s.of].output === 'gap' && s.dim === 't' && data.series.some(function (other) {
         return data.outputs[other.of].output === 'gap' && other.dim !== 't';
@@ -95,7 +96,7 @@ var choice = (function () {
     function begin(title) { return {figure: figure(title), low: Infinity, high: -Infinity, share: false}; }
     function add(f, s, colour, several, alternating) {
       var of = data.outputs[s.of], along = s.along && data.outputs[s.along], x = figures.unpack(s.x), y = figures.unpack(s.y);
-      if (f.of && (f.of.si !== of.si || (f.along ? f.along.si : '') !== (along ? along.si : ''))) return; /* a figure of its own follows */
+      if (f.of && (f.of.si !== of.si || (f.along ? f.along.si : '') !== (along ? along.si : ''))) return; /* it gets a figure of its own below */
       s.drawn = true;
       if (!f.of) {
         f.of = of;
@@ -117,7 +118,7 @@ var choice = (function () {
       var curve = line(name, colour, f.figure.curves.length, x, alternating ? withoutMean(x, y) : y);
       Object.defineProperty(curve, 'all', {value: y});
       if (s.bar) curve.bar = scaled(figures.unpack(s.bar), {factor: Math.abs(f.of.factor)}, false);
-      /* of a share, such as the friction coefficient, not what it is where there is no load */
+      /* extremes of a share, such as a friction coefficient, leave out points without load */
       var ends = s.ends ? scaled(s.ends, f.of) : [least(curve.y), most(curve.y)];
       f.share = f.share || !!s.ends;
       f.low = Math.min(f.low, ends[0]);
@@ -151,7 +152,7 @@ var choice = (function () {
       return f.of ? end(f) : [];
     }
     function all(groups) { return groups.reduce(function (list, one) { return list.concat(group(one)); }, []); }
-    /* Those that no figure above has: along an axis, or along any. */
+    /* The series that no figure above shows: those along the given axis, or all. */
     function others(along) {
       var list = [];
       data.series.forEach(function (s) {
@@ -195,7 +196,7 @@ var choice = (function () {
       function branchOf(i) { return branch ? branch[i] : 0; }
       function periodOf(i) { return branchOf(i) >= 1000 && branchOf(i) < 1e6 ? Math.floor(branchOf(i) / 1000) : 1; }
       function isStable(i) { return !stable || stable[i] > 0; }
-      /* Parts of a branch meet in the point where stability changes. */
+      /* The stable and the unstable part of a branch share the point where stability changes. */
       function part(period, wanted) {
         var x = [], y = [];
         for (var i = 0; i < f.length; i++) {
@@ -225,7 +226,7 @@ var choice = (function () {
     var count = data.lengths.reduce(function (a, b) { return a * b; }, 1), dimensions = data.lengths.length;
     function stride(d) { return data.lengths.slice(d + 1).reduce(function (a, b) { return a * b; }, 1); }
     function point(c, d) { return Math.floor(c / stride(d)) % data.lengths[d]; }
-    /* The case of combination k of all dimensions but some. */
+    /* The case of combination k of all dimensions except those in `without`. */
     function caseOf(k, without) {
       var c = 0;
       for (var d = dimensions - 1; d >= 0; d--) {
@@ -239,11 +240,11 @@ var choice = (function () {
       return data.axes.filter(function (a) { return without.indexOf(a.dimension) < 0 && data.lengths[a.dimension] > 1; })
         .map(function (a) { return a.named[point(c, a.dimension)]; }).filter(Boolean).join(', ');
     }
-    function inOrder(values) { /* along others a line would run to and fro */
+    function inOrder(values) { /* a line over values in another order would run to and fro */
       function pairs(test) { return values.every(function (v, i) { return i === 0 || test(v, values[i - 1]); }); }
       return pairs(function (a, b) { return a >= b; }) || pairs(function (a, b) { return a <= b; });
     }
-    /* The numeric axis with the most points that is not of a dimension. */
+    /* The numeric axis with the most points, except those of the dimension `other`. */
     function mainAxis(other) {
       return data.axes.reduce(function (best, a) {
         var points = data.lengths[a.dimension];
@@ -251,7 +252,7 @@ var choice = (function () {
       }, null);
     }
     function numeric(a) { return a.values.every(function (v) { return v !== null; }); }
-    function geometric(v) { /* as by `spacing: log`, over a factor of five at least */
+    function geometric(v) { /* whether the points are spaced as by `spacing: log`, over a factor of at least five */
       return v.length > 2 && v[0] > 0 && Math.abs(Math.log(v[v.length - 1] / v[0])) > Math.log(5) &&
         v.every(function (one, i) { return i < 2 || Math.abs(one / v[i - 1] / (v[1] / v[0]) - 1) < 1e-6; });
     }
@@ -267,7 +268,7 @@ var choice = (function () {
         var first = caseOf(k, [axis.dimension]), name = nameOf(first, [axis.dimension]), y = [];
         for (var i = 0; i < points; i++) y.push(s.values[first + i * step]);
         if (!known(y).length) continue;
-        /* both chains of a sweep are one where there is one motion */
+        /* the chains up and down are one curve if both found the same motion */
         var same = made.curves.filter(function (c) {
           var room = 1e-3 * (most(c.y) - least(c.y));
           return c.y.every(function (v, i) { return v !== null && y[i] !== null && Math.abs(v - y[i]) <= room; });
@@ -290,7 +291,7 @@ var choice = (function () {
         var cells = x.values.map(function (_, c) { return first + c * stride(x.dimension) + r * stride(y.dimension); });
         made.values.push(cells.map(function (c) { return s.values[c]; }));
         made.standing.push(cells.map(function (c) { return data.standing[c]; }).join(''));
-        cells.forEach(function (c, k) { /* the best misses no limit */
+        cells.forEach(function (c, k) { /* the best case must not miss a limit */
           if (s.values[c] !== null && data.standing[c] !== '2' && (best === null || s.of.sense * (s.values[c] - best) > 0)) {
             best = s.values[c];
             if (s.of.sense) made.best = [k, r];
@@ -306,7 +307,7 @@ var choice = (function () {
       firsts(number, MOST.maps, list[list.length - 1]);
       return list;
     }
-    /* Points that have no order: those of cases that differ in words. */
+    /* Dots, for cases without an order, such as those that differ in words. */
     function dots(title, s, xLabel, x) {
       return figure(title, {room: 1, x: {label: xLabel, log: 0}, y: {label: label(s.of), log: 0},
         curves: [thinned(Object.assign(line('', 0, 0, x, s.values), {style: 'dots'}), 3000)]});
@@ -355,7 +356,7 @@ var choice = (function () {
         return dots(s.title + ' over ' + a.label, s, label(a), scaled(a.values, a));
       })});
     }
-    /* The tables below have what no figure can hold. */
+    /* Draws a scalar if a figure can show it; the tables below show the others. */
     function drawn(s) {
       var x = mainAxis(-1);
       if (data.sample) return sample(s);
@@ -367,17 +368,17 @@ var choice = (function () {
     }
     data.axes.forEach(function (a) { a.values = Array.from(figures.unpack(a.values), function (v) { return isFinite(v) ? v : null; }); });
     var main = mainAxis(-1), speeds = main && (main.si === 'Hz' || main.si === 'rad/s'), errors = [], rest = [];
-    if (!data.study || (data.described && !main && !data.sample)) return []; /* numbers of cases in no order would be a meaningless axis */
+    if (!data.study || (data.described && !main && !data.sample)) return []; /* case numbers would be a meaningless axis */
     Object.keys(data.scalars).forEach(function (name) {
       var of = data.outputs[name], values = scaled(figures.unpack(data.scalars[name]), of), s = {of: of, title: of.stage + ': ' + of.label, values: values};
-      if (!(most(values) > least(values))) return; /* the table of verdicts has the constants */
+      if (!(most(values) > least(values))) return; /* constant scalars are in the table of verdicts */
       Array.prototype.push.apply(speeds && /^dte_/.test(of.output) ? errors : rest, drawn(s));
     });
     return [{title: 'Transmission error against speed', figures: errors}, {title: 'Over what is varied', figures: rest}];
   }
 
-  /* Fields of the contact at an instant, which a slider moves. `values` of a stage are unpacked; `o` is the other flank, a film above the
-   * rough one. Figures name their curves' field and stage in `live`. */
+  /* Fields of the contact at an instant, which a slider moves. The `values` of a stage are unpacked; `other` is the other flank, which
+   * lies a film thickness above the rough one. `live` of a figure names the field and the stage of each curve. */
   function instants(data) {
     var stages = data.fields.filter(function (m) { return m.values.pressure && m.values.film; }).slice(0, MOST.stages);
     if (!stages.length) return [];
@@ -408,7 +409,7 @@ var choice = (function () {
           if (p[i] > p[top]) top = i;
           if (p[i] > 0.01 * high) { x0 = Math.min(x0, m.x[i % m.cells]); x1 = Math.max(x1, m.x[i % m.cells]); }
         }
-        film = Math.max(film, m.values.film[top]); /* away from the middle of the contact the gap is open */
+        film = Math.max(film, m.values.film[top]); /* the gap is wide away from the middle of the contact */
         if (m === first && p[top] > peak) { peak = p[top]; start = k; }
       }
     });
@@ -428,10 +429,10 @@ var choice = (function () {
       list.push(made);
     }
     panel('Pressure', 'pressure', [['pressure', ''], ['asperity_pressure', 'of asperities']], 0, 1.05 * range('pressure')[1]);
-    var h = range('film'), decades = h[0] > 0 && film > 30 * h[0]; /* at contact loss, the loaded film too */
+    var h = range('film'), decades = h[0] > 0 && film > 30 * h[0]; /* so that the loaded film is visible beside that at contact loss */
     panel('Film', 'film thickness', [['film', '']], decades ? Math.max(h[0], 1e-4 * film) / 1.5 : 0, 3 * film, decades);
     var r = range('roughness'), t = range('temperature'), rough = first.of('roughness');
-    if (r[1] > r[0]) /* the other flank, smooth and dented, stands a film above the rough one */
+    if (r[1] > r[0]) /* the other flank, smooth and deformed, is drawn a film thickness above the rough one */
       panel('Flanks', 'height', [['roughness', 'heights of both flanks'], ['other', 'other side of the film']], r[0] - 0.2 * (r[1] - r[0]),
         r[1] + 2 * film * rough.factor / first.of('film').factor);
     if (t[1] > t[0]) panel('Temperature', 'mean across the film', [['temperature', '']], t[0], t[1] + 0.05 * (t[1] - t[0]));

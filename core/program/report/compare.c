@@ -17,12 +17,12 @@ typedef struct number {
     double value, bar; /* SI; value NaN: there is none; bar infinite: the error is not known */
 } number;
 
-/* Selects the number of an output for a row. */
+/* Which number of an output a row shows. */
 typedef enum { WHOLE, FIRST, SECOND, LEAST, LARGEST } part;
 
-/* Whether a quality line such as "h_min_space_error" states the error of an output: that of the
- * output with the longest name with which the line begins, and those of outputs derived from it,
- * such as h_min_lowest. */
+/* Whether a quality line states the error of an output. "h_min_space_error" concerns the output
+ * with the longest name that begins the name of the line, and outputs derived from that one, such
+ * as h_min_lowest. */
 static bool is_error_of(const results_view *view, const results_view_quality *line,
                         const results_view_variable *of)
 {

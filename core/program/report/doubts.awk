@@ -1,4 +1,4 @@
-# The rows of the guide's table on what a doubt means, as C: each name with its sentences.
+# Prints the guide's table "What a doubt means" as C initialisers: {name, sentences}.
 /^### / { inside = $0 == "### What a doubt means" }
 inside && /^\| `/ {
   split($0, cells, " \\| ")

@@ -1,15 +1,15 @@
-/* Makes of the description of a figure what the plotting library draws. */
+/* Translates the description of a figure for the plotting library. */
 var figures = (function () {
   'use strict';
   var DASHES = [[], [7, 3], [2.5, 2.5], [9, 3, 2, 3]], COLOURS = 6;
   function text(value) { return typeof value === 'number' ? String(parseFloat(value.toPrecision(4))) : String(value); }
   function ink(i) { return typeof i === 'string' ? i : 'var(--c' + i % COLOURS + ')'; }
-  function unpack(base64) { /* of the little-endian machines that browsers run on */
+  function unpack(base64) { /* numbers are little-endian, like all machines that browsers run on */
     return new Float32Array(Uint8Array.from(atob(base64), function (c) { return c.charCodeAt(0); }).buffer);
   }
   function finite(list) { return list.filter(function (v) { return typeof v === 'number' && isFinite(v); }); }
 
-  /* The range of an axis over the curves that are shown; a little room is left where it is not given. */
+  /* The range of an axis over the visible curves, with some margin at ends that the description does not give. */
   function domain(figure, axis) {
     var asked = figure[axis], values = [];
     figure.curves.forEach(function (curve) {
@@ -48,7 +48,7 @@ var figures = (function () {
         tag: curve.tags ? curve.tags[i] : ''};
     });
   }
-  /* A name of more than so many letters in two lines. */
+  /* Splits a name of more than `most` letters into two lines. */
   function folded(label, most) {
     var middle = label.indexOf(' ', label.length / 2 - 4);
     return label.length > most && middle > 0 ? [label.slice(0, middle), label.slice(middle + 1)] : label;
@@ -105,7 +105,7 @@ var figures = (function () {
     function scale(name, range) {
       return {name: name, type: figure[name].log ? 'log' : 'linear', range: range, domain: {signal: name + 'd'}, zero: false, nice: false};
     }
-    function style(name) { /* of a logarithmic axis the powers of ten, and 2 and 5 where there are few */
+    function style(name) { /* a logarithmic axis has ticks at the powers of ten and, if these are few, at 2 and 5 times them */
       var step = figure[name].step, values = [];
       for (var i = 0; step && i <= Math.round((figure[name].high - figure[name].low) / step); i++)
         values.push(figure[name].low + i * step);
@@ -121,7 +121,7 @@ var figures = (function () {
       labelOverlap: false, labelAngle: width < 90 * figure.names.length ? -25 : 0, labelAlign: width < 90 * figure.names.length ? 'right' : 'center',
       labelLimit: 160, encode: {labels: {update: {text: {signal: 'xn[round(datum.value)]'}}}}});
     var shown = figure.curves.filter(function (c) { return c.name && !c.hidden; });
-    var longest = Math.max.apply(null, shown.map(function (c) { return c.name.length; })); /* 40 for its line, 6 a letter */
+    var longest = Math.max.apply(null, shown.map(function (c) { return c.name.length; })); /* width in pixels: 40 for the line, 6 for each letter */
     return frame(figure, width, [clip(inside), names], {
       signals: [{name: 'xn', value: figure.names || []}, {name: 'xd', value: figure.xd || domain(figure, 'x')}, {name: 'yd', value: figure.yd || domain(figure, 'y')},
         {name: 'zd', value: figure.z ? domain(figure, 'z') : [0, 1]}],
@@ -137,12 +137,12 @@ var figures = (function () {
         columns: Math.max(1, Math.min(3, Math.floor(width / (40 + 6 * longest)))), labelColor: 'var(--ink)', labelLimit: 400}] : []});
   }
 
-  /* Maps: over the ranks of rows and columns, each with its value beside it. */
+  /* Maps. The axes count rows and columns, and their labels show the values. */
   function share(value, scale) {
     if (scale.log) return Math.log(value / scale.low) / Math.log(scale.high / scale.low);
     return scale.high > scale.low ? (value - scale.low) / (scale.high - scale.low) : 0.5;
   }
-  /* Of a map with many cells a picture; a cell has several pixels, so that its edge stays sharp. */
+  /* Draws a map with many cells as a picture. A cell has several pixels, so that its edges stay sharp. */
   function picture(figure) {
     var rows = figure.values.length, columns = figure.values[0].length, canvas = document.createElement('canvas'), size = 4;
     var pen = canvas.getContext('2d'), colour = vega.scheme('viridis');
@@ -157,7 +157,7 @@ var figures = (function () {
     });
     return canvas.toDataURL();
   }
-  /* Round values within the scale of a map, at which it has contours. */
+  /* The values of a map's contours: round numbers within its scale. */
   function levels(scale) {
     var list = [], power = Math.pow(10, Math.floor(Math.log10(scale.log ? scale.low : (scale.high - scale.low) / 4 || 1)));
     if (scale.log) {
@@ -170,7 +170,7 @@ var figures = (function () {
     return list.map(function (v) { return parseFloat(v.toPrecision(6)); })
       .filter(function (v) { return v > scale.low && v < scale.high; });
   }
-  /* The pieces of a contour, linear between the centres of cells (on a logarithmic scale, between logarithms). */
+  /* The pieces of a contour, interpolated linearly between the centres of cells (on a logarithmic scale, in the logarithm). */
   function contour(figure, level) {
     var pieces = [], grid = figure.values;
     function above(value) { return figure.value.log ? Math.log(value / level) : value - level; }
@@ -236,7 +236,7 @@ var figures = (function () {
       strokeCap: {value: 'round'}};
     var name = {x: edge.x, y: edge.y, text: {field: 'name'}, align: {value: 'center'}, baseline: {value: 'middle'}, fontSize: {value: 11},
       fontWeight: {value: 'bold'}};
-    if (figure.sort === 'map') /* a dark rim, for where the map is light */
+    if (figure.sort === 'map') /* a dark rim keeps the line visible on light cells */
       marks.push({type: 'rule', from: {data: 'edges'}, encode: {update: Object.assign({stroke: {value: '#000'}, opacity: {value: 0.35},
         strokeWidth: {signal: 'datum.wide + 2'}}, edge)}});
     marks.push({type: 'rule', from: {data: 'edges'}, encode: {update: Object.assign({stroke: {value: figure.sort === 'classes' ? '#000' : '#fff'},
@@ -244,7 +244,7 @@ var figures = (function () {
       {type: 'text', from: {data: 'edges'}, encode: {update: Object.assign({stroke: {value: '#000'}, strokeWidth: {value: 3}, opacity: {value: 0.6}}, name)}},
       {type: 'text', from: {data: 'edges'}, encode: {update: Object.assign({fill: {value: '#fff'}}, name)}});
     function middle(c, r) { return {x: {scale: 'x', value: c + 0.5}, y: {scale: 'y', value: r + 0.5}}; }
-    /* Cells that miss a limit are crossed out, those that meet it within their bar alone are framed. */
+    /* Cells that miss a limit are crossed out; those that meet it only within their error bar are framed. */
     (figure.standing || []).forEach(function (row, r) {
       row.split('').forEach(function (kind, c) {
         var half = kind === '2' ? 0.5 : 0.42, cell = {stroke: {value: kind === '2' ? '#e2330f' : '#ffb000'}, strokeWidth: {value: 1.6},
@@ -275,7 +275,7 @@ var figures = (function () {
       axis('left', 'y', figure.y.label, {title: folded(figure.y.label, ((figure.height || 250) - 130) / 7), grid: false, tickCount: rows, values: ranks(rows, 12),
         encode: {labels: {update: {text: {signal: 'yl[floor(datum.value)]'}}}}})]}, more));
   }
-  /* What the letters of a map mean, for where no list stands below it. */
+  /* The meaning of a map's letters, for a figure without a list below it. */
   function counts(figure) {
     return figure.classes.map(function (kind, k) {
       var count = figure.cells.filter(function (c) { return c === k; }).length;
@@ -294,12 +294,12 @@ var figures = (function () {
     return new vega.View(vega.parse(spec(figure, width, legend), null, {ast: true}), {expr: vega.interpreter, renderer: 'svg'});
   }
 
-  /* A figure with its light colours, fit to stand alone. */
+  /* A figure as SVG that needs no style sheet, in the light colours. */
   function standalone(figure) {
     return view(figure, figure.width || 760, true).toSVG().then(function (svg) {
       var style = getComputedStyle(document.getElementById('light'));
       return svg.replace(/var\((--\w+)\)/g, function (_, name) { return style.getPropertyValue(name).trim(); })
-        .replace(/ (d|transform)="[^"]*"/g, function (place) { /* to a tenth of a pixel */
+        .replace(/ (d|transform)="[^"]*"/g, function (place) { /* rounds coordinates to a tenth of a pixel */
           return place.replace(/-?\d+\.\d{2,}/g, function (n) { return String(Number(Number(n).toFixed(1))); });
         });
     });

@@ -130,7 +130,7 @@ static double find_scalar(report_page *page, const char *output, size_t index)
 
 const char *const report_mark_names[REPORT_MARKS] = {"SAP", "LPSTC", "pitch", "HPSTC", "tip"};
 
-/* In the stations of a gear pair, only LPSTC and HPSTC occur twice. */
+/* Finds LPSTC and HPSTC, the only stations of a gear pair that occur twice. */
 static void find_jumps(report_page *page, size_t index, report_marks *marks)
 {
     double found[2] = {NAN, NAN};

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Puts what the pages need of the plotting library into one script, which defines `vega`, with its licence.
+# Joins the modules of the plotting library that the pages need into one script, which defines `vega`, with the licence.
 #   library.sh FOLDER LICENCE
 set -eu
 printf '/*\n%s\n*/\n' "$(cat "$2")"

@@ -58,13 +58,13 @@ void report_quantity_text(const char *name, const char *si_unit, double si,
 void report_bar_text(const char *si_unit, double bar, char out[REPORT_TEXT_SIZE]);
 /* Returns the name of an output in a figure, from its doc: "least film thickness" for h_min. */
 const char *report_output_words(const results_view_variable *of, char out[REPORT_TEXT_SIZE]);
-/* The same for a path without a doc: its last word. */
+/* Returns the name of a path, which has no doc: its last word. */
 const char *report_plain_name(const char *path, char out[REPORT_TEXT_SIZE]);
 /* Returns the value of an axis as the user wrote it, unless that is long. */
 const char *report_axis_word(const results_view_axis *axis, size_t point,
                              char out[REPORT_TEXT_SIZE]);
-/* Returns the value of an input as a number. If the input has several values, such as the relief of
- * two gears, it is the number at the start of its text. NaN if there is none. */
+/* Returns the value of an input as a number; of several values, such as the relief of two gears,
+ * the first one. NaN if it is not a number. */
 double report_axis_number(const results_view_axis *axis, size_t point);
 /* Returns the unit in which the value is written; for plain numbers, the SI unit. */
 const char *report_axis_unit(const results_view_axis *axis);
@@ -156,8 +156,8 @@ int32_t report_standing(const results_view *view, size_t index);
 /* section-best.c: whether the cases are a sweep of several axes. */
 bool report_is_sweep(const results_view *view);
 /* Paths of the stage that a sweep names first are choices of the designer, such as a relief; all
- * others are operating conditions, such as torques. Marks the dimensions of each with more than one
- * point. */
+   others are operating conditions, such as torques. Dimensions with more than one point are marked
+   as one of these. */
 typedef struct report_sides {
     bool *chosen, *met;
     size_t choices, conditions; /* numbers of combinations */

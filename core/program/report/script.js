@@ -19,7 +19,7 @@
   function save(figure, name) {
     figures.standalone(figure).then(function (svg) { download(new Blob([svg], {type: 'image/svg+xml'}), name + '.svg'); });
   }
-  /* Twice the size of the drawing, on paper that is not transparent. */
+  /* Saves a figure as a picture of twice its size, on an opaque background. */
   function picture(figure, name) {
     figures.standalone(figure).then(function (svg) {
       var image = new Image(), canvas = document.createElement('canvas'), pen = canvas.getContext('2d');
@@ -34,7 +34,7 @@
       image.src = 'data:image/svg+xml,' + encodeURIComponent(svg);
     });
   }
-  function write(rows, name) { /* as RFC 4180 has it */
+  function write(rows, name) { /* CSV by RFC 4180 */
     download(new Blob([rows.map(function (row) {
       return row.map(function (cell) {
         var words = cell === null || cell === undefined ? '' : String(cell);
@@ -42,7 +42,7 @@
       }).join(',');
     }).join('\n') + '\n'], {type: 'text/csv'}), name + '.csv');
   }
-  /* The numbers of a figure, a line for each. */
+  /* The numbers of a figure as rows of a table. */
   function numbers(figure) {
     var rows = [];
     if (figure.sort === 'curves') {
@@ -63,7 +63,7 @@
     return [[figure.y.label, figure.x.label, figure.value ? figure.value.label : 'class']].concat(rows);
   }
 
-  /* Tables: a click on a head sorts, a second one backwards; numbers by what they are in SI. */
+  /* Tables. A click on a head sorts the rows, a second click reverses the order. Numbers are sorted by their SI values. */
   function keyOf(cell) {
     var words = cell.textContent.replace(/[\u202f\u2009\u00a0]/g, '').trim();
     var number = cell.dataset.v === undefined ? parseFloat(words.replace(/^\u2265/, '')) : Number(cell.dataset.v);
@@ -101,7 +101,7 @@
     });
     table.parentNode.parentNode.insertBefore(tools, table.parentNode);
   }
-  /* Shows the rows alone that have all of the words. */
+  /* Adds a search box: only rows that contain all its words are shown. */
   function filtering(table) {
     var box = make('input'), body = table.tBodies[0];
     box.type = 'search';
@@ -118,7 +118,7 @@
   }
 
   /* The figures of the page. */
-  var shown = [], printing = false; /* those of a closed part of the page are drawn when it is opened */
+  var shown = [], printing = false; /* a figure in a closed part of the page is drawn when the part is opened */
   function drawn() { return shown.filter(function (f) { return f.view; }); }
   function draw(f) {
     if (f.view) f.view.finalize();
@@ -169,7 +169,7 @@
     f.box.addEventListener('dblclick', function () { zoom(f); });
   }
 
-  /* The values where the pointer is. */
+  /* Shows the values at the pointer. */
   var tip = make('div');
   tip.id = 'tip';
   tip.hidden = true;
@@ -246,13 +246,14 @@
     });
     f.node.insertBefore(list, f.node.querySelector('details'));
   }
-  /* Says whether an axis can be logarithmic. */
+  /* Whether an axis can be logarithmic. */
   function positive(figure, axis) {
     return figure.curves.every(function (c) {
       return c.style !== 'bars' && !c.live && figures.finite(c[axis]).every(function (v) { return v > 0; });
     });
   }
-  /* That of a figure which a study has described lies in the page, or is made of its numbers; those of the page's own numbers are made. */
+  /* Returns the description of a figure. Figures of a study have a script element with the description, or with numbers from which
+   * answers.js makes it. Other figures already have theirs as `figure`. */
   function descriptionOf(node) {
     var lying = node.figure || JSON.parse(node.querySelector('script').textContent), made = answers[lying.sort];
     node.figure = made ? made(lying) : lying;
@@ -303,13 +304,13 @@
     wide.appendChild(table);
     return wide;
   }
-  /* Without the library, the numbers of a figure as a table of at most so many rows. */
+  /* Without the plotting library, shows the numbers of a figure as a table of about 40 rows. */
   function tabulate(node) {
     var rows = numbers(descriptionOf(node)), step = Math.ceil(rows.length / 40);
     node.appendChild(tableOf(rows[0], rows.slice(1).filter(function (_, i) { return i % step === 0; })));
   }
 
-  /* The parts of the page that are chosen from its numbers. */
+  /* The parts of the page that choose.js fills. */
   function closest(list, value) {
     var best = 0;
     for (var i = 1; i < list.length; i++)
@@ -366,10 +367,10 @@
       within.appendChild(into);
       put(chosen.figures, into);
       document.getElementById(chosen.at).appendChild(section);
-      if (chosen.at === 'over' && data.tabled) document.querySelector('.grids').closest('details').open = false; /* the figures have it */
+      if (chosen.at === 'over' && data.tabled) document.querySelector('.grids').closest('details').open = false; /* the figures show the same numbers */
     });
   }
-  /* The slider names an instant of the first stage; others show their nearest one. */
+  /* The slider chooses an instant of the first stage; the other stages show their nearest instant. */
   function animate(section) {
     var chosen = section.chosen, timer = null, stages = chosen.stages;
     var slider = section.querySelector('input'), play = section.querySelector('.play');
@@ -414,14 +415,14 @@
     update();
   }
 
-  /* The pair of the inputs to scale: tips, sketched flanks, and the pitch circles that touch. */
+  /* Draws the gear pair of the inputs to scale: teeth with sketched flanks, and the pitch circles. */
   function pair(list) {
     var of = {}, inside = false;
     Array.prototype.forEach.call(list.children, function (node) {
       if (node.tagName === 'DT') inside = /^gear\//.test((node.querySelector('small') || node).textContent);
       else if (inside) all('span', node).forEach(function (one) { of[one.firstChild.textContent.trim()] = one.querySelector('b').textContent; });
     });
-    function both(name, otherwise) { /* mm; a number by itself is as it stands */
+    function both(name, otherwise) { /* the values of both gears: lengths in mm, plain numbers unchanged */
       var found = (of[name] || '').match(/-?[\d.]+(e[-+]?\d+)? *[^\d,\]\s]*/gi);
       if (!found) return otherwise;
       found = found.map(function (word) { return parseFloat(word) * ({m: 1e3, cm: 10, um: 1e-3, in: 25.4}[word.replace(/.*[\d. ]/, '')] || 1); });
@@ -439,7 +440,7 @@
     }
     [0, 1].forEach(function (i) {
       var tip = tips[i] / 2, root = tip - 2.25 * m[0], step = 2 * Math.PI / z[i], points = [];
-      for (var k = 0; k < z[i]; k++) /* a tooth of gear 1 and a gap of gear 2 on the line of centres */
+      for (var k = 0; k < z[i]; k++) /* gear 1 has a tooth on the line of centres, gear 2 a gap */
         [[-0.36, root], [-0.14, tip], [0.14, tip], [0.36, root]].forEach(function (p) {
           var at = (k + (i ? 0.5 : 0) + p[0]) * step + i * Math.PI;
           points.push((i * a + p[1] * Math.cos(at)).toFixed(3) + ',' + (p[1] * Math.sin(at)).toFixed(3));
@@ -454,7 +455,8 @@
     list.parentNode.insertBefore(box, list);
   }
 
-  /* #figures: puts all figures into the page as one that could be saved, each at its place or below the last. */
+  /* If the address ends with #figures: adds all figures to the page as one SVG text that can be saved. Each has its place on the page, or
+   * is below the previous one. */
   function spell() {
     return Promise.all(shown.map(function (f) { return figures.standalone(f.figure); })).then(function (list) {
       var width = 0, height = 0, inner = [], rows = {};
@@ -463,7 +465,7 @@
         var origin = svg.match(/translate\(([\d.]+),([\d.]+)\)/).slice(1).map(Number);
         (rows[place[1]] = rows[place[1]] || []).push({svg: svg, size: size, origin: origin, x: shown[i].figure.place ? Math.max(0, place[0] - origin[0]) : 0});
       });
-      Object.keys(rows).map(Number).sort(function (a, b) { return a - b; }).forEach(function (key) { /* axes of a row stand level */
+      Object.keys(rows).map(Number).sort(function (a, b) { return a - b; }).forEach(function (key) { /* aligns the axes of the figures in a row */
         var above = Math.max.apply(null, rows[key].map(function (p) { return p.origin[1]; })), bottom = 0;
         rows[key].forEach(function (p) {
           var y = height + above - p.origin[1];
@@ -505,7 +507,7 @@
       width = innerWidth;
       drawn().forEach(draw);
     });
-    var folded = []; /* a print has all parts of the page */
+    var folded = []; /* parts that were closed before printing, which opens all */
     ['beforeprint', 'afterprint'].forEach(function (kind) {
       window.addEventListener(kind, function () {
         printing = kind === 'beforeprint';

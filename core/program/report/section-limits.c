@@ -110,5 +110,5 @@ void report_write_limits(report_page *page)
     for (size_t i = 0; i < view->cases[0]->limit_count; i++)
         json_array_append_new(rows, limit_row(view->cases[0]->limits[i]));
     report_put_table(page->out, json_pack("{s:s, s:[s, s, s, s], s:o}", "class", "limits", "head",
-                                          "limit of", "asked", "it is", "", "rows", rows));
+                                          "limit of", "limit", "value", "", "rows", rows));
 }

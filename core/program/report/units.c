@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ROOM = 44 }; /* of a figure's title */
+enum { ROOM = 44 }; /* largest length of a figure's title */
 
 study_readable report_unit_for(const char *name, const char *si_unit, double magnitude)
 {

@@ -29,8 +29,8 @@ static const ff_result *whole_of(const ff_pipeline *pipeline, const ff_stage *st
     return whole && whole->data && whole->rank == 1 && result->rank == 1 ? whole : NULL;
 }
 
-/* Finds the least and the greatest number of a result. `whole`, if not NULL, has the whole of each
- * share. */
+/* Finds the least and the greatest number of a result. `whole`, if not NULL, is the series of which
+   the result is a share. */
 static bool search(const ff_result *result, const accuracy_series *whole, const double *at,
                    double least_whole, results_extremes *out)
 {

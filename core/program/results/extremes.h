@@ -11,9 +11,9 @@ typedef struct results_extremes {
     bool partial; /* true if shares were left out because their whole is almost 0 */
 } results_extremes;
 
-/* Finds them among the known numbers; false if none is known. For a share of another series (its
- * row's `origin` names it), only points count where the other series is at least 1 % of its largest
- * value: a friction coefficient counts only where there is load. */
+/* Finds both among the known numbers; false if none is known. If the result is a share of another
+ * series, which its row names as `origin`, only points count where that series is at least 1 % of
+ * its largest value: a friction coefficient counts only where there is load. */
 bool results_find_extremes(const ff_pipeline *pipeline, const ff_stage *stage,
                            const ff_result *result, results_extremes *out);
 

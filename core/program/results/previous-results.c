@@ -102,7 +102,7 @@ static void compare_stage(differences *all, const ff_pipeline *pipeline, const f
                        json_object_get(origin, "parameters"), chosen);
     const char *build = text_of(origin, "build", "");
     if (!strcmp(model, stage->use) && strcmp(text_of(before, "build", build), build) != 0)
-        add_difference(all, stage->name, "", "another build of its plugin", "that of now");
+        add_difference(all, stage->name, "", "another build of its plugin", "the present one");
     json_decref(origin);
 }
 
@@ -157,7 +157,7 @@ static bool check(const char *directory, const char *name, const results_input *
     else
         *replaced = *same ? memory_print_text("%s", "") : compare(root, input);
     if (other && input->replace) {
-        char *text = memory_print_text("the results are of %s", recorded);
+        char *text = memory_print_text("the results belong to %s", recorded);
         free(*replaced);
         *replaced = text;
     }

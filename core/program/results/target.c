@@ -42,9 +42,8 @@ static bool may_replace(const results_target *target)
         fclose(stream);
     return ours ||
            ff_error(target->report, FF_FAULT_INPUT, FF_NOWHERE, "name another file",
-                    S_ISREG(about.st_mode)
-                        ? "\"%s\" contains something else than the file that would be written"
-                        : "\"%s\" is not a regular file",
+                    S_ISREG(about.st_mode) ? "\"%s\" exists and was not written by this command"
+                                           : "\"%s\" is not a regular file",
                     target->path);
 }
 

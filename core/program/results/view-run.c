@@ -111,7 +111,7 @@ bool results_view_read_run(results_reader *reader)
     if (format > RESULTS_FORMAT)
         return ff_error(reader->report, FF_FAULT_INPUT, FF_NOWHERE,
                         "read it with a newer flankfilm",
-                        "%s/result.json is of format %lld; this flankfilm reads up to %d",
+                        "%s/result.json has format %lld; this flankfilm reads up to %d",
                         reader->path, (long long)format, RESULTS_FORMAT);
     results_view_add_head(reader, root);
     results_view_case *c = results_view_add_row(reader, &reader->cases, sizeof *c);

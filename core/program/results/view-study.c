@@ -198,12 +198,12 @@ bool results_view_read_study(results_reader *reader)
         return false;
     json_t *study = results_view_read_json(reader, study_description);
     if (!study)
-        return refuse(reader, errno ? "is not there" : "is not a description of a study");
+        return refuse(reader, errno ? "is missing" : "is not a description of a study");
     const json_t *length = json_array_get(json_object_get(study, "lengths"), 0);
     if (json_is_integer(length) && json_integer_value(length) == 0) {
         json_decref(study);
         return refuse(reader,
-                      "lists no case; rows from standard input are listed when they have ended");
+                      "lists no cases; rows from standard input are listed after the last one");
     }
     reader->view.study = true;
     results_view_add_head(reader, study);

@@ -47,7 +47,8 @@ enum {
     RESULTS_VIEW_AT_LEAST = 2 /* only a lower bound is known, so it has no error */
 };
 
-/* An output of a stage. In a case the output may be missing, or only its first dimension. */
+/* An output of a stage. In a case the output may be missing, or its first dimension may be absent.
+ */
 typedef struct results_view_variable {
     const char *name;   /* "film.h_min" */
     const char *output; /* "h_min" */

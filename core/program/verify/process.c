@@ -129,7 +129,7 @@ const char *verify_process_changed(const verify_process *was)
     if (strcmp(was->folder, is.folder) != 0)
         return "changed the working directory";
     if (was->mask != is.mask)
-        return "changed the mask of new files";
+        return "changed the permission mask of new files";
     for (int i = 0; i < VERIFY_LIMITS; i++)
         if (was->limits[i].rlim_cur != is.limits[i].rlim_cur ||
             was->limits[i].rlim_max != is.limits[i].rlim_max)

@@ -33,7 +33,7 @@ typedef struct test {
 } test;
 
 static const test descriptor = {
-    "descriptor", "loads and keeps the rules for tables", LOADING, ALL, NULL, NULL};
+    "descriptor", "loads and follows the rules for tables", LOADING, ALL, NULL, NULL};
 static const test pipeline = {"pipeline", "the file gives it parameters", USER_FILE, ALL, NULL,
                               NULL};
 static const test any_model[] = {
@@ -48,8 +48,8 @@ static const test any_model[] = {
     {"leaks", "a thousand instances leave no memory behind", ANY_MODEL, ALL, verify_test_leaks,
      NULL},
     {"allocations", "survives a failing allocation", ANY_MODEL, ALL, verify_test_allocations, NULL},
-    {"limits", "takes parameters in and at their limits, or says why not", ANY_MODEL, WITH_PARAMS,
-     verify_test_limits, NULL},
+    {"limits", "accepts parameters within and at their limits, or says why not", ANY_MODEL,
+     WITH_PARAMS, verify_test_limits, NULL},
     {"environment", "leaves locale, arithmetic, signals and folder alone", ANY_MODEL, ALL,
      verify_test_environment, NULL},
     {"inputs", "gives finite outputs or a reason for any input", ANY_MODEL, WITH_DATA,
@@ -364,15 +364,14 @@ static void try_kind(session *s)
     if (!known && !s->request->only && !s->request->list) {
         bool broken = ff_report_count(report) > 0;
         verify_result none = {.test = "kind",
-                              .claim = "keeps what its kind asks for",
+                              .claim = "meets the requirements of its kind",
                               .finding = broken ? VERIFY_FAILED : VERIFY_SKIPPED};
         if (broken)
             snprintf(none.why, sizeof none.why, "%s", ff_report_at(report, 0)->text);
         else
-            snprintf(
-                none.why, sizeof none.why,
-                "there is no model %s/%s that says what that is; only the general tests were made",
-                FF_CONFORMANCE_KIND, kind);
+            snprintf(none.why, sizeof none.why,
+                     "there is no model %s/%s that states them; only the general tests were run",
+                     FF_CONFORMANCE_KIND, kind);
         s->tell(s->ctx, ++s->number, &none);
     }
     verify_kind_checks_close(&checks);

@@ -51,7 +51,7 @@ bool verify_find_served(verify_context *c, verify_instance *instance, const veri
             memory_add_text(served, " %s", row->name);
         else if (status != FF_UNSUPPORTED &&
                  status != FF_STOPPED) /* FF_STOPPED: too slow to decide */
-            return verify_fail(c, "\"%s\" cannot be had alone: %s", row->name, instance->text);
+            return verify_fail(c, "\"%s\" cannot be computed alone: %s", row->name, instance->text);
     }
     return true;
 }
@@ -92,7 +92,7 @@ verify_setup *verify_find_work(verify_context *c, verify_instance *instance, cha
             verify_fail(c, "evaluate gave the status %d: %s", status, instance->text);
         verify_instance_close(instance);
     }
-    verify_skip(c, "no random inputs suit it; --pipeline FILE gives real ones");
+    verify_skip(c, "no suitable random inputs were found; --pipeline FILE gives real ones");
     return NULL;
 }
 

@@ -127,7 +127,7 @@ bool verify_setup_can_be_used(const verify_setup *setup, bool quietly)
     }
     if (setup->lacks && !quietly)
         verify_skip(setup->context,
-                    "it requires \"%s\", and states no columns of which a file could be made; "
+                    "it requires \"%s\", and declares no columns from which a file could be made; "
                     "--pipeline FILE gives one",
                     setup->lacks);
     else if (law && !quietly)

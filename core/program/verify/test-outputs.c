@@ -92,9 +92,9 @@ bool verify_test_repeat(verify_context *c)
     if (here.status == FF_STOPPED || there.status == FF_STOPPED || again == FF_STOPPED)
         verify_skip(c, "too slow for the random inputs found; --pipeline FILE gives real ones");
     else
-        good = verify_outputs_agree(c, &here.instance, &there.instance, "in a second thread") &&
-               verify_outputs_agree(c, &here.instance, &instance,
-                                    "when the same instance works again");
+        good =
+            verify_outputs_agree(c, &here.instance, &there.instance, "in a second thread") &&
+            verify_outputs_agree(c, &here.instance, &instance, "when the same instance runs again");
     verify_instance_close(&here.instance);
     verify_instance_close(&there.instance);
     verify_instance_close(&instance);

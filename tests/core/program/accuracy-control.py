@@ -51,7 +51,7 @@ class Control(lab.Lab):
         text = FILE.split("outputs:")[0].replace("first: {", "wave: {use: toy/wave, amplitude: 2 mm}\n  first: {") + "outputs: [wave.field]\n"
         self.write("field.yaml", text)
         said = self.call("run", "field.yaml", "-o", "field")
-        self.assertIn("it changes nothing", said)
+        self.assertIn("this changes nothing", said)
         self.assertNotIn("twin", said)
         self.assertIsNone(self.read("field/result.json")["accuracy"])
 
@@ -75,7 +75,7 @@ class Control(lab.Lab):
             self.assertNotIn("first.cells", answer["accuracy"]["settings"])
             self.assertEqual((answer["verdict"], answer["accuracy"]["attempts"]), ("doubtful", 1))
             self.assertGreater(self.error(answer), 0.001)
-            self.assertIn("% of it by settings of the file", answer["stages"][-1]["quality"]["value_error"]["text"])
+            self.assertIn("% of it due to settings of the file", answer["stages"][-1]["quality"]["value_error"]["text"])
         answer = self.ask("first.cells=400", "last.cells=400", "first.tolerance=1e-4 %", "last.tolerance=1e-4 %", "last.steps=1001")
         self.assertEqual((answer["verdict"], answer["accuracy"]["settings"]), ("good", {}))
 
@@ -349,7 +349,7 @@ class Control(lab.Lab):
         self.assertNotIn("not reached", said)
         said = self.call("run", "block.yaml", "-o", "block", "--set", "first.cells=20")
         self.assertIn("0 of 2 goals reached", said)
-        self.assertRegex(said, r"\n  last.value  \S+ % +0.1 % +not reached; 90 % of it by settings of the file; order")
+        self.assertRegex(said, r"\n  last.value  \S+ % +0.1 % +not reached; 90 % of it due to settings of the file; order")
         self.assertIn("settings fixed by the file: first.cells\n", said)
         said = self.call("run", "block.yaml", "-o", "block", "--set", "accuracy=1e-6 %")
         self.assertIn("no finer settings", said)
@@ -365,16 +365,16 @@ class Control(lab.Lab):
         answer = self.ask("accuracy={all: 2.5 %, check: twins}", "last.shown=100")
         self.assertEqual(answer["verdict"], "doubtful")
         self.assertLessEqual(answer["outputs"]["last.value"]["error"]["relative"], 0.025)
-        self.assertIn("more than the error told", self.call("run", "order.yaml", "-o", "finer", "--set", "accuracy={all: 2.5 %, check: twins}", "--set", "last.shown=100"))
+        self.assertIn("more than the stated error", self.call("run", "order.yaml", "-o", "finer", "--set", "accuracy={all: 2.5 %, check: twins}", "--set", "last.shown=100"))
         self.assertEqual(self.ask("last.shown=100", "accuracy=2.5 %")["verdict"], "good")
         answer = self.ask("accuracy={check: twins}", "last.most=100")
         self.assertEqual(answer["verdict"], "doubtful")
         self.assertIn("the finer run failed: ", answer["stages"][-1]["quality"]["value_error"]["text"])
         self.assertIn("128 cells are too many", answer["stages"][-1]["quality"]["value_error"]["text"])
-        least = [f"{stage}.least=64" for stage in ("first", "last")]  # no coarser twin: the finer one tells the errors
+        least = [f"{stage}.least=64" for stage in ("first", "last")]  # no coarser twin: the finer one measures the errors
         answer = self.ask("accuracy={check: twins}", *least)
         self.assertEqual((answer["verdict"], answer["accuracy"]["twins"]), ("good", 2))
-        self.assertIn("which has also told the error", self.call("run", "order.yaml", "-o", "told", *(word for one in ("accuracy={check: twins}", *least) for word in ("--set", one))))
+        self.assertIn("which also gave the error", self.call("run", "order.yaml", "-o", "told", *(word for one in ("accuracy={check: twins}", *least) for word in ("--set", one))))
         for wrong in ("{check: twin}", "{check: [twins]}"):
             self.assertIn("write check: twins", self.call("check", "order.yaml", "--set", f"accuracy={wrong}", code=2))
 
@@ -394,14 +394,14 @@ class Control(lab.Lab):
 
     def test_the_progress_says_what_is_missing(self):
         self.write("slow.yaml", FILE.replace("last: {", "wave: {use: toy/wave, amplitude: 2 mm, work: 1.2 s}\n  last: {").replace("[last.", "[wave.total, last."))
-        self.assertIn("attempt 1, by the presets; wave (toy/wave)", self.progress_of("slow"))
+        self.assertIn("attempt 1, with the presets; wave (toy/wave)", self.progress_of("slow"))
 
     def test_the_progress_says_what_a_twin_is_for(self):
         self.write("busy.yaml", FILE.replace("0.1 %", "{all: 5 %, check: twins}").replace("before: first", "before: first, work: 0.8 s"))
         self.write("twice.yaml", FILE.replace("before: first", "before: first, work: 0.8 s").replace("0.1 %", "{last.value: 0.1 %}"))
-        self.assertIn("attempt 2 at 4 times the cost: 0 of 1 as asked, value has", self.progress_of("twice"))
+        self.assertIn("attempt 2 at 4 times the cost: 0 of 1 goals met, value has", self.progress_of("twice"))
         said = self.progress_of("busy")
-        for words in ("attempt 1, by the presets", "a coarser twin tells the errors of attempt 1", "a finer twin checks the errors"):
+        for words in ("attempt 1, with the presets", "a coarser twin measures the errors of attempt 1", "a finer twin checks the errors"):
             self.assertIn(f"{words}; last (toy/order)", said)
 
     def test_a_study(self):
@@ -423,7 +423,7 @@ class Control(lab.Lab):
             said = self.call("check", "order.yaml", "--set", f"accuracy={value}", code=2)
             self.assertIn(say, said)
         said = self.call("check", "order.yaml", "--set", "accuracy={first.value: 1 %}", code=2)
-        self.assertIn("asks for", said)
+        self.assertIn("is not a scalar or series that", said)
 
 
 lab.main()

@@ -248,10 +248,10 @@ static void test_words_of_a_check(void)
     const accuracy_record run = {.checked = true}, same = {.checked = true, .from_finer = true},
                           none = {.checked = true, .check_failure = "too many cells"};
     check_words(&run, 0.02, 0.01, "1 % from a twin a level finer");
-    check_words(&run, 0.02, 0.03, "3 % from a twin a level finer: more than the error told");
+    check_words(&run, 0.02, 0.03, "3 % from a twin a level finer: more than the stated error");
     check_words(&run, 0.02, NAN, "it cannot be compared with a finer run");
     check_words(&run, NAN, 0.01, "1 % from a twin a level finer; the error itself is not known");
-    check_words(&same, 0.02, 0.01, "1 % from a twin a level finer, which has also told the error");
+    check_words(&same, 0.02, 0.01, "1 % from a twin a level finer, which also gave the error");
     check_words(&none, 0.02, NAN, "the finer run failed: too many cells");
 }
 

@@ -81,7 +81,7 @@ class Measured(lab.Lab):
         answer = self.ask(text=FILE.replace("last.wave", "last.wave, last.wave_error"))
         self.assertNotIn("error", answer["outputs"]["last.wave_error"])
         text = FILE.replace("last.wave", "last.wave, last.wave_error").replace("measured", "{last.wave_error: 1 %}")
-        self.assertIn("estimates the error of one", str(self.ask(text=text, code=2)["errors"]))
+        self.assertIn("it is an error estimate", str(self.ask(text=text, code=2)["errors"]))
 
     def test_where_no_twin_can_be_had_the_stage_keeps_what_it_estimates(self):
         answer = self.ask("last.seen=0.2", "last.least=128", "last.most=128")

@@ -68,11 +68,11 @@ class Models(lab.Lab):
     def test_what_does_not_fit_is_told(self):
         tried = self.tried(self.ask("first.with.toy/guess.off=3 %"))
         self.assertIn('"wave"', tried["first", "toy/brief"]["reason"])
-        self.assertRegex(tried["first", "toy/guess"]["reason"], r"^first.wave may be off by 3\.?\d* %, and 2 % may come of models$")
+        self.assertRegex(tried["first", "toy/guess"]["reason"], r"^first.wave may be off by 3\.?\d* %, and models may cause 2 %$")
         tried = self.tried(self.ask("outputs=[last.value]"))
         self.assertIn("last.value may be off by 2", tried["first", "toy/brief"]["reason"])
         tried = self.tried(self.ask("first.with.toy/guess.sure=false"))
-        self.assertEqual(tried["first", "toy/guess"]["reason"], "trust of it is doubtful")
+        self.assertEqual(tried["first", "toy/guess"]["reason"], "its quality line trust is doubtful")
 
     def test_models_are_tried_with_the_settings_of_the_reference(self):
         """And not with those of a finer attempt that failed."""
@@ -117,9 +117,9 @@ class Models(lab.Lab):
 
     def test_words_that_are_wrong(self):
         self.write("order.yaml", FILE)
-        for sets, say in ((("accuracy=",), "is chosen for an accuracy, and the file says none"),
-                          (("accuracy=measured",), "chosen for an accuracy"),
-                          (("first.reference=viscosity/barus",), "is no model of toy/auto"),
+        for sets, say in ((("accuracy=",), "needs an accuracy, but the file states none"),
+                          (("accuracy=measured",), "needs an accuracy"),
+                          (("first.reference=viscosity/barus",), "is not a model of toy/auto"),
                           (("first.reference=toy/odrer",), 'toy/order'),
                           (("first.reference=[toy/order]",), "expected the name of a model, found a list"),
                           (("first.use=viscosity/auto", "first.with="), "which model of viscosity/auto"),

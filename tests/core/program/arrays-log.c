@@ -111,7 +111,7 @@ static void test_reading(const lab *l)
     arrays_label other = labels[2];
     other.output = "film.h_max";
     read_record(l, &other, l->at[2], why, out);
-    check_true("of another output", has(why, "is of another array"));
+    check_true("of another output", has(why, "belongs to another array"));
     other = labels[2];
     other.shape[0] = 5;
     read_record(l, &other, l->at[2], why, out);
@@ -168,7 +168,8 @@ static void test_endless_title(void)
     memset(title + start, '7', ARRAYS_LOG_HEAD - start);
     strcpy(title + ARRAYS_LOG_HEAD, "beyond");
     check_true("a title without an end", !arrays_log_check_title(title, why) &&
-                                             has(why, "777 of such logs") && !has(why, "beyond"));
+                                             has(why, "777; this flankfilm reads") &&
+                                             !has(why, "beyond"));
 }
 
 static void test_formats(const lab *l)
@@ -180,7 +181,7 @@ static void test_formats(const lab *l)
     *strchr(bytes, '1') = '2';
     put(l, bytes, (size_t)l->at[3]);
     read_record(l, &labels[0], l->at[0], why, out);
-    check_true("a newer log", has(why, "format 2 of such logs; this flankfilm reads 1"));
+    check_true("a newer log", has(why, "format 2; this flankfilm reads format 1"));
     check_true("is not gone on with", !arrays_log_open(&log, l->directory, "log", 0, false, why) &&
                                           has(why, "format 2") &&
                                           get(l, bytes) == (size_t)l->at[3]);

@@ -199,7 +199,7 @@ static void test_written_over(void)
     r = cli("cp -rL $FLANKFILM_PLUGIN_PATH gone; FLANKFILM_PLUGIN_PATH=gone; "
             "$F run pair.yaml --set wave.work='5 s' & sleep 0.3; : >gone/toy/wave.so; wait $!");
     cli_expect("a fault over it is told, too", &r,
-               r.code == 3 && cli_has(r.err, "crashed during evaluate: its file was written over"));
+               r.code == 3 && cli_has(r.err, "crashed during evaluate: its file was overwritten"));
 }
 
 /* As batch systems and debuggers do with a process that they look at. */

@@ -84,7 +84,7 @@ class Directory(lab.Lab):
         self.assertIn("--replace", said)
         with open("results/pair/result.json", "rb") as file:
             self.assertEqual(file.read(), before)
-        self.assertIn("(the results are of ", self.call("run", "b/pair.yaml", "--replace"))
+        self.assertIn("(the results belong to ", self.call("run", "b/pair.yaml", "--replace"))
         self.assertIn("0.005", str(self.read("results/pair/result.json")["stages"]))
         shutil.move("b", "moved")  # a file that is not there any more is taken for this one
         self.write("moved/pair.yaml", PAIR)

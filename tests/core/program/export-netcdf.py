@@ -136,7 +136,7 @@ class Errors(lab.Lab):
         done = subprocess.run([alone + "/flankfilm", "export", "run", "--to", "netcdf", "-o", "none.nc"],
                               capture_output=True, text=True, env=environment, check=False)
         self.assertEqual(done.returncode, 2)
-        self.assertIn("the program flankfilm-netcdf is not in the folder of this one", done.stderr)
+        self.assertIn("the program flankfilm-netcdf is not in the folder of flankfilm", done.stderr)
         self.assertIn("netCDF4", done.stderr)
         self.assertFalse([name for name in os.listdir(".") if name.startswith("none.nc")])
 

@@ -56,15 +56,15 @@ class Fields(lab.Lab):
 
     def test_cut_off(self):
         whole = npy()
-        for length, sentence in ((len(whole) - 1, f"it has {len(whole) - 1} bytes where its shape takes 848"),
-                                 (128, "it has 128 bytes where"), (127, "it ends within its header"),
+        for length, sentence in ((len(whole) - 1, f"it has {len(whole) - 1} bytes, but its shape needs 848"),
+                                 (128, "it has 128 bytes, but"), (127, "it ends within its header"),
                                  (9, "it is not a .npy file"), (0, "it is not a .npy file")):
             self.refused(whole[:length], sentence)
-        self.refused(whole + b"\0", "it has 849 bytes where its shape takes 848")
+        self.refused(whole + b"\0", "it has 849 bytes, but its shape needs 848")
 
     def test_foreign(self):
         self.refused(b"t,x\n" * 300, "it is not a .npy file")
-        self.refused(npy(version=b"\2\0"), "it is of version 2.0 of the format, not 1.0")
+        self.refused(npy(version=b"\2\0"), "its format has version 2.0, not 1.0")
         self.refused(b"\x93NUMPY\1\0\xff\xff" + bytes(70000), "its header is longer than")
         self.refused(npy("{'descr': '<f4', 'fortran_order': False, 'shape': (9, 10), }"),
                      "its numbers are of the type '<f4', not '<f8'")
@@ -91,7 +91,7 @@ class Fields(lab.Lab):
         told["outputs"]["wave.field"]["shape"] = [4000000000, 4000000000]
         with open("bad/result.json", "w", encoding="utf-8") as file:
             json.dump(told, file)
-        self.assertIn("where its shape takes", self.call("export", "bad", "--to", "csv", code=2))
+        self.assertIn("but its shape needs", self.call("export", "bad", "--to", "csv", code=2))
 
     def test_not_a_file(self):
         self.put(None)
@@ -161,7 +161,7 @@ class Fields(lab.Lab):
         told = {**self.read("bad/result.json"), "format": 2}
         with open("bad/result.json", "w", encoding="utf-8") as file:
             json.dump(told, file)
-        self.assertIn("bad/result.json is of format 2; this flankfilm reads up to 1",
+        self.assertIn("bad/result.json has format 2; this flankfilm reads up to 1",
                       self.call("export", "bad", "--to", "csv", code=2))
 
     def test_series_of_one(self):

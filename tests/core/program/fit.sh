@@ -60,9 +60,9 @@ tr '\n' ' ' <said | tr -s ' ' | grep -q "an oil law was extrapolated outside its
 judge "a run beyond the data is told" $?
 
 # what may be asked
-says 2 'lies outside the data, whose pressure goes from 0 GPa to 0.6 GPa' viscosity "$data" --at "0.7 GPa"
-says 2 'lies outside the data, whose temperature goes from 40 degC to 100 degC' viscosity "$data" --at "20 degC"
-says 2 'there are 40, 80, 100 degC' viscosity "$data" --at "60 degC"
+says 2 'lies outside the data, whose pressure ranges from 0 GPa to 0.6 GPa' viscosity "$data" --at "0.7 GPa"
+says 2 'lies outside the data, whose temperature ranges from 40 degC to 100 degC' viscosity "$data" --at "20 degC"
+says 2 'the data have 40, 80, 100 degC' viscosity "$data" --at "60 degC"
 says 2 'does not depend on temperature, but the data have several' viscosity "$data" --law barus
 # three isotherms together, at the noise of 2 % that the data have
 says 0 "viscosity/roelands 3 2.05 %" viscosity "$data" -o out

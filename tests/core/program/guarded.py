@@ -17,7 +17,7 @@ class Files(lab.Lab):
             for holds in ("format: 2\n", "<!DOCTYPE html>\n<p>mine</p>\n", "{\n \"type\": \"object\"}\n"):
                 self.write(name, holds)
                 said = self.call(*line, code=2)
-                self.assertIn(f'"{name}" contains something else', said)
+                self.assertIn(f'"{name}" exists and was not written by this command', said)
                 with open(name, encoding="utf-8") as file:
                     self.assertEqual(file.read(), holds)
             os.remove(name)

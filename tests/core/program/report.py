@@ -399,7 +399,7 @@ class Report(lab.Lab):
         self.assertEqual(figures, 6)  # and the three of its samples
         self.assertNotIn("error bar", page.split('class="verdict span')[1].split("</table>")[0])
         # 8 points make 3.6 amplitudes, 12 make 0.2; an amplitude is known to 5 %
-        self.assertIn("the choice of the model does", page)
+        self.assertIn("the choice of the model matters", page)
         for words in ("What limits each output", "spread by the inputs", "50 % are below", "share of the variance"):
             self.assertIn(words, dom)
 

@@ -95,7 +95,7 @@ class Uncertainty(lab.Lab):
             limits, low, high, said = self.limits("open")
             self.assertEqual(low < limits["model"] < high, is_open)
             self.assertEqual(said, "finer cells would change nothing" + (
-                "; the inputs and the choice of the model may matter equally" if is_open else ", the choice of the model does"))
+                "; the inputs and the choice of the model may matter equally" if is_open else ", the choice of the model matters"))
 
     def test_cells_that_may_matter_as_much_as_the_inputs(self):
         """The cells of the stage make 0.1 m of 1.1 m, and so does the spread of its strength; of a model, too, or much less."""
@@ -111,7 +111,7 @@ study:
     aim: distribution
 """
         alike = "the inputs, and cells and steps, may matter equally"
-        for tolerance, sentence in (("", alike), ("1 %", alike), ("40 %", "finer cells would change nothing, the choice of the model does"),
+        for tolerance, sentence in (("", alike), ("1 %", alike), ("40 %", "finer cells would change nothing, the choice of the model matters"),
                                     ("10 %", "the inputs, the choice of the model, and cells and steps may matter equally")):
             with self.subTest(tolerance):
                 name = "cells" + tolerance.rstrip(" %")

@@ -3,8 +3,9 @@
  * Cases that the file itself lists, row by row:
  *     cases:
  *       - {time: 40 %, duty.torque: 220 N m, duty.speed: 1500 rpm}
- *       - {time: 60 %, duty.torque: 150 N m} If a row does not contain a path, the path keeps the
- * value of the file.
+ *       - {time: 60 %, duty.torque: 150 N m}
+ *
+ * If a row does not contain a path, the path keeps the value of the file.
  */
 #ifndef STUDY_INLINE_CASES_H
 #define STUDY_INLINE_CASES_H

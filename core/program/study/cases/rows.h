@@ -3,9 +3,11 @@
  * Cases listed in a table, from a file or from standard input while it is being written. The first
  * line gives a path for each column, as in --set, with a unit in brackets for numbers without one:
  *     duty.torque [N m], oil.grade, x-operator
- *     250, 68, Ada Each further line is a case. An empty field keeps the value of the file. Fields
- * are separated by semicolons, commas or tabs and quoted as in RFC 4180, within one line. Blank
- * lines, lines that begin with # and columns whose name begins with x- are ignored.
+ *     250, 68, Ada
+ *
+ * Each further line is a case. An empty field keeps the value of the file. Fields are separated by
+ * semicolons, commas or tabs and quoted as in RFC 4180, within one line. Blank lines, lines that
+ * begin with # and columns whose name begins with x- are ignored.
  */
 #ifndef STUDY_ROWS_H
 #define STUDY_ROWS_H

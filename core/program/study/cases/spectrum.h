@@ -40,15 +40,14 @@ bool study_spectrum_finish(study_definition *study, const ff_node *cases, const 
 void study_spectrum_check(const study_definition *study, const ff_pipeline *pipeline,
                           ff_report *report);
 
-/* Returns the sums over the rows, in SI:
- * {rows, time, unit: "1" or "s", stated: sum of the shares as given, or null, empty: number of
- * rows that last no time, refused: {rows, share of the time, row: the first, reason}, missing:
- * share of the time whose rows gave no numbers, refused ones included, outputs: {name: {unit,
- * mean, energy, lowest, lowest_row, highest, highest_row, values}}, below: [{output, limit,
- * unit, share, rows}], stages: {name: {computed, reused}}}
- * A mean is over the time of the rows that have numbers. An output in W has an energy if times
- * are given in s. `values` has a number or null for each row, of at most 1000 rows. A series has
- * the lowest and the highest number of all rows. */
+/* Returns the sums over the rows, in SI: {rows, time, unit: "1" or "s", stated: sum of the shares
+ * as given, or null, empty: number of rows with the duration 0, refused: {rows, share of the time,
+ * row: the first, reason}, missing: share of the time whose rows gave no numbers, refused ones
+ * included, outputs: {name: {unit, mean, energy, lowest, lowest_row, highest, highest_row,
+ * values}}, below: [{output, limit, unit, share, rows}], stages: {name: {computed, reused}}} A mean
+ * is over the time of the rows that have numbers. An output in W has an energy if times are given
+ * in s. `values` has a number or null for each row, of at most 1000 rows. A series has the lowest
+ * and the highest number of all rows. */
 json_t *study_spectrum_sums(const study_run *run, char (*keys)[STUDY_KEY_SIZE], ff_report *report);
 
 #endif

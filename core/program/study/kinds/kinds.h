@@ -17,8 +17,8 @@ void study_check(const study_definition *study, const ff_pipeline *pipeline, ff_
 const char *study_compared(const study_definition *study, size_t i, size_t *index);
 const char *study_kind_name(const study_definition *study); /* "" if it has no driver */
 const char *study_cases(const study_definition *study);     /* word for its cases: "cases" */
-const char *study_further(const study_definition *study);   /* description of cases that may follow;
-                                                             * "" if there   are none */
+const char *study_further(
+    const study_definition *study); /* description of cases that may follow; "" if there are none */
 
 /* Builds those cases of a driver that must be free of errors before any case runs. */
 bool study_open_cases(const study_run *run, ff_report *report);

@@ -3,8 +3,8 @@
    place of its numbers, and of texts that differ from case to case. A line of the journal names the
    form and lists the values in their order. The first line of each worker with a form, and every
    256th after it, also contains the form itself:
-   {"case":1,"key":"...","status":"ok","form":"HASH","is":{...},"values":[...],"sum":"..."} The
-   members "log" and "parameters" are stored next to the form. */
+     {"case":1,"key":"...","status":"ok","form":"HASH","is":{...},"values":[...],"sum":"..."}
+   The members "log" and "parameters" are stored next to the form. */
 #ifndef STUDY_RECORD_SCHEMA_H
 #define STUDY_RECORD_SCHEMA_H
 

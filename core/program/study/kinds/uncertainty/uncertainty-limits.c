@@ -128,7 +128,7 @@ static const char *advice(double numerical, double model, const input_bar *input
     double other = fmax(model, input->value); /* largest of the known bars */
     bool grid_is_nothing = numerical <= counts_for_nothing * other;
     if (!(numerical > 0) && other <= 0)
-        return "none of these is known to change it";
+        return "none of the three is known to change it";
     if (is_open(input, fmax(numerical, model)))
         return open_advice(numerical, model, input);
     if (numerical > other)
@@ -138,7 +138,7 @@ static const char *advice(double numerical, double model, const input_bar *input
     if (input->value >= model || isnan(model))
         return grid_is_nothing ? "finer cells would change nothing, better inputs would help"
                                : "better inputs would help most";
-    return grid_is_nothing ? "finer cells would change nothing, the choice of the model does"
+    return grid_is_nothing ? "finer cells would change nothing, the choice of the model matters"
                            : "the choice of the model matters most";
 }
 

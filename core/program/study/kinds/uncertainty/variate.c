@@ -238,7 +238,7 @@ static bool find_toleranced(variates *v, study_context *context)
         return refuse(context, v->place, "inputs",
                       "write inputs: {duty.torque: {normal: [250 N m, 10 %]}}, or in the pipeline "
                       "for example centre_distance: 120 mm +- 20 um",
-                      "no value of the pipeline has a tolerance, and none is named here");
+                      "no value of the pipeline has a tolerance, and no input is named here");
     for (size_t i = 0; i < count && i <= VARIATE_MOST; i++) {
         if (i == VARIATE_MOST)
             return refuse(context, v->place, "inputs", NULL, too_many);

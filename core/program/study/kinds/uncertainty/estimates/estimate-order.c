@@ -88,8 +88,8 @@ static void wilson(double hits, double n, double *low, double *high)
     *high = fmin(1, middle + half);
 }
 
-/* Lengths by which the interval of a probability reaches down and up, from the number of cheap
- * values of at most t and the number of pairs on different sides of t. Few pairs determine this
+/* Computes how far the interval of a probability extends down and up, from the number of cheap
+ * values not above t and the number of pairs on different sides of t. Few pairs determine this
  * number poorly, so PRIOR pairs are added, which lie on different sides as often as normal variates
  * of that correlation. */
 static void interval_of(const pairs *p, double below, size_t apart, double value, double *down,
