@@ -98,7 +98,8 @@ static bool is_of_other(const trial *t, const char *set, size_t stage)
         bool last = i == choice->tried_count;
         const char *name = t->base->stages[last ? stage : choice->tried[i].stage].name;
         size_t length = strlen(name);
-        if ((last || choice->tried[i].taken) && !strncmp(set, name, length) && set[length] == '.')
+        if ((last || choice->tried[i].accepted) && !strncmp(set, name, length) &&
+            set[length] == '.')
             return true;
     }
     return false;
@@ -155,7 +156,7 @@ static bool try_model(trial *t, size_t stage, const char *model, bool *stopped)
     *stopped = next->stopped;
     const char *reason = *stopped ? "" : reason_to_reject(t, stage, next, moves);
     choice->tried[choice->tried_count++] =
-        (accuracy_tried){.stage = stage, .model = model, .taken = !reason, .reason = reason};
+        (accuracy_tried){.stage = stage, .model = model, .accepted = !reason, .reason = reason};
     if (!reason) {
         accept_model(t, stage, moves, next);
         choice->uses[choice->use_count++] = use;
@@ -194,10 +195,10 @@ bool accuracy_choose(accuracy_choice *choice, const accuracy_scene *scene,
         if (!stage->needed || !accuracy_open_use(stage))
             continue;
         const char **ids = accuracy_candidates(stage, scene->engine, &choice->arena);
-        bool taken = false;
-        for (; *ids && !taken && !stopped; ids++)
-            taken = try_model(&t, at, *ids, &stopped);
-        if (!taken)
+        bool accepted = false;
+        for (; *ids && !accepted && !stopped; ids++)
+            accepted = try_model(&t, at, *ids, &stopped);
+        if (!accepted)
             choice->uses[choice->use_count++] =
                 keep(&t, memory_print_text("%s.use=%s", stage->name, stage->use));
     }

@@ -10,7 +10,7 @@
 typedef struct accuracy_tried {
     size_t stage; /* in the pipeline */
     const char *model;
-    bool taken;
+    bool accepted;
     const char *reason; /* why it was rejected, such as "film.h_min may be off by 12 %, ...";
                            NULL if it was accepted */
 } accuracy_tried;

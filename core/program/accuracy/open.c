@@ -80,11 +80,11 @@ static void move(accuracy_open *open, size_t knob, double level)
         l->level = fabs(l->level) < 1 ? 0 : l->level - copysign(1, l->level);
 }
 
-void accuracy_open_freeze_idle(accuracy_open *open, const ff_report *said, ff_place place)
+void accuracy_open_freeze_idle(accuracy_open *open, const ff_report *messages, ff_place place)
 {
     for (size_t i = 0; i < open->count; i++)
         open->levels[i].idle |= accuracy_is_idle(
-            said, place, open->presets->stages[open->knobs[i].stage].name, open->knobs[i].name);
+            messages, place, open->presets->stages[open->knobs[i].stage].name, open->knobs[i].name);
 }
 
 bool accuracy_open_move(accuracy_open *open, double to)

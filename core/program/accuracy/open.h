@@ -30,9 +30,9 @@ typedef struct accuracy_open {
 /* Lists the open settings of the needed stages, at their presets, or one level finer for cheap
  * stages. */
 void accuracy_open_list(accuracy_open *open, const ff_pipeline *presets);
-/* Freezes the settings that had no effect in a run. `said` has the messages of that run; its
+/* Freezes the settings that had no effect in a run. `messages` has the messages of that run; its
  * settings have the place `place`. */
-void accuracy_open_freeze_idle(accuracy_open *open, const ff_report *said, ff_place place);
+void accuracy_open_freeze_idle(accuracy_open *open, const ff_report *messages, ff_place place);
 /* Sets the level; each setting gets the nearest one within its limits. Returns true if a setting
  * changes. */
 bool accuracy_open_move(accuracy_open *open, double to);

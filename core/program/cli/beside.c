@@ -13,7 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { NOT_THERE = 127, MOST_SAID = 2000 };
+enum { NOT_THERE = 127, MOST_OUTPUT = 2000 };
 
 /* Returns the path of a program in the same folder as flankfilm; the caller frees it. */
 static char *path_beside(const char *name)
@@ -27,23 +27,23 @@ static char *path_beside(const char *name)
 
 /* Reads what a descriptor gives until its end, and keeps the beginning without the last line
  * break. */
-static void read_said(int from, char said[MOST_SAID])
+static void read_output(int from, char output[MOST_OUTPUT])
 {
     size_t used = 0;
     char rest[512];
     for (;;) {
-        bool room = used < MOST_SAID - 1;
+        bool room = used < MOST_OUTPUT - 1;
         ssize_t got =
-            read(from, room ? said + used : rest, room ? MOST_SAID - 1 - used : sizeof rest);
+            read(from, room ? output + used : rest, room ? MOST_OUTPUT - 1 - used : sizeof rest);
         if (got < 0 && errno == EINTR)
             continue;
         if (got <= 0)
             break;
         used += room ? (size_t)got : 0;
     }
-    while (used && said[used - 1] == '\n')
+    while (used && output[used - 1] == '\n')
         used--;
-    said[used] = '\0';
+    output[used] = '\0';
 }
 
 static int wait_for(pid_t child)
@@ -56,7 +56,7 @@ static int wait_for(pid_t child)
 
 bool cli_beside(const char *name, const char *first, const char *second, ff_report *report)
 {
-    char said[MOST_SAID] = "", *path = path_beside(name);
+    char output[MOST_OUTPUT] = "", *path = path_beside(name);
     int ends[2], status = -1;
     pid_t child = pipe2(ends, O_CLOEXEC) == 0 ? fork() : -1;
     if (child == 0) {
@@ -67,7 +67,7 @@ bool cli_beside(const char *name, const char *first, const char *second, ff_repo
     }
     if (child > 0) {
         close(ends[1]);
-        read_said(ends[0], said);
+        read_output(ends[0], output);
         close(ends[0]);
         status = wait_for(child);
     }
@@ -80,5 +80,5 @@ bool cli_beside(const char *name, const char *first, const char *second, ff_repo
             "flankfilm installs it if Python is available; it needs the Python package netCDF4",
             "the program %s is not in the folder of flankfilm", name);
     return ff_error(report, FF_FAULT_RUN, FF_NOWHERE, NULL, "%s: %s", name,
-                    *said ? said : "it ended early");
+                    *output ? output : "it ended early");
 }

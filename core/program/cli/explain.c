@@ -349,12 +349,12 @@ static int confirm(cli_session *session, const cli_options *options)
 }
 
 static int with_session(const cli_options *options, bool everything,
-                        int (*tell)(cli_session *, const cli_options *))
+                        int (*show)(cli_session *, const cli_options *))
 {
     cli_session session;
     int code = EXIT_SUCCESS;
     if (cli_session_open(&session, options, everything)) {
-        code = tell(&session, options);
+        code = show(&session, options);
     } else {
         code = cli_refuse(session.report, options, "nothing was run");
     }

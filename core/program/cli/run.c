@@ -65,13 +65,13 @@ static void warn_of_replaced(const place *to, ff_report *report)
 }
 
 /* Whether --strict makes the outcome a failure. */
-static bool is_strict_about(const results_outcome *outcome, const cli_options *options, bool tell)
+static bool is_strict_about(const results_outcome *outcome, const cli_options *options, bool print)
 {
     study_judgement judgement = study_judge_pipeline(outcome->pipeline, false);
     const bool doubtful = judgement.verdict != FF_GOOD;
     study_judgement_free(&judgement);
     return cli_is_strict_about(options, doubtful, outcome->limits->worst != LIMITS_MET,
-                               outcome->report, tell);
+                               outcome->report, print);
 }
 
 static void print_outcome(const results_outcome *outcome, const place *to,

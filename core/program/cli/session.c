@@ -39,7 +39,7 @@ static size_t first_case(const cli_session *session, const cli_options *options)
 
 /* Applies the example case of the study to the file. If no case can be built, the file stays as it
  * is. */
-static void lay_case(const cli_session *session, const cli_options *options, ff_run *run)
+static void apply_case(const cli_session *session, const cli_options *options, ff_run *run)
 {
     if (session->first < session->study->count)
         study_overlay(session->study, session->first, options->sets, options->set_count, run);
@@ -61,16 +61,16 @@ static bool open_study(cli_session *session, const cli_options *options)
         return true;
     if (session->study->spectrum || session->study->driver)
         session->first = first_case(session, options);
-    lay_case(session, options, session->run);
+    apply_case(session, options, session->run);
     return true;
 }
 
 /* Adds the messages of a run that have that severity. */
 static void copy_messages(cli_session *session, ff_run *run, ff_severity severity)
 {
-    const ff_report *said = ff_run_report(run);
-    for (size_t i = 0; i < ff_report_count(said); i++) {
-        const ff_message *m = ff_report_at(said, i);
+    const ff_report *messages = ff_run_report(run);
+    for (size_t i = 0; i < ff_report_count(messages); i++) {
+        const ff_message *m = ff_report_at(messages, i);
         ff_source source = m->place.source ? *m->place.source : (ff_source){0};
         ff_place place = m->place;
         source.temporary = true; /* the text is freed with the run */
@@ -209,7 +209,7 @@ static void check_oil(cli_session *session, const cli_options *options)
 {
     ff_run *run = run_read(session->engine, options->operand);
     if (session->study && !session->study->streams)
-        lay_case(session, options, run);
+        apply_case(session, options, run);
     else
         run_set_all(run, options->sets, options->set_count);
     if (!session->study || !session->study->streams)
@@ -354,7 +354,7 @@ char *cli_run_directory(const cli_options *options)
 }
 
 bool cli_is_strict_about(const cli_options *options, bool doubtful, bool unsure,
-                         const ff_report *report, bool tell)
+                         const ff_report *report, bool print)
 {
     bool warned = false;
     for (size_t i = 0; i < ff_report_count(report); i++) {
@@ -363,7 +363,7 @@ bool cli_is_strict_about(const cli_options *options, bool doubtful, bool unsure,
     }
     if (!cli_option(options, "strict") || !(doubtful || unsure || warned))
         return false;
-    if (tell)
+    if (print)
         fprintf(stderr, "--strict: %s%s%s%s%s counts as a failure\n",
                 doubtful ? "a doubtful answer" : "", doubtful && (unsure || warned) ? ", " : "",
                 unsure ? "a limit that is not surely met" : "", unsure && warned ? ", " : "",

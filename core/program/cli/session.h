@@ -43,9 +43,9 @@ char *cli_run_directory(const cli_options *options);
 char *cli_study_directory(const cli_options *options);
 
 /* Whether --strict is given and fails the result: numbers are in doubt, a limit is not surely met,
- * or there is a warning that is not about the range of a model. `tell` prints the reason. */
+ * or there is a warning that is not about the range of a model. `print`: prints the reason. */
 bool cli_is_strict_about(const cli_options *options, bool doubtful, bool unsure,
-                         const ff_report *report, bool tell);
+                         const ff_report *report, bool print);
 
 /* Prints the errors, as JSON or followed by `ending`, and returns their exit code. */
 int cli_refuse(const ff_report *report, const cli_options *options, const char *ending);

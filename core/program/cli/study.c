@@ -27,7 +27,7 @@ static size_t count_cores(void)
 }
 
 /* The progress of a study: on a terminal a line that is redrawn, elsewhere one line a minute. */
-typedef struct teller {
+typedef struct study_progress {
     const cli_session *session;
     const cli_options *options;
     results_input input;
@@ -39,17 +39,17 @@ typedef struct teller {
     study_context sums; /* the sums over the rows of a spectrum; no files until they have been
                          * written */
     bool terminal;
-    double told; /* time of the last progress line, s after the start */
-} teller;
+    double printed_at; /* time of the last progress line, s after the start */
+} study_progress;
 
 static void tell_progress(void *ctx, const study_counters *counters)
 {
-    teller *t = ctx;
+    study_progress *t = ctx;
     size_t fresh = counters->done - counters->before, left = counters->total - counters->done;
     double rate = counters->seconds > 0 ? (double)fresh / counters->seconds : 0;
-    if (!t->terminal && counters->seconds - t->told < 60)
+    if (!t->terminal && counters->seconds - t->printed_at < 60)
         return;
-    t->told = counters->seconds;
+    t->printed_at = counters->seconds;
     fprintf(stderr, "%s%zu of %zu cases, %zu failed, %.3g cases/s", t->terminal ? "\r\033[K" : "",
             counters->done, counters->total, counters->failed, rate);
     if (rate > 0 && left > 0)
@@ -60,7 +60,7 @@ static void tell_progress(void *ctx, const study_counters *counters)
 
 static void describe(void *ctx, const study_definition *study, const study_tally *tally, FILE *out)
 {
-    const teller *t = ctx;
+    const study_progress *t = ctx;
     const results_study of = {.input = &t->input, .engine = t->session->engine};
     results_write_study_json(&of, study, tally, out);
 }
@@ -69,7 +69,7 @@ static void describe(void *ctx, const study_definition *study, const study_tally
  * whatever their inputs. A driver calls this for each batch of its cases. */
 static bool enter(void *ctx, ff_report *report)
 {
-    teller *t = ctx;
+    study_progress *t = ctx;
     if (t->entered)
         return true;
     if (!results_earlier_check_study(t->directory, &t->input, &t->replaced, report))
@@ -86,7 +86,7 @@ static bool enter(void *ctx, ff_report *report)
  * the next row. If nobody reads the answers any more, the run ends. */
 static void answer_row(void *ctx, size_t index, const json_t *record, bool known)
 {
-    const teller *t = ctx;
+    const study_progress *t = ctx;
     json_t *set = study_case_set(t->session->study, index);
     if (!cli_answer_row(index, set, record, known))
         raise(SIGTERM);
@@ -111,7 +111,7 @@ static bool begin_rows(study_run *run, const cli_options *options, ff_report *re
 /* Prints a line of the study's driver. */
 static void say(void *ctx, int indent, const char *line)
 {
-    const teller *t = ctx;
+    const study_progress *t = ctx;
     int blanks = (int)strspn(line, " ");
     if (t->options->json)
         return;
@@ -174,14 +174,14 @@ json_t *cli_json_savings(const study_reuse_counts *savings)
 }
 
 /* Prints the known cases of a study whose driver has not run. */
-static void tell_rest(const study_definition *study)
+static void print_known_cases(const study_definition *study)
 {
     printf("these are %s; a run in one process does the rest and reuses them\n",
            study_cases(study));
 }
 
 /* Prints the last line. The number of cases is left out if the driver has not fixed it. */
-static void tell_verdicts(const study_definition *study, const study_counters *counters)
+static void print_last_line(const study_definition *study, const study_counters *counters)
 {
     char *verdicts = study_tally_text(&counters->tally);
     printf("%zu ", counters->done);
@@ -199,7 +199,7 @@ static void tell_verdicts(const study_definition *study, const study_counters *c
 }
 
 /* What the driver of the study found, or the sums over its rows. */
-static const study_context *found(const teller *t)
+static const study_context *found(const study_progress *t)
 {
     const study_context *driven = study_found(t->session->study);
     return driven ? driven : &t->sums;
@@ -230,7 +230,8 @@ static void print_removed(char *removed, const char *files)
     free(gone);
 }
 
-static void tell_end(const teller *t, const study_counters *counters, bool good, ff_report *report)
+static void print_end(const study_progress *t, const study_counters *counters, bool good,
+                      ff_report *report)
 {
     const study_definition *study = t->session->study;
     const char *directory = t->directory;
@@ -249,11 +250,12 @@ static void tell_end(const teller *t, const study_counters *counters, bool good,
         printf("as a page with figures: flankfilm report %s\n", directory);
     free(files);
     if (good && study->driver && !t->driven)
-        tell_rest(study);
-    tell_verdicts(study, counters);
+        print_known_cases(study);
+    print_last_line(study, counters);
 }
 
-static void answer_end(const teller *t, const study_counters *counters, int code, ff_report *report)
+static void answer_end(const study_progress *t, const study_counters *counters, int code,
+                       ff_report *report)
 {
     const char *directory = t->directory;
     bool good = code == EXIT_SUCCESS || code == CLI_EXIT_CASES;
@@ -291,7 +293,8 @@ static void note_files(const study_context *of, const char *directory)
 }
 
 /* Opens what the run needs in addition to the file; false after an error. */
-static bool begin_run(study_run *run, cli_session *session, const cli_options *options, teller *t)
+static bool begin_run(study_run *run, cli_session *session, const cli_options *options,
+                      study_progress *t)
 {
     run->progress = options->json ? NULL : tell_progress;
     run->enter = enter;
@@ -303,29 +306,29 @@ static bool begin_run(study_run *run, cli_session *session, const cli_options *o
     return ff_report_errors(session->report) == 0 && begin_rows(run, options, session->report);
 }
 
-static void tell_or_answer(const teller *t, const study_counters *counters, bool good, int code,
-                           ff_report *report)
+static void print_or_answer(const study_progress *t, const study_counters *counters, bool good,
+                            int code, ff_report *report)
 {
     if (counters->leads && t->options->json)
         answer_end(t, counters, code, report);
     else if (counters->leads)
-        tell_end(t, counters, good, report);
+        print_end(t, counters, good, report);
     else
         terminal_print_messages(report, stderr, terminal_colour(stderr));
 }
 
 /* Whether --strict makes the study a failure. */
 static bool is_strict_about(const study_counters *counters, const cli_options *options,
-                            const ff_report *report, bool tell)
+                            const ff_report *report, bool print)
 {
     const study_tally *tally = &counters->tally;
     return cli_is_strict_about(options, tally->counts[FF_DOUBTFUL] > 0,
                                tally->limits[LIMITS_WITHIN] + tally->limits[LIMITS_MISSED] > 0,
-                               report, tell);
+                               report, print);
 }
 
 /* Runs the study and prints its progress and results; returns the exit code. */
-static int run_and_tell(const study_run *run, teller *t, ff_report *report)
+static int run_and_print(const study_run *run, study_progress *t, ff_report *report)
 {
     const cli_options *options = t->options;
     study_counters counters = {.total = 0};
@@ -347,7 +350,7 @@ static int run_and_tell(const study_run *run, teller *t, ff_report *report)
     if (!good && (driven || !settled || counters.leads) && counters.total == 0)
         code = cli_refuse(report, options, "nothing was run");
     else
-        tell_or_answer(t, &counters, good, code, report);
+        print_or_answer(t, &counters, good, code, report);
     if (good && strict && !options->json && counters.leads)
         is_strict_about(&counters, options, report, true);
     if (good)
@@ -361,24 +364,24 @@ int cli_run_study(cli_session *session, const cli_options *options)
     char *directory = cli_study_directory(options);
     char input[20];
     study_run run = run_of(session, options, directory);
-    teller t = {.session = session,
-                .sums = {.report = session->report},
-                .options = options,
-                .input = {.file = options->operand,
-                          .sets = options->sets,
-                          .set_count = options->set_count,
-                          .pipeline = session->pipeline,
-                          .accuracy = "", /* the inputs are part of the keys of the cases */
-                          .key = results_input_key(session->pipeline, ""),
-                          .replace = cli_option(options, "replace") != NULL},
-                .directory = directory,
-                .terminal = isatty(STDERR_FILENO) != 0};
+    study_progress t = {.session = session,
+                        .sums = {.report = session->report},
+                        .options = options,
+                        .input = {.file = options->operand,
+                                  .sets = options->sets,
+                                  .set_count = options->set_count,
+                                  .pipeline = session->pipeline,
+                                  .accuracy = "", /* the inputs are part of the keys of the cases */
+                                  .key = results_input_key(session->pipeline, ""),
+                                  .replace = cli_option(options, "replace") != NULL},
+                        .directory = directory,
+                        .terminal = isatty(STDERR_FILENO) != 0};
     snprintf(input, sizeof input, "%016llx", (unsigned long long)t.input.key);
     run.input = input;
     if (session->study->spectrum)
         run.keys = memory_alloc((session->study->count + 1) * sizeof *run.keys);
     int code = begin_run(&run, session, options, &t)
-                   ? run_and_tell(&run, &t, session->report)
+                   ? run_and_print(&run, &t, session->report)
                    : cli_refuse(session->report, options, "nothing was run");
     ff_instance_close(run.executor);
     study_context_free(&t.sums);

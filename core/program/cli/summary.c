@@ -96,16 +96,16 @@ static void print_result(const paper *page, const ff_pipeline *pipeline, const f
 
 /* Prints a requested output: its name and value, and the place of its extremes if the line has
  * room. */
-static void print_asked(const paper *page, const ff_pipeline *pipeline, const results_asked *asked,
-                        print_widths widths)
+static void print_requested(const paper *page, const ff_pipeline *pipeline,
+                            const results_requested *output, print_widths widths)
 {
     char label[RESULTS_LABEL_SIZE];
     cli_output_text text =
-        cli_output_text_of(page->errors, pipeline, asked->stage, asked->output, true);
-    int column = printf("  %-*s  %-*s  ", widths.name, asked->name, widths.value, text.value);
+        cli_output_text_of(page->errors, pipeline, output->stage, output->output, true);
+    int column = printf("  %-*s  %-*s  ", widths.name, output->name, widths.value, text.value);
     const int room = terminal_width() - column;
     const int left = room - (int)(*text.place ? strlen("; ") + strlen(text.place) : 0);
-    const char *doc = results_called(asked->stage->results[asked->output].row);
+    const char *doc = results_called(output->stage->results[output->output].row);
     results_label(doc, left > 0 ? (size_t)left : 0, label);
     bool fits = *text.place && (int)strlen(label) <= left;
     if (!fits)
@@ -157,7 +157,7 @@ static int widest(int width, const char *text)
 static void print_answer(paper *page, const ff_pipeline *pipeline)
 {
     size_t count;
-    results_asked *list = results_list_asked(pipeline, &count);
+    results_requested *list = results_list_requested(pipeline, &count);
     const ff_result **axes = results_axes(pipeline);
     char *arrays = memory_print_text("%s", "");
     print_widths widths = {0, 0};
@@ -175,13 +175,13 @@ static void print_answer(paper *page, const ff_pipeline *pipeline)
     putchar('\n');
     for (size_t i = 0; i < count; i++) {
         if (!is_array_only(&list[i].stage->results[list[i].output], axes))
-            print_asked(page, pipeline, &list[i], widths);
+            print_requested(page, pipeline, &list[i], widths);
     }
     if (*arrays)
         terminal_print_cut(arrays, printf("  only in the results: "));
     free(arrays);
     free(axes);
-    results_free_asked(list, count);
+    results_free_requested(list, count);
 }
 
 /* Prints a count of the limits that are met, and each limit that is not surely met. */

@@ -33,7 +33,7 @@ static last_words *words; /* NULL if this process has no leading process */
 static ff_guard_mirror own, *running = &own;
 
 /* Used in the leading process: process id of the child, and the last signal that was forwarded. */
-static volatile sig_atomic_t child, handed_on;
+static volatile sig_atomic_t child, forwarded;
 
 void crash_mark(ff_guard_mirror *mirror)
 {
@@ -145,13 +145,13 @@ bool crash_is_echo(const siginfo_t *info)
 
 /* Forwards a signal to the child. A terminal signals the whole group by itself, and a signal that
    the child sends to its group does not come from the user. */
-static void hand_on(int number, siginfo_t *info, void *context)
+static void forward(int number, siginfo_t *info, void *context)
 {
     int before = errno;
     (void)context;
     if (info->si_pid != (pid_t)child) {
         if (number != SIGCONT && number != SIGTSTP)
-            handed_on = number;
+            forwarded = number;
         if (info->si_code <= 0 || getpgid((pid_t)child) != getpgrp())
             kill((pid_t)child, number);
         if (number == SIGTSTP)
@@ -164,7 +164,7 @@ static void catch_signals(void)
 {
     static const int handed[] = {SIGINT,  SIGTERM, SIGHUP,  SIGQUIT,
                                  SIGUSR1, SIGUSR2, SIGCONT, SIGTSTP};
-    struct sigaction action = {.sa_sigaction = hand_on, .sa_flags = SA_SIGINFO | SA_RESTART};
+    struct sigaction action = {.sa_sigaction = forward, .sa_flags = SA_SIGINFO | SA_RESTART};
     struct sigaction before;
     sigemptyset(&action.sa_mask);
     for (size_t i = 0; i < sizeof handed / sizeof *handed; i++)
@@ -251,7 +251,7 @@ static void judge(int status, crash_end *end)
                                                                 code */
     if (words->over && !number)
         return;
-    if (!(number && (number == handed_on || number == SIGXCPU)) &&
+    if (!(number && (number == forwarded || number == SIGXCPU)) &&
         crash_describe(&words->running, status, end->sentence, sizeof end->sentence)) {
         end->code = FF_FAULT_PLUGIN;
         if (number && crash_fault_name(number))

@@ -72,7 +72,7 @@ bool fit_add_laws(fit *f, ff_engine *engine, const char *const *names, size_t co
 }
 
 /* Fixes a parameter at the value that the user gave. */
-static bool hold(fit *f, fit_law *law, fit_param *param, const ff_node *node)
+static bool fix(fit *f, fit_law *law, fit_param *param, const ff_node *node)
 {
     const ff_param *row = param->row;
     ff_value value;
@@ -107,7 +107,7 @@ static bool set_param(fit *f, const char *name, const ff_node *node, const fit_l
         if (node->kind == FF_SCALAR && !strcmp(node->text, "free")) {
             param->asked = FIT_FREE;
         } else {
-            good = hold(f, law, param, node) && good;
+            good = fix(f, law, param, node) && good;
         }
     }
     return used ? good
@@ -215,13 +215,13 @@ bool fit_law_eval(fit *f, fit_law *law, const double *values, size_t n, const do
                            : FF_INVALID;
     bool open = status == FF_OK || status == FF_DOMAIN;
     bool good = open && ff_instance_call(law->instance, "its fit", evaluate, &e) == FF_OK;
-    const ff_report *said = ff_instance_report(law->instance);
+    const ff_report *messages = ff_instance_report(law->instance);
     if (!open) {
         free(law->refusal);
         law->refusal = memory_print_text("%s", ff_instance_reason(law->instance));
     }
-    if (good || ff_report_fault(said) == FF_FAULT_PLUGIN)
-        ff_report_append(f->report, said);
+    if (good || ff_report_fault(messages) == FF_FAULT_PLUGIN)
+        ff_report_append(f->report, messages);
     return good;
 }
 

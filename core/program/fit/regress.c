@@ -172,7 +172,7 @@ static bool depends_on_temperature(fit_search *s, const double *x)
 }
 
 /* Fixes a parameter, so that the search no longer varies it. */
-static void hold(fit_search *s, size_t axis, double value, fit_state found)
+static void fix(fit_search *s, size_t axis, double value, fit_state found)
 {
     size_t param = s->axes[axis].param;
     s->values[param] = s->law->params[param].value = value;
@@ -182,7 +182,7 @@ static void hold(fit_search *s, size_t axis, double value, fit_state found)
 }
 
 /* Fixes a parameter whose search ended at a limit. Returns false if there is none. */
-static bool hold_limit(fit_search *s, const double *x)
+static bool fix_at_limit(fit_search *s, const double *x)
 {
     char text[64];
     for (size_t j = 0; j < s->count; j++) {
@@ -196,7 +196,7 @@ static bool hold_limit(fit_search *s, const double *x)
                  "%s is at its limit, %s: the data fit better beyond it. The intervals hold for "
                  "that value.",
                  param->row->name, print_value(param, value, text));
-        hold(s, j, value, FIT_AT_LIMIT);
+        fix(s, j, value, FIT_AT_LIMIT);
         return true;
     }
     return false;
@@ -236,7 +236,7 @@ static void decompose(fit_search *s, const double *x, decomposition *d)
 
 /* Fixes one of the parameters that the data cannot distinguish: the one with the narrowest
    calibrated range, at the middle of it. Returns false if all can be distinguished. */
-static bool hold_undetermined(fit_search *s, const decomposition *d)
+static bool fix_undetermined(fit_search *s, const decomposition *d)
 {
     size_t last = s->count - 1, narrowest = 0;
     char names[300] = "", text[64];
@@ -269,7 +269,7 @@ static bool hold_undetermined(fit_search *s, const decomposition *d)
     else
         add_note(s->law, "%s is fixed at %s: the data do not determine it.", param->row->name,
                  text);
-    hold(s, narrowest, value, FIT_HELD);
+    fix(s, narrowest, value, FIT_HELD);
     return true;
 }
 
@@ -441,11 +441,11 @@ static bool search(fit_search *s)
                         "it does not depend on temperature, but the data have several; choose one, "
                         "such as --at \"%g degC\"",
                         s->data->T[0] - 273.15);
-        if (hold_limit(s, x))
+        if (fix_at_limit(s, x))
             continue;
         decomposition d;
         decompose(s, x, &d);
-        bool undetermined = hold_undetermined(s, &d);
+        bool undetermined = fix_undetermined(s, &d);
         bool good = !undetermined && take_result(s, x, &d);
         decomposition_free(&d);
         if (!undetermined)

@@ -9,11 +9,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct asked {
+typedef struct limit_range {
     double bound; /* in SI units */
     bool above;   /* whether numbers must be above the bound */
     bool equal;   /* whether numbers equal to the bound are allowed */
-} asked;
+} limit_range;
 
 static const ff_node *node_of(const ff_run *run)
 {
@@ -31,13 +31,13 @@ static bool refuse(const ff_node *node, const char *path, ff_report *report)
 }
 
 /* Reads "> 1.5 um" in the unit of the output. Returns false after an error. */
-static bool read_limit(const ff_node *node, const char *path, const ff_port *output, asked *limit,
-                       ff_report *report)
+static bool read_limit(const ff_node *node, const char *path, const ff_port *output,
+                       limit_range *limit, ff_report *report)
 {
     const char *text = node->kind == FF_SCALAR ? node->text : "";
     if (*text != '<' && *text != '>')
         return refuse(node, path, report);
-    *limit = (asked){.above = *text == '>', .equal = text[1] == '='};
+    *limit = (limit_range){.above = *text == '>', .equal = text[1] == '='};
     text += limit->equal ? 2 : 1;
     text += strspn(text, " ");
     const ff_param row = {.name = output->name,
@@ -79,7 +79,7 @@ bool limits_check(ff_run *run)
     for (size_t i = 0; node && i < node->count; i++) {
         const ff_stage *stage;
         const ff_result *result = run_output(ff_run_pipeline(run), node->keys[i], &stage);
-        asked unused;
+        limit_range unused;
         if (result && !limit_at(node->items[i], 0))
             refuse(node->items[i], node->keys[i], report);
         for (size_t k = 0; result && (item = limit_at(node->items[i], k)); k++)
@@ -100,7 +100,7 @@ char *limits_print_key(const ff_run *run)
         const ff_stage *stage;
         const ff_pipeline *pipeline = ff_run_pipeline(run);
         const ff_result *result = pipeline ? run_output(pipeline, node->keys[i], &stage) : NULL;
-        asked limit;
+        limit_range limit;
         for (size_t k = 0; (item = limit_at(node->items[i], k)); k++)
             if (result && read_limit(item, node->keys[i], result->row, &limit, unused))
                 fprintf(out, "%s %c%s %.12g\n", node->keys[i], limit.above ? '>' : '<',
@@ -129,14 +129,14 @@ static double bar_of(const ff_stage *stage, const ff_result *result, size_t k,
 }
 
 /* Returns the distance of a number from the limit, positive on the allowed side. */
-static double margin_of(const asked *limit, double value)
+static double margin_of(const limit_range *limit, double value)
 {
     return limit->above ? value - limit->bound : limit->bound - value;
 }
 
 /* Returns the standing of a number. A number of which only a lower bound is known never certainly
    meets an upper limit. */
-static limits_standing stand(const asked *limit, double value, double bar, bool at_least)
+static limits_standing stand(const limit_range *limit, double value, double bar, bool at_least)
 {
     const double margin = margin_of(limit, value);
     if (!(margin > 0 || (margin == 0 && limit->equal)))
@@ -147,7 +147,7 @@ static limits_standing stand(const asked *limit, double value, double bar, bool 
 }
 
 /* Judges all numbers of an output and keeps the one with the worst standing. */
-static void judge(limits_row *row, const asked *limit, const accuracy_record *errors)
+static void judge(limits_row *row, const limit_range *limit, const accuracy_record *errors)
 {
     const ff_result *result = &row->stage->results[row->output];
     const bool at_least = accuracy_is_least(row->stage, result);
@@ -176,7 +176,7 @@ limits_verdict limits_judge(const ff_run *run, const ff_pipeline *pipeline,
     for (size_t i = 0; node && i < node->count; i++) {
         const ff_stage *stage;
         const ff_result *result = run_output(pipeline, node->keys[i], &stage);
-        asked limit;
+        limit_range limit;
         for (size_t k = 0; result && (item = limit_at(node->items[i], k)); k++) {
             if (!read_limit(item, node->keys[i], result->row, &limit, unused))
                 continue;

@@ -64,17 +64,17 @@ json_t *report_describe(report_data *d, size_t variable, double magnitude)
     const results_view *view = d->page->view;
     const results_view_variable *of = view->variables[variable];
     char words[REPORT_TEXT_SIZE];
-    json_t *said = json_object_get(d->outputs, of->name);
-    if (said)
-        return said;
-    said = report_describe_unit(of->output, of->unit, magnitude);
-    json_object_set_new(said, "stage", results_json_text(view->stages[of->stage]->name));
-    json_object_set_new(said, "output", results_json_text(of->output));
-    json_object_set_new(said, "label", results_json_text(report_output_words(of, words)));
-    json_object_set_new(said, "si", results_json_text(of->unit));
-    json_object_set_new(said, "asked", json_boolean(of->flags & RESULTS_VIEW_ASKED));
-    json_object_set_new(d->outputs, of->name, said);
-    return said;
+    json_t *entry = json_object_get(d->outputs, of->name);
+    if (entry)
+        return entry;
+    entry = report_describe_unit(of->output, of->unit, magnitude);
+    json_object_set_new(entry, "stage", results_json_text(view->stages[of->stage]->name));
+    json_object_set_new(entry, "output", results_json_text(of->output));
+    json_object_set_new(entry, "label", results_json_text(report_output_words(of, words)));
+    json_object_set_new(entry, "si", results_json_text(of->unit));
+    json_object_set_new(entry, "asked", json_boolean(of->flags & RESULTS_VIEW_ASKED));
+    json_object_set_new(d->outputs, of->name, entry);
+    return entry;
 }
 
 /* Keeps the first, lowest, highest and last of a group of points and the start of each gap, in

@@ -39,18 +39,18 @@ static json_t *describe_axis(const results_view *view, const results_view_axis *
                                   results_json_text(report_name_value(
                                       view, axis, report_axis_word(axis, i * step, word), name)));
     }
-    json_t *said = axis->values ? report_describe_unit(axis->path, axis->unit, most)
-                                : json_pack("{s:o, s:f, s:f}", "unit",
-                                            results_json_text(report_axis_unit(axis)), "factor",
-                                            1.0, "offset", 0.0);
-    json_object_set_new(said, "label", results_json_text(report_plain_name(axis->path, word)));
-    json_object_set_new(said, "si", results_json_text(axis->unit));
-    json_object_set_new(said, "dimension", json_integer((json_int_t)axis->dimension));
-    json_object_set_new(said, "typed", json_boolean(axis->values != NULL));
-    json_object_set_new(said, "named", named);
-    json_object_set_new(said, "values", report_pack(values, NULL, count));
+    json_t *entry = axis->values ? report_describe_unit(axis->path, axis->unit, most)
+                                 : json_pack("{s:o, s:f, s:f}", "unit",
+                                             results_json_text(report_axis_unit(axis)), "factor",
+                                             1.0, "offset", 0.0);
+    json_object_set_new(entry, "label", results_json_text(report_plain_name(axis->path, word)));
+    json_object_set_new(entry, "si", results_json_text(axis->unit));
+    json_object_set_new(entry, "dimension", json_integer((json_int_t)axis->dimension));
+    json_object_set_new(entry, "typed", json_boolean(axis->values != NULL));
+    json_object_set_new(entry, "named", named);
+    json_object_set_new(entry, "values", report_pack(values, NULL, count));
     free(values);
-    return said;
+    return entry;
 }
 
 /* Drops points of the longest dimensions until at most that many cases are left. */
@@ -94,10 +94,10 @@ static void add_scalar(report_data *d, json_t *scalars, size_t variable, const s
     report_scalar f = report_load_scalar(d->page, variable);
     const char *asked = report_limit_asked(view, variable);
     if (f.low <= f.high) {
-        json_t *said = report_describe(d, variable, fmax(fabs(f.low), fabs(f.high)));
-        json_object_set_new(said, "sense", json_integer(report_sense_of(d->page, variable)));
+        json_t *entry = report_describe(d, variable, fmax(fabs(f.low), fabs(f.high)));
+        json_object_set_new(entry, "sense", json_integer(report_sense_of(d->page, variable)));
         if (asked)
-            json_object_set_new(said, "limit",
+            json_object_set_new(entry, "limit",
                                 json_pack("{s:o, s:o}", "at",
                                           study_json_real(report_limit_bound(view, variable)),
                                           "name", results_json_text(asked)));

@@ -159,7 +159,7 @@ bool report_is_sweep(const results_view *view);
    others are operating conditions, such as torques. Dimensions with more than one point are marked
    as one of these. */
 typedef struct report_sides {
-    bool *chosen, *met;
+    bool *choice_dims, *condition_dims;
     size_t choices, conditions; /* numbers of combinations */
 } report_sides;
 report_sides report_sides_of(const results_view *view);

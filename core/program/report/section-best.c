@@ -23,26 +23,27 @@ static bool is_of_first_stage(const results_view *view, const char *path)
 
 report_sides report_sides_of(const results_view *view)
 {
-    report_sides s = {.chosen = memory_alloc((view->dimension_count + 1) * sizeof *s.chosen),
-                      .met = memory_alloc((view->dimension_count + 1) * sizeof *s.met),
-                      .choices = 1,
-                      .conditions = 1};
+    report_sides s = {
+        .choice_dims = memory_alloc((view->dimension_count + 1) * sizeof *s.choice_dims),
+        .condition_dims = memory_alloc((view->dimension_count + 1) * sizeof *s.condition_dims),
+        .choices = 1,
+        .conditions = 1};
     for (size_t a = 0; a < view->axis_count; a++)
         if (is_of_first_stage(view, view->axes[a]->path))
-            s.chosen[view->axes[a]->dimension] = true;
+            s.choice_dims[view->axes[a]->dimension] = true;
     for (size_t d = 0; d < view->dimension_count; d++) {
         const bool varies = view->lengths[d] > 1;
-        s.met[d] = varies && !s.chosen[d];
-        s.chosen[d] = varies && s.chosen[d];
-        *(s.chosen[d] ? &s.choices : &s.conditions) *= view->lengths[d];
+        s.condition_dims[d] = varies && !s.choice_dims[d];
+        s.choice_dims[d] = varies && s.choice_dims[d];
+        *(s.choice_dims[d] ? &s.choices : &s.conditions) *= view->lengths[d];
     }
     return s;
 }
 
 void report_sides_free(report_sides *s)
 {
-    free(s->chosen);
-    free(s->met);
+    free(s->choice_dims);
+    free(s->condition_dims);
 }
 
 bool report_is_sweep(const results_view *view)
@@ -94,13 +95,13 @@ static void add_extreme(json_t *cell, const report_scalar *f, const report_sides
     const results_view_variable *of = view->variables[f->variable];
     char text[REPORT_TEXT_SIZE], name[REPORT_TEXT_SIZE];
     size_t same;
-    const size_t c = report_find_extreme(f, s->chosen, s->choices, first, sense, met, &same);
+    const size_t c = report_find_extreme(f, s->choice_dims, s->choices, first, sense, met, &same);
     if (c == SIZE_MAX) {
         json_array_append_new(cell, report_as("div", met ? "no case meets the limits" : "\u2013"));
         return;
     }
     report_quantity_text(of->output, of->unit, f->values[c], text);
-    report_name_point(view, c, s->chosen, false, name);
+    report_name_point(view, c, s->choice_dims, false, name);
     json_t *line =
         json_pack("[s, o, s, o]", word, report_as("b", text), " at ", results_json_text(name));
     if (same > 0)
@@ -116,7 +117,7 @@ static json_t *best_cell(const report_scalar *f, const report_sides *s, size_t f
     size_t same;
     add_extreme(lines, f, s, first, sense ? sense : -1, sense ? "" : "\u25bc ", sense != 0);
     if (sense == 0 && /* the choice makes a difference */
-        report_find_extreme(f, s->chosen, s->choices, first, -1, false, &same) != SIZE_MAX &&
+        report_find_extreme(f, s->choice_dims, s->choices, first, -1, false, &same) != SIZE_MAX &&
         same + 1 < s->choices)
         add_extreme(lines, f, s, first, 1, "\u25b2 ", false);
     return json_pack("{s:o, s:o}", "cell", lines, "title",
@@ -161,7 +162,7 @@ static json_t *chosen_head(const results_view *view, const report_sides *s)
     FILE *out = memory_require(open_memstream(&list, &length));
     for (size_t a = 0; a < view->axis_count; a++) {
         char words[REPORT_TEXT_SIZE];
-        if (s->chosen[view->axes[a]->dimension])
+        if (s->choice_dims[view->axes[a]->dimension])
             fprintf(out, "%s%s",
                     ftell(out) > 0 ? ", " : "at: ", report_plain_name(view->axes[a]->path, words));
     }
@@ -237,10 +238,10 @@ bool report_write_best(report_page *page)
     for (size_t i = 0; i < count; i++)
         json_array_append_new(head, output_head(page, list[i].variable));
     for (size_t k = 0; k < shown && count > 0; k++) {
-        const size_t first = report_case_of(view, s.met, k);
+        const size_t first = report_case_of(view, s.condition_dims, k);
         json_t *row = json_array();
         char name[REPORT_TEXT_SIZE];
-        report_name_point(view, first, s.met, true, name);
+        report_name_point(view, first, s.condition_dims, true, name);
         if (s.conditions > 1)
             json_array_append_new(row, report_head(name));
         for (size_t i = 0; i < count; i++)

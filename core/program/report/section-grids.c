@@ -124,18 +124,18 @@ bool report_write_grids(const report_scalar *scalar)
     report_page *page = scalar->page;
     const results_view *view = page->view;
     report_sides s = report_sides_of(view);
-    panel p = {.scalar = scalar, .across = take_longest(view, s.chosen)};
-    p.down = take_longest(view, s.chosen);
+    panel p = {.scalar = scalar, .across = take_longest(view, s.choice_dims)};
+    p.down = take_longest(view, s.choice_dims);
     for (size_t d = 0; d < view->dimension_count; d++) /* each point of the remaining dimensions has
                                                         * a table */
-        s.met[d] = s.met[d] || s.chosen[d];
+        s.condition_dims[d] = s.condition_dims[d] || s.choice_dims[d];
     if (p.down < 0)
-        p.down = take_longest(view, s.met);
+        p.down = take_longest(view, s.condition_dims);
     size_t panels = 1, squares = p.across < 0 ? 0 : view->lengths[p.across];
     const size_t rows = p.down < 0 ? 1 : view->lengths[p.down];
     const bool good = squares > 0 && squares <= MOST_COLUMNS && rows <= MOST_ROWS;
     for (size_t d = 0; d < view->dimension_count; d++)
-        panels *= s.met[d] ? view->lengths[d] : 1;
+        panels *= s.condition_dims[d] ? view->lengths[d] : 1;
     bool *shown = memory_alloc((view->dimension_count + 1) * sizeof *shown);
     if (good) {
         shown[p.across] = true;
@@ -151,8 +151,8 @@ bool report_write_grids(const report_scalar *scalar)
     }
     for (size_t k = 0; good && k < panels && k < MOST_PANELS; k++) {
         char name[REPORT_TEXT_SIZE];
-        p.first = report_case_of(view, s.met, k);
-        report_name_point(view, p.first, s.met, true, name);
+        p.first = report_case_of(view, s.condition_dims, k);
+        report_name_point(view, p.first, s.condition_dims, true, name);
         mark(page, &p, shown, squares * rows);
         write_panel(page, &p, name);
     }

@@ -59,19 +59,19 @@ void report_write_inputs(report_page *page)
     fputs("<dl class=\"inputs\">\n", page->out);
     for (size_t s = 0; s < view->stage_count; s++) {
         const results_view_stage *stage = view->stages[s];
-        size_t said = 0;
+        size_t printed = 0;
         for (size_t i = 0; i < stage->param_count; i++) {
             const results_view_param *param = stage->params[i];
             char words[REPORT_TEXT_SIZE];
             if (!is_input(view, s, param))
                 continue;
-            if (said++ == 0)
+            if (printed++ == 0)
                 report_print(page->out, "<dt>%s <small>%s</small></dt><dd>", stage->name,
                              stage->model);
             report_print(page->out, "<span>%s <b>%s</b></span> ",
                          report_plain_name(param->name, words), without_folder(param->text));
         }
-        fputs(said > 0 ? "</dd>\n" : "", page->out);
+        fputs(printed > 0 ? "</dd>\n" : "", page->out);
     }
     fputs("</dl>\n", page->out);
 }

@@ -46,10 +46,11 @@ static void put_names(FILE *out, const report_check *checks, size_t count, const
 {
     for (size_t k = 0; k < count; k++) {
         const results_view_quality *line = checks[k].line;
-        bool told = line->verdict == FF_GOOD || meaning_of(line->name) != text;
-        for (size_t i = 0; i < k && !told; i++)
-            told = checks[i].line->verdict != FF_GOOD && !strcmp(checks[i].line->name, line->name);
-        if (!told)
+        bool printed = line->verdict == FF_GOOD || meaning_of(line->name) != text;
+        for (size_t i = 0; i < k && !printed; i++)
+            printed =
+                checks[i].line->verdict != FF_GOOD && !strcmp(checks[i].line->name, line->name);
+        if (!printed)
             report_print(out, "%s<span id=\"means-%s\">%s</span>", k ? ", " : "", line->name,
                          line->name);
     }
@@ -58,25 +59,27 @@ static void put_names(FILE *out, const report_check *checks, size_t count, const
 /* Writes the meanings of the lines that are not good, each sentence once. */
 static void write_meanings(report_page *page, const report_check *checks, size_t count)
 {
-    const char **told = memory_alloc((count + 1) * sizeof *told);
-    size_t said = 0;
+    const char **printed = memory_alloc((count + 1) * sizeof *printed);
+    size_t count_printed = 0;
     for (size_t i = 0; i < count; i++) {
         const char *text =
             checks[i].line->verdict == FF_GOOD ? NULL : meaning_of(checks[i].line->name);
         size_t known = 0;
-        while (text && known < said && told[known] != text)
+        while (text && known < count_printed && printed[known] != text)
             known++;
-        if (!text || known < said)
+        if (!text || known < count_printed)
             continue;
-        fputs(said == 0 ? "<h3>What these doubts mean for you</h3>\n<dl class=\"meanings\">\n" : "",
+        fputs(count_printed == 0
+                  ? "<h3>What these doubts mean for you</h3>\n<dl class=\"meanings\">\n"
+                  : "",
               page->out);
-        told[said++] = text;
+        printed[count_printed++] = text;
         fputs("<dt>", page->out);
         put_names(page->out, checks + i, count - i, text);
         report_print(page->out, "</dt><dd>%s</dd>\n", text);
     }
-    fputs(said > 0 ? "</dl>\n" : "", page->out);
-    free(told);
+    fputs(count_printed > 0 ? "</dl>\n" : "", page->out);
+    free(printed);
 }
 
 const char *report_verdict_word(const results_view_quality *line)

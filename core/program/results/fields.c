@@ -10,15 +10,15 @@
 
 static int compare_places(const void *a, const void *b)
 {
-    const results_asked *x = a, *y = b;
+    const results_requested *x = a, *y = b;
     uint32_t left = x->stage->results[x->output].requested;
     uint32_t right = y->stage->results[y->output].requested;
     return (left > right) - (left < right);
 }
 
-results_asked *results_list_asked(const ff_pipeline *pipeline, size_t *count)
+results_requested *results_list_requested(const ff_pipeline *pipeline, size_t *count)
 {
-    results_asked *list = memory_alloc(sizeof *list);
+    results_requested *list = memory_alloc(sizeof *list);
     *count = 0;
     for (size_t s = 0; s < pipeline->count; s++) {
         const ff_stage *stage = &pipeline->stages[s];
@@ -27,14 +27,14 @@ results_asked *results_list_asked(const ff_pipeline *pipeline, size_t *count)
                 continue;
             char *name = memory_print_text("%s.%s", stage->name, stage->results[i].row->name);
             list = memory_resize(list, (*count + 1) * sizeof *list);
-            list[(*count)++] = (results_asked){stage, i, name};
+            list[(*count)++] = (results_requested){stage, i, name};
         }
     }
     qsort(list, *count, sizeof *list, compare_places);
     return list;
 }
 
-void results_free_asked(results_asked *list, size_t count)
+void results_free_requested(results_requested *list, size_t count)
 {
     for (size_t i = 0; i < count; i++)
         free(list[i].name);

@@ -137,15 +137,15 @@ static json_t *describe_output(const results_outcome *outcome, const ff_stage *s
 }
 
 /* Describes the requested outputs, in the order of the file. */
-static json_t *describe_asked(const results_outcome *outcome, results_arrays arrays)
+static json_t *describe_requested(const results_outcome *outcome, results_arrays arrays)
 {
     size_t count;
-    results_asked *list = results_list_asked(outcome->pipeline, &count);
+    results_requested *list = results_list_requested(outcome->pipeline, &count);
     json_t *outputs = json_object();
     for (size_t i = 0; i < count; i++)
         json_object_set_new(outputs, list[i].name,
                             describe_output(outcome, list[i].stage, list[i].output, arrays));
-    results_free_asked(list, count);
+    results_free_requested(list, count);
     return outputs;
 }
 
@@ -196,15 +196,15 @@ static json_t *describe_quality(const ff_stage *stage)
     json_t *object = json_object();
     for (size_t i = 0; i < stage->quality_count; i++) {
         const ff_quality *line = &stage->quality[i];
-        json_t *said =
+        json_t *entry =
             json_pack("{s:o, s:o, s:s, s:o}", "value", study_json_real(line->value), "limit",
                       study_json_real(line->limit), "verdict", ff_verdict_name(line->verdict),
                       "text", results_json_text(line->text));
         if (line->verdict != FF_GOOD || line->accepted)
-            json_object_set_new(said, "of", json_string(line->range ? "range" : "numbers"));
+            json_object_set_new(entry, "of", json_string(line->range ? "range" : "numbers"));
         if (line->accepted)
-            json_object_set_new(said, "accepted", results_json_text(line->accepted));
-        json_object_set_new(object, line->name, said);
+            json_object_set_new(entry, "accepted", results_json_text(line->accepted));
+        json_object_set_new(object, line->name, entry);
     }
     return object;
 }
@@ -261,7 +261,7 @@ static json_t *describe_tried(const results_outcome *outcome)
         const accuracy_tried *tried = &choice->tried[i];
         json_array_append_new(list, json_pack("{s:s, s:s, s:b, s:o}", "stage",
                                               outcome->pipeline->stages[tried->stage].name, "model",
-                                              tried->model, "taken", tried->taken, "reason",
+                                              tried->model, "taken", tried->accepted, "reason",
                                               results_json_text(tried->reason)));
     }
     return list;
@@ -328,7 +328,7 @@ void results_write_run_json(const results_outcome *outcome, FILE *stream)
     json_object_update(all, head);
     json_decref(head);
     add_input(all, outcome->input);
-    json_object_set_new(all, "outputs", describe_asked(outcome, RESULTS_IN_FILES));
+    json_object_set_new(all, "outputs", describe_requested(outcome, RESULTS_IN_FILES));
     json_object_set_new(all, "computed", describe_computed(outcome));
     json_object_set_new(all, "stages", describe_stages(pipeline, true));
     json_object_set(all, "log", outcome->log);
@@ -343,7 +343,7 @@ void results_write_answer(const results_outcome *outcome, const char *directory,
                             : directory ? RESULTS_LONG_IN_FILES
                                         : RESULTS_LONG_ABSENT;
     json_object_set_new(all, "directory", results_json_text(directory));
-    json_object_set_new(all, "outputs", describe_asked(outcome, arrays));
+    json_object_set_new(all, "outputs", describe_requested(outcome, arrays));
     json_object_set_new(all, "stages", describe_stages(outcome->pipeline, false));
     json_object_set(all, "log", outcome->log);
     write_object(all, stream);

@@ -23,15 +23,15 @@ typedef struct results_outcome {
 } results_outcome;
 
 /* A requested output that was computed. */
-typedef struct results_asked {
+typedef struct results_requested {
     const ff_stage *stage;
     size_t output;
     char *name; /* "film.h_min", owned */
-} results_asked;
+} results_requested;
 
-/* Returns them in the order of the file, to be freed by results_free_asked. */
-results_asked *results_list_asked(const ff_pipeline *pipeline, size_t *count);
-void results_free_asked(results_asked *list, size_t count);
+/* Returns them in the order of the file, to be freed by results_free_requested. */
+results_requested *results_list_requested(const ff_pipeline *pipeline, size_t *count);
+void results_free_requested(results_requested *list, size_t count);
 
 /* Returns the series against which the requested arrays are plotted; NULL-ended, to be freed. */
 const ff_result **results_axes(const ff_pipeline *pipeline);

@@ -32,7 +32,7 @@ static const char *created(void *ctx, void *self)
                needed);
     if (instance->breach[0])
         return instance->breach;
-    return instance->bare ? "is not needed any further" : NULL;
+    return instance->create_only ? "is not needed any further" : NULL;
 }
 
 /* Returns whether a model must give a reason for this status. It may be stopped, or be doubtful
@@ -128,7 +128,7 @@ ff_status verify_instance_new(verify_instance *instance, const verify_setup *set
 bool verify_instance_create(verify_instance *instance, verify_context *context)
 {
     verify_instance_new(instance, verify_setup_new(context));
-    instance->bare = true;
+    instance->create_only = true;
     ff_status status = note(instance, ff_instance_ready(instance->made));
     if (instance->breach[0])
         return verify_fail(context, "it %s", instance->breach);

@@ -166,7 +166,7 @@ typedef struct verify_instance {
     ff_instance *made;
     const ff_model *model; /* descriptor as stored in the engine of the instance */
     ff_hooks hooks;
-    bool bare, created;
+    bool create_only, created;
     void *self;
     size_t room;      /* bytes allocated for `self`; 0: not known */
     char text[700];   /* why the last call failed, or "" */

@@ -312,7 +312,7 @@ static void cross_out(session *s, const char *name)
 
 /* Returns false, with an error, if a requested name is not that of a test, or if none is
    requested. */
-static bool check_asked(session *s)
+static bool check_requested(session *s)
 {
     const char *only = s->request->only;
     if (!only[strspn(only, " ,")])
@@ -406,7 +406,7 @@ bool verify_plugin(const verify_request *request,
     if (request->only && !request->list) {
         s.missing = memory_copy_text(request->only, strlen(request->only));
         try_all(&s);
-        s.good = check_asked(&s);
+        s.good = check_requested(&s);
         free(s.missing);
         s.missing = NULL;
     }

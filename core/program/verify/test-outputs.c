@@ -40,16 +40,16 @@ bool verify_test_wanted(verify_context *c)
     return good;
 }
 
-typedef struct shift {
+typedef struct job {
     const verify_setup *setup;
     const char *wanted;
     verify_instance instance;
     ff_status status;
-} shift;
+} job;
 
 static void *work(void *argument)
 {
-    shift *mine = argument;
+    job *mine = argument;
     mine->status = verify_instance_open(&mine->instance, mine->setup);
     if (verify_is_good(mine->status))
         mine->status = verify_instance_run(&mine->instance, mine->wanted, mine->setup);
@@ -58,7 +58,7 @@ static void *work(void *argument)
 
 /* Runs two instances at the same time, unless the model forbids it. Changes of the process are not
    checked meanwhile, since it has one more thread. */
-static void work_twice(verify_context *c, shift *here, shift *there)
+static void work_twice(verify_context *c, job *here, job *there)
 {
     pthread_t thread;
     bool watching = c->watching;
@@ -84,8 +84,8 @@ bool verify_test_repeat(verify_context *c)
     other.watching = false;
     other.engine = verify_open_engine(c->root);
     there_setup.context = &other;
-    shift here = {.setup = setup, .wanted = served};
-    shift there = {.setup = &there_setup, .wanted = served};
+    job here = {.setup = setup, .wanted = served};
+    job there = {.setup = &there_setup, .wanted = served};
     work_twice(c, &here, &there);
     ff_status again = verify_instance_run(&instance, served, setup);
     bool good = true;

@@ -52,7 +52,7 @@ typedef struct study_memory { /* what a worker keeps between cases */
     study_arrays arrays;
     json_t *seen; /* {stage, model and build: true} for the setups already described in records
                      of this worker */
-    json_t *said; /* forms already written in its records */
+    json_t *written_forms; /* forms already written in its records */
 } study_memory;
 
 typedef struct study_case {

@@ -18,7 +18,7 @@
 #include <unistd.h>
 
 /* Separates this process, so that output and changes by a plugin have no effect outside. */
-static void set_apart(void)
+static void isolate_process(void)
 {
     int null = open("/dev/null", O_RDWR);
     setpgid(0, 0); /* to end processes that a plugin starts together with this one */
@@ -33,7 +33,7 @@ static _Noreturn void search_cases(study_walk *walk, FILE *to)
 {
     const study_run *run = walk->run;
     double limit = ceil(fmin(run->study->time_limit, 1e6));
-    set_apart();
+    isolate_process();
     const ff_environment *environment = ff_environment_keep();
     for (bool more = true; more;) {
         if (limit > 0)
@@ -64,7 +64,7 @@ bool study_search_start(study_search *search, study_walk *walk, const int hidden
     if (child) {
         close(hidden[0]);
         close(hidden[1]);
-        study_records_let_go(walk->records);
+        study_records_close_files(walk->records);
     }
     if (child && stream)
         search_cases(walk, stream);

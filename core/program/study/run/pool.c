@@ -18,8 +18,11 @@
 
 void study_pool_open(study_pool *pool, const study_run *run, study_records *done)
 {
-    *pool = (study_pool){
-        .run = run, .done = done, .said = json_object(), .hidden = {-1, -1}, .extra_fd = -1};
+    *pool = (study_pool){.run = run,
+                         .done = done,
+                         .written_forms = json_object(),
+                         .hidden = {-1, -1},
+                         .extra_fd = -1};
     pool->workers = memory_alloc(run->jobs * sizeof *pool->workers);
     pool->polled = memory_alloc((run->jobs + 1) * sizeof *pool->polled);
 }
@@ -45,7 +48,7 @@ void study_pool_close(study_pool *pool)
         free(pool->held[i]);
     free(pool->held);
     free(pool->answer);
-    json_decref(pool->said);
+    json_decref(pool->written_forms);
 }
 
 void study_pool_kill(const study_pool *pool)
@@ -194,7 +197,7 @@ static int record_crash(study_pool *pool, study_worker *worker, const char *stat
     key[STUDY_KEY_SIZE - 1] = '\0';
     json_t *record = study_case_record(pool->run, worker->index, key, status, reason);
     study_judge_record(record);
-    char *line = study_journal_line(record, pool->said);
+    char *line = study_journal_line(record, pool->written_forms);
     keep_record(pool, key, line);
     int state = finish_case(pool, worker, STUDY_VERDICT_FAILED, line, task);
     json_decref(record);
@@ -241,7 +244,7 @@ static int read_answer(study_pool *pool, study_worker *worker, size_t *task)
 static int check_time(study_pool *pool, study_worker *worker, size_t *task)
 {
     double limit = pool->run->study->time_limit;
-    if (!worker->busy || !(limit > 0) || study_seconds_now() - worker->since < limit)
+    if (!worker->busy || !(limit > 0) || study_seconds_now() - worker->case_start < limit)
         return FF_TASK_NONE;
     study_worker_kill(worker);
     free(study_worker_reap(worker));

@@ -30,11 +30,11 @@ typedef struct execution {
     size_t room;                   /* number of keys allocated, for rows from standard input */
     study_pool pool;               /* without an executor: the workers of this process */
     study_fork_server fork_server; /* with an executor */
-    size_t next;    /* next chain to distribute; a chain is one task of the executor */
-    bool searched;  /* whether finished cases have been searched for */
-    bool ending;    /* whether no more cases are distributed */
-    bool no_memory; /* whether memory ran out and the executor was told to end */
-    double start, reported;
+    size_t next;               /* next chain to distribute; a chain is one task of the executor */
+    bool searched;             /* whether finished cases have been searched for */
+    bool ending;               /* whether no more cases are distributed */
+    bool no_memory;            /* whether memory ran out and the executor was told to end */
+    double start, progress_at; /* times in s: of the start, and of the last progress report */
 } execution;
 
 static size_t end_of_chains(const study_run *run)
@@ -84,7 +84,7 @@ static void open_journal(void *ctx)
             begin_results(r);
         r->keys = run->keys ? run->keys : memory_alloc(total * sizeof *r->keys);
         r->next = run->begin + first;
-        r->start = r->reported = study_seconds_now();
+        r->start = r->progress_at = study_seconds_now();
     } else {
         r->counters->total = 0;
     }
@@ -252,9 +252,9 @@ static void start_chain(void *ctx, size_t task)
 static void show_progress(execution *r)
 {
     r->counters->seconds = study_seconds_now() - r->start;
-    if (!r->keys || !r->run->progress || r->start + r->counters->seconds - r->reported < 0.5)
+    if (!r->keys || !r->run->progress || r->start + r->counters->seconds - r->progress_at < 0.5)
         return;
-    r->reported = r->start + r->counters->seconds;
+    r->progress_at = r->start + r->counters->seconds;
     r->run->progress(r->run->ctx, r->counters);
 }
 

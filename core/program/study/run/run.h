@@ -62,7 +62,7 @@ typedef struct study_plan {
     char changed[1000]; /* what differs, in lines such as "duty.torque: 250 N m -> 300 N m" */
     double seconds;     /* estimated time for the remaining cases, s; negative if unknown */
     double spent;       /* time of the done cases on which the estimate is based, s */
-    size_t timed;
+    size_t timed;       /* number of cases on whose times the estimate is based */
 } study_plan;
 
 /* Adds what a run would do to a plan. A plan starts at {.seconds = -1}. */

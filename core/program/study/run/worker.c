@@ -114,7 +114,7 @@ static char *answer_case(study_walk *walk, size_t index, study_memory *memory, c
     add_costs(c, (double)(clock() - start) / CLOCKS_PER_SEC, *record);
     char *over = study_record_is_ok(*record) ? NULL : tell_written_over(walk->run);
     if (over || *record)
-        return over ? over : study_journal_line(*record, memory->said);
+        return over ? over : study_journal_line(*record, memory->written_forms);
     char *why = study_first_error(c->report);
     char *line = memory_print_text("%c%s\n", STUDY_VERDICT_FATAL, why);
     free(why);
@@ -193,7 +193,7 @@ static _Noreturn void serve_cases(const study_worker *worker, const study_run *r
         .stats = stats,
         .arrays = {.run = run, .shared = worker->shared, .slot = slot},
         .seen = json_object(),
-        .said = json_object(),
+        .written_forms = json_object(),
     };
     study_walk walk = study_walk_begin(run, done);
     walk.kept.keys = false;
@@ -230,7 +230,7 @@ static void close_others(const study_worker *worker, const study_pool *pool)
     for (size_t i = 0; i < sizeof pool->hidden / sizeof *pool->hidden; i++)
         if (pool->hidden[i] >= 0)
             close(pool->hidden[i]);
-    study_records_let_go(pool->done);
+    study_records_close_files(pool->done);
 }
 
 bool study_worker_start(study_worker *worker, const study_pool *pool)
@@ -280,7 +280,7 @@ bool study_worker_send_case(study_worker *worker, const study_run *run, size_t i
     worker->shared->key[0] = '\0';
     worker->busy = true;
     worker->index = index;
-    worker->since = study_seconds_now();
+    worker->case_start = study_seconds_now();
     worker->stops = 0;
     worker->length = 0;
     return file_write(worker->to, &index, sizeof index, -1) &&

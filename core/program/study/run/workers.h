@@ -18,9 +18,9 @@ typedef struct study_worker {
     bool busy;
     size_t chain, left; /* its chain, and the number of cases of that chain not yet sent */
     size_t index;       /* index of the running case */
-    double since;
-    int stops;  /* how many times in a row the worker was found stopped */
-    char *line; /* part of the answer that has been read */
+    double case_start;  /* time when the running case was sent, s */
+    int stops;          /* how many times in a row the worker was found stopped */
+    char *line;         /* part of the answer that has been read */
     size_t length;
     study_shared *shared; /* memory shared with the worker */
     off_t synced;         /* length of its log that is on the disk */
@@ -61,7 +61,7 @@ enum study_case_verdict {
 typedef struct study_pool {
     const study_run *run;
     study_records *done;   /* records of earlier runs, and of this run if cases form chains */
-    json_t *said;          /* forms already written, for records of crashed cases */
+    json_t *written_forms; /* forms already written, for records of crashed cases */
     bool ending;           /* whether chains stop after the running case */
     int hidden[2];         /* descriptors of others that workers close; -1: none */
     int extra_fd;          /* a further descriptor whose input ends the waiting; -1: none */

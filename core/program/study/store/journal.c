@@ -49,12 +49,12 @@ bool study_state_is_settled(enum study_state state, enum study_rerun rerun)
            (rerun == STUDY_RERUN_NONE || (rerun == STUDY_RERUN_FAILED && state == STUDY_OK));
 }
 
-char *study_journal_line(json_t *record, json_t *said)
+char *study_journal_line(json_t *record, json_t *written_forms)
 {
     char *text = NULL;
     size_t length = 0;
     FILE *out = memory_require(open_memstream(&text, &length));
-    study_form_write(record, said, out);
+    study_form_write(record, written_forms, out);
     fflush(out);
     fprintf(out, "%s%016llx\"}\n", sum_head,
             (unsigned long long)study_hash(STUDY_HASH_START, text, length));

@@ -45,8 +45,9 @@ bool study_journal_append(study_journal *journal, const char *line, size_t lengt
 /* Forces the journal to the disk, and checks that its file has not been replaced. */
 bool study_journal_settle(study_journal *journal, ff_report *report);
 void study_journal_close(study_journal *journal);
-/* Returns the record as a line with its checksum, to be freed. `said` as in study_form_write. */
-char *study_journal_line(json_t *record, json_t *said);
+/* Returns the record as a line with its checksum, to be freed. `written_forms` as in
+ * study_form_write. */
+char *study_journal_line(json_t *record, json_t *written_forms);
 /* Returns whether the line is complete and unchanged. */
 bool study_line_is_whole(const char *line, size_t length);
 /* Returns the contents of such a line, to be released, or NULL for any other line. */

@@ -114,7 +114,7 @@ enum { LINES_OF_A_FORM = 256 };
 
 /* Writes the name of the form, and also the form itself unless one of the last lines contains
    it. */
-static void put_form(json_t *record, json_t *said, FILE *out)
+static void put_form(json_t *record, json_t *written_forms, FILE *out)
 {
     const char *member;
     json_t *value;
@@ -124,8 +124,8 @@ static void put_form(json_t *record, json_t *said, FILE *out)
         hash_form(study_hash_text(hash, member), value, has_own_texts(member));
     snprintf(name, sizeof name, "%016llx", (unsigned long long)hash);
     fprintf(out, ",\"form\":\"%s\"", name);
-    json_int_t since = json_integer_value(json_object_get(said, name));
-    json_object_set_new(said, name, json_integer((since + 1) % LINES_OF_A_FORM));
+    json_int_t since = json_integer_value(json_object_get(written_forms, name));
+    json_object_set_new(written_forms, name, json_integer((since + 1) % LINES_OF_A_FORM));
     if (since > 0)
         return;
     json_t *form = json_object();
@@ -136,7 +136,7 @@ static void put_form(json_t *record, json_t *said, FILE *out)
     json_decref(form);
 }
 
-void study_form_write(json_t *record, json_t *said, FILE *out)
+void study_form_write(json_t *record, json_t *written_forms, FILE *out)
 {
     const json_t *parameters = json_object_get(record, "parameters");
     const json_t *log = json_object_get(record, "log");
@@ -151,7 +151,7 @@ void study_form_write(json_t *record, json_t *said, FILE *out)
         fputs(",\"log\":", out);
         json_dumpf(log, out, JSON_COMPACT);
     }
-    put_form(record, said, out);
+    put_form(record, written_forms, out);
     fputs(",\"values\":[", out);
     json_object_foreach(record, name, member) if (!is_beside(name))
         put_values(member, has_own_texts(name), &any, out);

@@ -14,9 +14,9 @@
 
 enum { STUDY_FORM_NAME = 17 }; /* size of a form's name, a hash, with its terminating zero, bytes */
 
-/* Writes the record as a line without its closing brace. `said` counts, for each form, the lines
-   since the form was last written. This form is added to it. */
-void study_form_write(json_t *record, json_t *said, FILE *out);
+/* Writes the record as a line without its closing brace. `written_forms` counts, for each form, the
+   lines since the form was last written. This form is added to it. */
+void study_form_write(json_t *record, json_t *written_forms, FILE *out);
 
 /* Returns the record of a line with a form, or NULL if the values do not fit the form. */
 json_t *study_form_fill(const json_t *form, const json_t *line);

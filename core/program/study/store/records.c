@@ -33,7 +33,7 @@ typedef struct journal_file {
 
 typedef struct form {
     char name[STUDY_FORM_NAME];
-    json_t *is;
+    json_t *content;
 } form;
 
 struct study_records {
@@ -100,15 +100,15 @@ static uint32_t find_form(const study_records *r, const char *name)
     return (uint32_t)i;
 }
 
-static uint32_t learn_form(study_records *r, const char *name, json_t *is)
+static uint32_t learn_form(study_records *r, const char *name, json_t *content)
 {
     uint32_t known = find_form(r, name);
-    if (known || !is)
+    if (known || !content)
         return known;
     r->forms = memory_resize(r->forms, (r->form_count + 1) * sizeof *r->forms);
     form *made = &r->forms[r->form_count++];
     snprintf(made->name, sizeof made->name, "%s", name);
-    made->is = json_incref(is);
+    made->content = json_incref(content);
     return (uint32_t)r->form_count;
 }
 
@@ -119,7 +119,7 @@ static json_t *restore(study_records *r, json_t *line)
     if (!name)
         return line;
     uint32_t number = learn_form(r, name, json_object_get(line, "is"));
-    json_t *record = number ? study_form_fill(r->forms[number - 1].is, line) : NULL;
+    json_t *record = number ? study_form_fill(r->forms[number - 1].content, line) : NULL;
     json_decref(line);
     return record;
 }
@@ -321,9 +321,9 @@ void study_records_close(study_records *r)
 {
     if (!r)
         return;
-    study_records_let_go(r);
+    study_records_close_files(r);
     for (size_t i = 0; i < r->form_count; i++)
-        json_decref(r->forms[i].is);
+        json_decref(r->forms[i].content);
     json_decref(r->kept);
     json_decref(r->described);
     json_decref(r->logs);
@@ -334,7 +334,7 @@ void study_records_close(study_records *r)
     free(r);
 }
 
-void study_records_let_go(study_records *r)
+void study_records_close_files(study_records *r)
 {
     for (size_t i = 0; i < r->file_count; i++)
         if (r->files[i].fd >= 0)
@@ -424,7 +424,7 @@ study_judgement study_records_judge(study_records *r, const char *key)
     const entry *e = slot_of(r, number_of(key));
     study_judgement judgement;
     if (e->form && !json_object_get(r->kept, key) &&
-        study_judgement_read(&judgement, r->forms[e->form - 1].is))
+        study_judgement_read(&judgement, r->forms[e->form - 1].content))
         return judgement;
     json_t *record = study_records_get(r, key);
     study_judgement_read(&judgement, record);

@@ -23,7 +23,7 @@ study_records *study_records_open(const char *directory, bool whole);
 void study_records_close(study_records *records); /* accepts NULL */
 /* Closes the journals, so that a worker has no open descriptor of them. They are opened again for
    each record that is read later. */
-void study_records_let_go(study_records *records);
+void study_records_close_files(study_records *records);
 size_t study_records_count(const study_records *records);
 
 enum study_state { STUDY_UNKNOWN, STUDY_NOT_OK, STUDY_OK };

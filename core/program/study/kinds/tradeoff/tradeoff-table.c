@@ -248,7 +248,7 @@ static json_t *draw(study_answer *answer, const json_t *candidates, const char *
                                        ": error against cost", "output", of, "candidates", points));
 }
 
-void study_tradeoff_tell(study_answer *answer)
+void study_tradeoff_print(study_answer *answer)
 {
     const json_t *result = answer->value, *candidates = json_object_get(result, "candidates");
     json_t *sorted = sort_by_cost(candidates), *names = names_of_counts(candidates), *of;

@@ -99,7 +99,7 @@ static void reduce(void *study, study_answer *answer)
 {
     const study_tradeoff *t = study;
     answer->value = study_tradeoff_result(t, t->ran);
-    study_tradeoff_tell(answer);
+    study_tradeoff_print(answer);
 }
 
 const study_kind study_tradeoff_kind = {

@@ -42,7 +42,7 @@ typedef struct study_tradeoff {
     size_t knob_count;
     study_point *points; /* the levels, then the candidates */
     size_t count, levels, candidates;
-    size_t ran;   /* number of levels */
+    size_t ran;   /* number of levels that ran */
     bool stalled; /* refinement no longer reduced the change of the reference */
 } study_tradeoff;
 
@@ -65,6 +65,6 @@ bool study_tradeoff_has_settled(const study_tradeoff *t, size_t level, size_t ou
 json_t *study_tradeoff_result(const study_tradeoff *t, size_t levels);
 
 /* tradeoff-table.c: writes tables and sentences from the value of the answer. */
-void study_tradeoff_tell(study_answer *answer);
+void study_tradeoff_print(study_answer *answer);
 
 #endif

@@ -8,7 +8,7 @@
 
 /* An error below a third of another one is neglected, since it adds only 5 % to it (sum of
  * squares). */
-static const double counts_for_nothing = 1 / 3.;
+static const double negligible = 1 / 3.;
 
 study_readable study_uncertainty_unit(const char *name, const json_t *of)
 {
@@ -110,7 +110,7 @@ static bool is_open(const input_bar *input, double bar)
 /* Names the inputs, the larger of the two other bars, and also the smaller one if it counts. */
 static const char *open_advice(double numerical, double model, const input_bar *input)
 {
-    double least = counts_for_nothing * fmax(numerical, model);
+    double least = negligible * fmax(numerical, model);
     bool by_grid = numerical > least && is_open(input, numerical);
     bool by_model = model > least && is_open(input, model);
     if (by_grid && by_model)
@@ -126,7 +126,7 @@ static const char *open_advice(double numerical, double model, const input_bar *
 static const char *advice(double numerical, double model, const input_bar *input)
 {
     double other = fmax(model, input->value); /* largest of the known bars */
-    bool grid_is_nothing = numerical <= counts_for_nothing * other;
+    bool grid_is_nothing = numerical <= negligible * other;
     if (!(numerical > 0) && other <= 0)
         return "none of the three is known to change it";
     if (is_open(input, fmax(numerical, model)))

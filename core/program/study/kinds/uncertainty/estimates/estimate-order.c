@@ -18,10 +18,10 @@ enum { PRIOR = 10 };
 
 /* The cheap values that have a partner on level 0, and the other cheap values. */
 typedef struct pairs {
-    double *y, *z, *all; /* all: the cheap values of all samples */
-    size_t both, count;
-    double apart; /* share of pairs with y and z on different sides of the median, from their
-                   * correlation */
+    double *y, *z, *all;      /* all: the cheap values of all samples */
+    size_t pair_count, count; /* numbers of pairs, and of all cheap values */
+    double opposite; /* share of pairs with y and z on different sides of the median, from their
+                      * correlation */
 } pairs;
 
 /* The level for which the estimate of a probability near 1/2 has the smallest variance: two normal
@@ -35,11 +35,11 @@ static size_t companion(const estimate_samples *s, double *scale, double *shift,
         estimate_moments m = estimate_pairs(s->values[0], s->values[k], s->count[0], NULL, 0);
         if (m.count < 3 || !(m.aa > 0 && m.bb > 0))
             continue;
-        double r = fmin(1, fabs(m.ab) / sqrt(m.aa * m.bb)), apart = acos(r) / acos(-1);
-        double variance = apart / (double)s->count[0] + 0.25 / (double)s->count[k];
+        double r = fmin(1, fabs(m.ab) / sqrt(m.aa * m.bb)), opposite = acos(r) / acos(-1);
+        double variance = opposite / (double)s->count[0] + 0.25 / (double)s->count[k];
         if (variance < least) {
             least = variance;
-            *most = apart;
+            *most = opposite;
             best = k;
             /* ratio of the spreads; the slope of the regression would make z narrower than level
                0 */
@@ -52,12 +52,12 @@ static size_t companion(const estimate_samples *s, double *scale, double *shift,
 
 static pairs pair_up(const estimate_samples *s)
 {
-    double scale = 1, shift = 0, apart = 0;
-    size_t k = companion(s, &scale, &shift, &apart);
+    double scale = 1, shift = 0, opposite = 0;
+    size_t k = companion(s, &scale, &shift, &opposite);
     pairs p = {.y = memory_alloc((s->count[0] + 1) * sizeof *p.y),
                .z = memory_alloc((s->count[0] + 1) * sizeof *p.z),
                .all = memory_alloc((s->count[k] + 1) * sizeof *p.all)};
-    p.apart = apart;
+    p.opposite = opposite;
     for (size_t i = 0; i < s->count[k]; i++) {
         double z = shift + scale * s->values[k][i];
         bool both = i < s->count[0];
@@ -65,8 +65,8 @@ static pairs pair_up(const estimate_samples *s)
             continue;
         p.all[p.count++] = z;
         if (both) {
-            p.y[p.both] = s->values[0][i];
-            p.z[p.both++] = z;
+            p.y[p.pair_count] = s->values[0][i];
+            p.z[p.pair_count++] = z;
         }
     }
     return p;
@@ -92,17 +92,17 @@ static void wilson(double hits, double n, double *low, double *high)
  * values not above t and the number of pairs on different sides of t. Few pairs determine this
  * number poorly, so PRIOR pairs are added, which lie on different sides as often as normal variates
  * of that correlation. */
-static void interval_of(const pairs *p, double below, size_t apart, double value, double *down,
+static void interval_of(const pairs *p, double below, size_t opposite, double value, double *down,
                         double *up)
 {
-    double n = (double)p->count, m = (double)p->both, low, high;
+    double n = (double)p->count, m = (double)p->pair_count, low, high;
     wilson(below, n, &low, &high);
     *down = below / n - low;
     *up = high - below / n;
-    if (!(p->apart > 0))
+    if (!(p->opposite > 0))
         return;
-    double prior = 4 * value * (1 - value) * p->apart;
-    double half = z95 * sqrt(((double)apart + PRIOR * prior) / (m + PRIOR) / m);
+    double prior = 4 * value * (1 - value) * p->opposite;
+    double half = z95 * sqrt(((double)opposite + PRIOR * prior) / (m + PRIOR) / m);
     *down = hypot(*down, half);
     *up = hypot(*up, half);
 }
@@ -113,17 +113,17 @@ estimate estimate_probability(const estimate_samples *s, double limit)
     size_t below = 0, only_y = 0, only_z = 0;
     for (size_t i = 0; i < p.count; i++)
         below += p.all[i] <= limit;
-    for (size_t i = 0; i < p.both; i++) {
+    for (size_t i = 0; i < p.pair_count; i++) {
         only_y += p.y[i] <= limit && p.z[i] > limit;
         only_z += p.z[i] <= limit && p.y[i] > limit;
     }
     estimate e = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
     double down, up,
-        value =
-            (double)below / (double)p.count + ((double)only_y - (double)only_z) / (double)p.both;
+        value = (double)below / (double)p.count +
+                ((double)only_y - (double)only_z) / (double)p.pair_count;
     value = fmin(1, fmax(0, value));
     interval_of(&p, (double)below, only_y + only_z, value, &down, &up);
-    if (p.both > 0)
+    if (p.pair_count > 0)
         e = (estimate){value, fmax(0, value - down), fmin(1, value + up), (double)NAN};
     pairs_free(&p);
     return e;
@@ -154,11 +154,11 @@ static int by_place(const void *a, const void *b)
 
 static event *events_of(const pairs *p, size_t *count)
 {
-    event *events = memory_alloc((p->count + 2 * p->both + 1) * sizeof *events);
+    event *events = memory_alloc((p->count + 2 * p->pair_count + 1) * sizeof *events);
     *count = 0;
     for (size_t i = 0; i < p->count; i++)
         events[(*count)++] = (event){p->all[i], SIZE_MAX, false};
-    for (size_t i = 0; i < p->both; i++) {
+    for (size_t i = 0; i < p->pair_count; i++) {
         events[(*count)++] = (event){p->y[i], i, true};
         events[(*count)++] = (event){p->z[i], i, false};
     }
@@ -206,8 +206,8 @@ static void walk(const pairs *p, const event *events, size_t count, crossing *al
             only_y -= p->y[at->pair] < at->at;
         else
             only_z++;
-        double value =
-            (double)below / (double)p->count + ((double)only_y - (double)only_z) / (double)p->both;
+        double value = (double)below / (double)p->count +
+                       ((double)only_y - (double)only_z) / (double)p->pair_count;
         for (size_t k = 0; next > at->at && k < crossings; k++)
             pass(&all[k], value, only_y, only_z, at->at, next);
     }
@@ -227,7 +227,7 @@ estimate estimate_percentile(const estimate_samples *s, double share)
     ends[0].share = share - least;
     ends[1].share = share + most;
     walk(&p, events, count, ends, 2);
-    if (p.both > 0)
+    if (p.pair_count > 0)
         e = (estimate){place_of(&middle), place_of(&ends[0]), place_of(&ends[1]), (double)NAN};
     /* n values give no bound beyond the outermost one */
     double outside = z95 * z95 / (n + z95 * z95);
