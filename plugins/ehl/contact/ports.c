@@ -318,25 +318,19 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
     [EHL_H_MIN_ERROR] =
         {.name = "h_min_error",
          .unit = "m",
-         .doc =
-             "estimate of the error of h_min: 1.5 times what the transport of errors tells of the "
-             "cells (ehl/finite-volume without heat or rest of the oil) and the truncation of the "
-             "time steps that the film gathers; else (0.16 + 0.0063 L^2)/n^2 of it (first-order "
-             "wedge: (0.4 + "
-             "0.012 L)/n) with n cells over the inlet's pressure rise and Moes' L, plus the "
-             "truncation of the time steps and of the cells that the film gathers on its way "
-             "through the contact; above 2 % what twice the cells make of the last passage",
+         .doc = "estimate of the error of h_min: 1.5 times what the cells make of it and the "
+                "truncation "
+                "of the time steps that the film gathers. The former comes from the transport of "
+                "errors "
+                "(ehl/finite-volume without heat or rest of the oil), else from a film on half the "
+                "cells and steps; above 2 % from the last passage on twice the cells",
          .dims = "t",
          .max = INFINITY},
-    [EHL_H_CENTRAL_ERROR] =
-        {.name = "h_central_error",
-         .unit = "m",
-         .doc = "estimated error of h_central. Transported as for h_min_error, or otherwise the "
-                "relative error (0.2 + 0.05 L)/n^2 (first-order wedge: (0.4 + 0.02 L)/n), with n "
-                "and L as for h_min_error, plus the truncation errors that the film at x = 0 has "
-                "accumulated; above 2 % from more cells as for h_min_error",
-         .dims = "t",
-         .max = INFINITY},
+    [EHL_H_CENTRAL_ERROR] = {.name = "h_central_error",
+                             .unit = "m",
+                             .doc = "estimated error of h_central, as for h_min_error",
+                             .dims = "t",
+                             .max = INFINITY},
     [EHL_P_MAX_ERROR] =
         {.name = "p_max_error",
          .unit = "Pa",

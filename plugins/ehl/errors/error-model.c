@@ -13,61 +13,18 @@ typedef struct contact {
     double a, p_hertz;
     double opening; /* sqrt(2 R h) */
     double buildup; /* m, pressure build-up length of the inlet, and of the fall at the outlet */
-    double L;       /* of Moes */
     double sliding; /* m/s */
 } contact;
 
-static contact contact_at(const ehl_reynolds *eq, const ehl_instant *at, double modulus, double h)
+static contact contact_at(const ehl_instant *at, double modulus, double h)
 {
-    const ehl_oil *oil = &eq->oil;
     double radius = at->radius;
-    double U = oil->viscosity * fabs(at->entrainment) / (modulus * radius);
     double a = ehl_hertz_half_width(at->load, radius, modulus);
     return (contact){.a = a,
                      .p_hertz = ehl_hertz_pressure(at->load, radius, modulus),
                      .sliding = at->sliding,
                      .opening = sqrt(2 * radius * h),
-                     .buildup = ehl_inlet_buildup(a, radius, h),
-                     .L = oil->alpha * modulus * sqrt(sqrt(2 * U))};
-}
-
-/* Relative errors due to the cells and due to the time steps. */
-typedef struct errors {
-    double space, time;
-} errors;
-
-/*
- * Relative error of a film due to the cells, with n cells over the build-up length l:
- *   [base + light + (1 - g) (by_L L + by_square L^2 + wide L (l/a)^2)]/n^2 + (1 - g) spike L^2/n
- * or [base + light + (1 - g) by_L L]/n with the first-order wedge.
- * - g goes from 0 to 1 as the film becomes that of a rigid cylinder.
- * - light: in such a film the wedge is as large as the pressure flow everywhere. With volumes
- * around the nodes the errors of both cancel, and the term is 0.
- * - Terms in L: the oil of a rigid cylinder stays thin, so that they vanish with 1 - g.
- * - spike: under larger loads the spike of a thick oil is a corner of the film; its error is of
- *   first order.
- * - wide: if l is as long as a, the spike stands in the middle of the contact.
- * The factors cover M 0.1 to 200 and L 0 to 15 on 128 to 2048 cells with n > 3. Errors above
- * EHL_KNOWN_ERROR are not known.
- */
-typedef struct in_space {
-    double base, by_L, by_square, wide, spike, first_base, first_by_L;
-} in_space;
-
-static const in_space of_h_min = {0.16, 0, 0.0045, 0, 3e-4, 0.4, 0.012},
-                      of_h_central = {0.2, 0.05, 0, 0.05, 0, 0.4, 0.02};
-static const double light_first = 0.6, light_asymmetric = 0.65;
-
-static double space_error(const ehl_reynolds *eq, const in_space *c, const contact *at)
-{
-    double n = at->buildup / eq->dx, wide = fmin(1, at->buildup / at->a);
-    double narrow = at->opening / (2 * at->a), fourth = narrow * narrow * narrow * narrow;
-    double g = fourth / (fourth + 1), L = at->L, square = L * L;
-    if (eq->wedge != 2)
-        return ehl_known_error((c->first_base + g * light_first + (1 - g) * c->first_by_L * L) / n);
-    double sum = c->base + (eq->asymmetric ? g * light_asymmetric : 0);
-    sum += (1 - g) * (c->by_L * L + c->by_square * square + c->wide * L * wide * wide);
-    return ehl_known_error(sum / (n * n) + (1 - g) * c->spike * square / n);
+                     .buildup = ehl_inlet_buildup(a, radius, h)};
 }
 
 /* Returns the largest accumulated truncation of the film near that node. */
@@ -193,10 +150,20 @@ static int is_steep(const double *p, size_t i, size_t last, double share)
     return p[i] - lowest > share * p[i];
 }
 
+double ehl_outlet_begins(const ehl_reynolds *eq, double a, double buildup)
+{
+    return (a - 1.6 * buildup - eq->first) / eq->dx;
+}
+
+int ehl_space_order(const ehl_reynolds *eq)
+{
+    return eq->asymmetric && eq->conserving ? 1 : eq->wedge;
+}
+
 /* Returns the first node of the outlet. */
 static size_t outlet_from(const ehl_reynolds *eq, const contact *c)
 {
-    return (size_t)fmax(1, ceil(ehl_carrying_stretch(eq, c->a, c->buildup).end));
+    return (size_t)fmax(1, ceil(ehl_outlet_begins(eq, c->a, c->buildup)));
 }
 
 /* Returns the highest pressure of the outlet's spike; 0: there is none. The spike is a maximum at
@@ -239,19 +206,11 @@ static ehl_spike spike_at(const ehl_reynolds *eq, const contact *c, const ehl_cr
     return (ehl_spike){seen, tip, cut, error};
 }
 
-static ehl_space_errors bounds_at(const ehl_reynolds *eq, const contact *c, const ehl_crest *of,
-                                  ehl_spike *spike)
+ehl_spike ehl_spike_of(const ehl_reynolds *eq, const ehl_instant *at, double modulus,
+                       const ehl_crest *of)
 {
-    *spike = spike_at(eq, c, of);
-    return (ehl_space_errors){
-        {space_error(eq, &of_h_min, c), space_error(eq, &of_h_central, c), spike->error}};
-}
-
-ehl_space_errors ehl_space_bounds(const ehl_reynolds *eq, const ehl_instant *at, double modulus,
-                                  const ehl_crest *of, ehl_spike *spike)
-{
-    contact c = contact_at(eq, at, modulus, of->h_central);
-    return bounds_at(eq, &c, of, spike);
+    contact c = contact_at(at, modulus, of->h_central);
+    return spike_at(eq, &c, of);
 }
 
 /* Returns the speed v of the pressure in the outlet, from p_t + v p_x = 0 by least squares. In a
@@ -294,7 +253,7 @@ void ehl_space_keep(const ehl_march *m, ehl_instant_film *f)
     f->p_max = m->state[0].highest;
     f->at = m->at;
     f->cells = eq->nodes - 1;
-    contact c = contact_at(eq, &m->at, m->history->modulus, f->h_central);
+    contact c = contact_at(&m->at, m->history->modulus, f->h_central);
     f->frame = m->step.past && m->known > 1 ? speed_of_outlet(m, &c) : 0;
     if (m->step.past)
         change_in_frame(eq->nodes, m->state[0].mass, m->step.past, m->step.rate, f->frame, eq->dx,
@@ -352,7 +311,7 @@ double ehl_peak_bound(const ehl_march *m)
     const ehl_crest of = {now->film.p, ehl_central_film(m->solver->grid, eq), now->highest};
     if (!ehl_march_is_loaded(m))
         return (double)INFINITY;
-    const contact c = contact_at(eq, &m->at, m->history->modulus, of.h_central);
+    const contact c = contact_at(&m->at, m->history->modulus, of.h_central);
     double bound = spike_at(eq, &c, &of).error * of.p_max;
     if (!(m->step.past && m->known > 1))
         return bound;
@@ -360,20 +319,21 @@ double ehl_peak_bound(const ehl_march *m)
     return narrow.climbs ? (double)INFINITY : fmax(bound, narrow.tip);
 }
 
-/* carried: relative errors that the cells have made of h_min and h_central while the film moved
- * along with the oil. */
+/* The order of magnitude of the error due to the cells, which serves the tolerances of the solution
+ * alone, over 1/n^p with n cells over the build-up length: that of h_min for M 16, L 5 and n 30. */
+static const double MAGNITUDE = 0.5;
+
+/* Records what is known of the cells alone. The errors of h_min and h_central are not known until
+ * they are found. */
 static void record_bounds(ehl_results *r, const ehl_march *m, double h_central, double p_max,
-                          const double *carried, const contact *c)
+                          const contact *c)
 {
+    const ehl_reynolds *eq = m->solver->reynolds;
     const ehl_crest of = {m->state[0].film.p, h_central, p_max};
-    ehl_spike spike;
-    ehl_space_errors e = bounds_at(m->solver->reynolds, c, &of, &spike);
-    r->by_cells = e.of[EHL_LEAST];
+    r->by_cells = MAGNITUDE * pow(eq->dx / c->buildup, eq->wedge);
     ehl_worse(&r->worst_by_cells, r->by_cells);
-    r->row_in_space[EHL_LEAST] = (e.of[EHL_LEAST] + carried[EHL_LEAST]) * r->row[EHL_H_MIN];
-    r->row_in_space[EHL_CENTRAL] =
-        (e.of[EHL_CENTRAL] + carried[EHL_CENTRAL]) * r->row[EHL_H_CENTRAL];
-    r->row_in_space[EHL_PEAK] = e.of[EHL_PEAK] * p_max;
+    r->row_in_space[EHL_LEAST] = r->row_in_space[EHL_CENTRAL] = (double)INFINITY;
+    r->row_in_space[EHL_PEAK] = spike_at(eq, c, &of).error * p_max;
     if (ehl_wants_p_max(r->wanted) && !m->rough && m->step.past && m->known > 1) {
         const narrow_peak narrow = narrow_peak_of(m, c, &of);
         r->row_in_space[EHL_TIP] = narrow.tip;
@@ -395,21 +355,15 @@ static double left_by_parabola(const ehl_march *m, size_t i)
     return bend > 0 ? fabs(t * (t * t - 1) / 6 * third) : 0;
 }
 
-/* Replaces the bounds of the errors by the cells with the computed errors. The film of a rigid
- * cylinder feels its end move from node to node, which the linear equation of the errors does not
- * show: there the bound stays if it is larger. */
-static void put_transported(ehl_results *r, const ehl_march *m, int rigid)
+/* Records the errors due to the cells from their transport, which may have failed. */
+static void put_transported(ehl_results *r, const ehl_march *m)
 {
     const double film[] = {r->row[EHL_H_MIN], r->row[EHL_H_CENTRAL]};
     double error[] = {INFINITY, INFINITY};
     if (m->transport->known)
         ehl_results_transported(r, m, error);
-    for (int k = EHL_LEAST; k <= EHL_CENTRAL; k++) {
-        double share = ehl_known_error(error[k]), *part = &r->row_in_space[k];
-        if (!rigid || !(fabs(share) * film[k] <= *part))
-            *part = share * film[k];
-        r->row_in_space[EHL_ORIGIN + k] = EHL_TRANSPORTED;
-    }
+    for (int k = EHL_LEAST; k <= EHL_CENTRAL; k++)
+        r->row_in_space[k] = ehl_known_error(error[k]) * film[k];
 }
 
 static void keep_least(double *least, double value)
@@ -425,24 +379,17 @@ void ehl_results_errors(ehl_results *r, const ehl_march *m, size_t node, double 
     size_t centre = (size_t)(g->inlet / g->dx + 0.5);
     double time[] = {least_in_time(r, m, node), EHL_CAUTION * accumulated_error_near(m, centre)};
     if (ehl_march_is_loaded(m)) {
-        const ehl_reynolds *eq = m->solver->reynolds;
-        contact c = contact_at(eq, &m->at, m->history->modulus, h_central);
-        const ehl_stretch stretch = ehl_carrying_stretch(eq, c.a, c.buildup);
-        ehl_carried_add(&r->carried, m, &stretch);
-        const double carried[] = {
-            ehl_carried_of_least(&r->carried, eq->nodes, eq->h, eq->h[node]),
-            fabs(ehl_carried_to(&r->carried, centre)),
-        };
+        contact c = contact_at(&m->at, m->history->modulus, h_central);
         record_resolution(r, m, h_central, &c);
-        record_bounds(r, m, h_central, p_max, carried, &c);
-        if (m->transport)
-            put_transported(r, m, c.opening > 2 * c.a);
+        record_bounds(r, m, h_central, p_max, &c);
         for (int k = EHL_LEAST; k <= EHL_CENTRAL; k++)
             ehl_worse(&r->worst_in_time[k], time[k]);
         keep_least(&r->least_in_time, r->row[EHL_H_MIN] * (1 - time[EHL_LEAST]));
-    } else if (m->transport && r->lowest_alone) { /* the lowest film may be one without load */
-        put_transported(r, m, 0);
+    } else if (r->lowest_alone) { /* the lowest film may be one without load */
+        r->row_in_space[EHL_LEAST] = (double)INFINITY;
     }
+    if (m->transport && (ehl_march_is_loaded(m) || r->lowest_alone))
+        put_transported(r, m);
     r->row[EHL_H_MIN_ERROR] = time[EHL_LEAST] * r->row[EHL_H_MIN] + left_by_parabola(m, node);
     r->row[EHL_H_CENTRAL_ERROR] = time[EHL_CENTRAL] * r->row[EHL_H_CENTRAL];
 }

@@ -6,8 +6,6 @@
 #include "../time/step-control.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* Films of the rows that are looked at. */
 typedef double (*films)[EHL_PASSED];
@@ -71,20 +69,6 @@ static size_t row_away(const ehl_results *r, const ehl_history *h, size_t row, d
     return row;
 }
 
-static double half_width(const ehl_results *r, const ehl_history *h, size_t row)
-{
-    ehl_instant at = ehl_history_at(h, value(r, row, EHL_TIME));
-    return ehl_hertz_half_width(at.load, at.radius, h->modulus);
-}
-
-int ehl_outlet_moves(const ehl_passage *p, const ehl_results *r, size_t row)
-{
-    const ehl_history h = engagement_of(r, p, row);
-    double a = half_width(r, &h, row);
-    size_t before = row_away(r, &h, row, a / 10, 0);
-    return fabs(a - half_width(r, &h, before)) > way_between(r, &h, before, row) / 2;
-}
-
 void ehl_passage_about(ehl_passage *p, const ehl_results *r, const ehl_march *m, size_t row,
                        ehl_row_counts *counts, int kind)
 {
@@ -96,7 +80,6 @@ void ehl_passage_about(ehl_passage *p, const ehl_results *r, const ehl_march *m,
         p->first++;
     while (p->last > row && !counts(r, p->last, kind))
         p->last--;
-    p->begin = row_away(r, &h, p->first, length, 0);
 }
 
 /* Returns the row that the next step leads to, over which the oil moves by at least `way`. Where
@@ -112,18 +95,6 @@ static size_t next_row(const ehl_results *r, const ehl_passage *p, const ehl_his
            value(r, next, EHL_TIME) - time < longest)
         next++;
     return next;
-}
-
-/* Whether steps over which the oil moves by `way` join steps of the run. */
-static int joins(const ehl_results *r, const ehl_passage *p, double way)
-{
-    const ehl_history h = engagement_of(r, p, p->first);
-    for (size_t row = p->begin, next; row < p->last; row = next) {
-        next = next_row(r, p, &h, way, row);
-        if (next > row + 1)
-            return 1;
-    }
-    return 0;
 }
 
 /* Marches to the last row, and keeps the films of the rows from p->first on at which a step ends.
@@ -183,115 +154,6 @@ static ff_status pass_on(const ehl_results *r, const ehl_march *run, const ehl_p
     return status;
 }
 
-/* Returns the films on 2^level times the cells of the run. */
-static films films_on(const ehl_passage *p, films all, int level)
-{
-    return all + (size_t)level * (p->last - p->first + 1);
-}
-
-/* Gives a row at which no step ends the larger error of its neighbours, since h_min may jump from
- * one dip to another between them. */
-static void take_larger(films all, size_t count, films error)
-{
-    for (int k = EHL_LEAST; k < EHL_PEAK; k++)
-        for (size_t i = 1, led = all[0][k] > 0; i + 1 < count; i++) {
-            double before = error[i - 1][k];
-            if (all[i][k] > 0)
-                led = 1;
-            else if (led && !isnan(error[i][k]) && !(fabs(error[i][k]) >= fabs(before)))
-                error[i][k] = before;
-        }
-}
-
-/* Finds the errors from the films up to the level `finest`. The error that remains on that level
- * follows from the order of convergence. */
-static void find_errors(const ehl_results *r, const ehl_march *m, const ehl_passage *p, films all,
-                        int finest, films error)
-{
-    const uint32_t of[] = {EHL_H_MIN, EHL_H_CENTRAL};
-    /* errors that all levels share cancel in their difference, and a film with heat has nearly the
-       same relative errors as one without */
-    const double within = m->heat || m->thermal ? 10 : 0.25;
-    const double left = ldexp(1, -ehl_carrying_order(m->solver->reynolds));
-    const films before = films_on(p, all, finest - 1), fine = films_on(p, all, finest);
-    size_t count = p->last - p->first + 1;
-    for (size_t i = count; i-- > 0;)
-        for (int k = EHL_LEAST; k < EHL_PEAK; k++) {
-            double coarse = all[i][k], film = value(r, p->first + i, of[k]);
-            if (i + 1 < count && !(coarse > 0)) { /* no step led there */
-                error[i][k] = error[i + 1][k];
-                continue;
-            }
-            double exact = fine[i][k] + (fine[i][k] - before[i][k]) * left / (1 - left);
-            error[i][k] = 1 - exact / coarse;
-            if (!(fabs(coarse / film - 1) <= within * fmax(EHL_FILM_LIMIT, fabs(error[i][k]))))
-                error[i][k] = NAN;
-            else
-                error[i][k] = ehl_known_error(error[i][k]);
-        }
-    take_larger(all, count, error);
-}
-
-/* Returns the number of rows that count and whose film differs from that of the run. */
-static size_t differing(const ehl_results *r, const ehl_passage *p, ehl_row_counts *counts,
-                        int kind, films error)
-{
-    size_t count = 0;
-    for (size_t i = p->first; i <= p->last; i++)
-        count += isnan(error[i - p->first][kind]) && counts(r, i, kind);
-    return count;
-}
-
-/* Finds the films on the cells of the run and on twice as many, and their errors; all: zeroed. */
-static ff_status pass_twins(const ehl_results *r, const ehl_march *m, const ehl_passage *p,
-                            double way, films all, films error)
-{
-    ff_status status = pass_on(r, m, p, way, 1, films_on(p, all, 0), NULL);
-    if (status == FF_OK)
-        status = pass_on(r, m, p, way, 2, films_on(p, all, 1), NULL);
-    if (status == FF_OK)
-        find_errors(r, m, p, all, 1, error);
-    return status;
-}
-
-ff_status ehl_passage_errors(const ehl_results *r, const ehl_march *m, ehl_passage *p,
-                             ehl_row_counts *counts, int kind)
-{
-    /* Many steps of a run move the oil by less than a fifth of a cell. If its load vibrates, joined
-     * steps give other films; the march is then repeated with shorter ones. */
-    const double shorter = 0.25;
-    const size_t count = p->last - p->first + 1;
-    films tried = calloc(3 * count, sizeof *tried);
-    p->film = calloc(3 * count, sizeof *p->film);
-    p->error = calloc(count, sizeof *p->error);
-    p->way = joined * m->solver->grid->dx;
-    ff_status status = tried && p->film && p->error ? FF_OK : FF_NOMEM;
-    if (status == FF_OK)
-        status = pass_twins(r, m, p, p->way, p->film, p->error);
-    size_t differ = status == FF_OK ? differing(r, p, counts, kind, p->error) : 0;
-    if (differ > 0 && joins(r, p, p->way)) {
-        films error = films_on(p, tried, 2);
-        ff_status again = pass_twins(r, m, p, shorter * p->way, tried, error);
-        if (again == FF_OK && differing(r, p, counts, kind, error) < differ) {
-            p->way *= shorter;
-            memcpy(p->film, tried, 2 * count * sizeof *tried);
-            memcpy(p->error, error, count * sizeof *error);
-        } else if (again == FF_NOMEM || again == FF_STOPPED) {
-            status = again;
-        }
-    }
-    free(tried);
-    return status;
-}
-
-ff_status ehl_passage_refine(const ehl_results *r, const ehl_march *m, ehl_passage *p)
-{
-    ff_status status = pass_on(r, m, p, p->way, 4, films_on(p, p->film, 2), NULL);
-    if (status == FF_OK)
-        find_errors(r, m, p, p->film, 2, p->error);
-    return status;
-}
-
 ff_status ehl_passage_to(const ehl_results *r, const ehl_march *m, ehl_passage *p, size_t row,
                          size_t times, ehl_instant_film *f)
 {
@@ -311,11 +173,4 @@ ff_status ehl_passage_again(const ehl_results *r, const ehl_march *m, ehl_passag
     p->last = last;
     p->begin = row_away(r, &h, first, length_of_passage(r, m, &h, first), 0);
     return pass_on(r, m, p, 0, times, film, NULL);
-}
-
-void ehl_passage_destroy(ehl_passage *p)
-{
-    free(p->film);
-    free(p->error);
-    p->film = p->error = NULL;
 }

@@ -8,7 +8,7 @@
 
 /* The film on one grid, and what is read from it. */
 typedef struct twin {
-    double central, p_max, bound; /* bound: of the error of p_max */
+    double central, p_max;
     ehl_spike spike;
 } twin;
 
@@ -23,7 +23,7 @@ static twin look_at(ehl_grid_level *l, const ehl_instant *at)
     if (!(t.central > 0 && t.p_max > 0))
         return (twin){.p_max = 0};
     const ehl_crest of = {l->film.p, t.central, t.p_max};
-    t.bound = ehl_space_bounds(eq, at, l->solver.modulus, &of, &t.spike).of[EHL_PEAK];
+    t.spike = ehl_spike_of(eq, at, l->solver.modulus, &of);
     return t;
 }
 
@@ -69,7 +69,7 @@ static double tip_by_growth(const twin *t, double fastest, double slowest)
 static double peak_error(const ehl_solver *s, double p_max, const twin *t, int k)
 {
     double slowest = t[k].spike.cut / t[k - 1].spike.cut, tip = 0;
-    double fastest = ldexp(1, -ehl_carrying_order(s->reynolds));
+    double fastest = ldexp(1, -ehl_space_order(s->reynolds));
     if (slowest < 2. / 3)
         tip = tip_by_growth(t + k, fastest, slowest);
     else

@@ -5,21 +5,18 @@
 
 #include "../contact/history.h"
 #include "../contact/ports.h"
-#include "advected-error.h"
 #include "balance.h"
 #include "space-error.h"
 
-/* Where an error due to the cells comes from: a bound, the transport of errors, or more cells. */
-enum { EHL_BOUNDED, EHL_TRANSPORTED, EHL_FINER };
+/* Columns of the errors due to the cells, m and Pa: those of EHL_BOUNDS. The errors of h_min and
+ * h_central have a sign: they are negative if the film is too thin. EHL_MEASURED, for h_min and
+ * h_central: 1 if the error was found on more cells. EHL_NARROW, for p_max: infinite if the cells
+ * do not resolve a peak; the remaining error if more cells did; else 0. EHL_TIP, for p_max, Pa: a
+ * lower bound of its error if the film is not computed on more cells. */
+enum { EHL_MEASURED = EHL_BOUNDS, EHL_NARROW = EHL_MEASURED + EHL_PEAK, EHL_TIP, EHL_SPACE };
 
-/* Columns of the errors due to the cells, m and Pa: those of EHL_BOUNDS, and where each one comes
- * from. Unless it comes from EHL_BOUNDED, the error of a film has a sign: it is negative if the
- * film is too thin. EHL_NARROW, for p_max: infinite if the cells do not resolve a peak; the
- * remaining error if more cells did; else 0. EHL_TIP, for p_max, Pa: a lower bound of its error if
- * the film is not computed on more cells. */
-enum { EHL_ORIGIN = EHL_BOUNDS, EHL_NARROW = EHL_ORIGIN + EHL_BOUNDS, EHL_TIP, EHL_SPACE };
-
-/* A bar is this many times the error, which is that of a linear equation. */
+/* A bar is this many times the error that is estimated: by a linear equation; or from two grids, if
+ * the error falls at second order, while at first order it would be so much larger. */
 #define EHL_CAUTION 1.5
 
 /* A table of rows of equal width, which grows, since their number is only known at the end. */
@@ -48,7 +45,6 @@ typedef struct ehl_results {
     ehl_rows series, field[EHL_FIELDS]; /* width 0: not wanted */
     double *row;                        /* row of the series that is being filled in */
     double *tau, *ln_eta, *memory;
-    ehl_carried carried;
     double lowest, lowest_at, highest, least_lambda;
     ehl_lowest engagements;
     ehl_sampling sampling;
@@ -61,7 +57,8 @@ typedef struct ehl_results {
     double least_in_time;             /* m, lowest value of h_min minus that error */
     double worst_peak_in_time,
         highest_in_time; /* p_max: relative; Pa, the highest that it may be */
-    /* relative bound of h_min where the film is made: of the last instant (0: none yet); of all */
+    /* order of magnitude of the error due to the cells: of the last instant (0: none yet); of all
+     */
     double by_cells, worst_by_cells;
     double tolerance; /* the largest tolerance that the films were solved to */
     double share;     /* share of the bound of p_max that remains at rows without a look; 1: all */

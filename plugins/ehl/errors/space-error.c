@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 /* film_of returns h_min, h_central or p_max of a row. part_of returns its error due to the cells, m
- * or Pa: a bound, or the measured error, which is negative where the film is too thin. */
+ * or Pa; those of h_min and h_central are negative where the film is too thin. */
 static double film_of(const ehl_results *r, size_t row, int kind)
 {
     static const uint32_t of[] = {EHL_H_MIN, EHL_H_CENTRAL, EHL_P_MAX};
@@ -16,17 +16,6 @@ static double film_of(const ehl_results *r, size_t row, int kind)
 static double *part_of(const ehl_results *r, size_t row, int kind)
 {
     return &r->space.data[row * EHL_SPACE + (size_t)kind];
-}
-
-/* Whether the part of a row is its error, with its sign, and not a bound. */
-static int is_signed(const ehl_results *r, size_t row, int kind)
-{
-    return *part_of(r, row, EHL_ORIGIN + kind) > EHL_BOUNDED;
-}
-
-static int is_measured(const ehl_results *r, size_t row, int kind)
-{
-    return *part_of(r, row, EHL_ORIGIN + kind) > EHL_TRANSPORTED;
 }
 
 /* Whether the row has a bound; films below 2 % of the largest load have none. */
@@ -136,61 +125,90 @@ static size_t worst_row(const ehl_results *r, int kind)
     return worst;
 }
 
+/* Returns the row whose bar ends lowest. */
+static size_t lowest_end(const ehl_results *r)
+{
+    size_t lowest = 0;
+    double least = HUGE_VAL;
+    for (size_t i = 0; i < r->series.count; i++) {
+        double end = film_of(r, i, EHL_LEAST) - *part_of(r, i, EHL_LEAST);
+        if (end < least) {
+            least = end;
+            lowest = i;
+        }
+    }
+    return lowest;
+}
+
 /* Returns the relative error of an output due to the cells. The lowest film of all lies between the
  * least lower end and the least upper end of the bars of all rows. */
 static double error_of(const ehl_results *r, int kind)
 {
-    double error = error_of_row(r, worst_row(r, kind), kind), highest = HUGE_VAL;
-    for (size_t i = 0; i < r->series.count && kind == EHL_LEAST && r->lowest_alone; i++) {
-        double part = *part_of(r, i, kind);
-        highest = fmin(highest, film_of(r, i, kind) + (is_signed(r, i, kind) ? -part : part));
-    }
-    return isfinite(highest) ? fmax(error, highest / r->lowest - 1) : error;
+    double error = error_of_row(r, worst_row(r, kind), kind);
+    size_t row = lowest_end(r);
+    double end = film_of(r, row, EHL_LEAST) - *part_of(r, row, EHL_LEAST);
+    return kind == EHL_LEAST && r->lowest_alone && isfinite(end) ? fmax(error, end / r->lowest - 1)
+                                                                 : error;
 }
 
+/* Returns the row that decides this error. */
+static size_t deciding_row(const ehl_results *r, int kind)
+{
+    size_t row = worst_row(r, kind);
+    return error_of(r, kind) > error_of_row(r, row, kind) ? lowest_end(r) : row;
+}
+
+/* Whether a film is measured with the one that decides: if its error is large, or if it may be the
+ * lowest. */
 static int is_doubtful(const ehl_results *r, size_t row, int kind)
 {
-    return error_of_row(r, row, kind) > EHL_FILM_LIMIT / 2;
+    const double film = film_of(r, row, kind), bar = fabs(*part_of(r, row, kind));
+    return error_of_row(r, row, kind) > EHL_FILM_LIMIT / 2 ||
+           (is_extreme(r, kind) && film - bar < r->lowest);
 }
 
-/* Whether a film may be the lowest. If the outlet moves, errors are larger than their bounds, so
- * that films up to 10 % thicker count too. */
-static int is_low(const ehl_results *r, size_t row, int kind)
+/* Puts errors in place of those of an output, from films on twice the cells of the rows. */
+static void put_errors(ehl_results *r, const ehl_march *m, const ehl_passage *p,
+                       double (*film)[EHL_PASSED], int kind)
 {
-    return is_doubtful(r, row, kind) || film_of(r, row, kind) < 1.1 * r->lowest;
-}
-
-/* Returns the largest ratio of a measured error to its bound, at most 1. Small bounds are left
- * out, since their ratio says nothing about larger ones; 1 if all are small. */
-static double largest_share(const ehl_results *r, const ehl_passage *p, int kind)
-{
-    double share = 0;
+    const double left = ldexp(1, -ehl_space_order(m->solver->reynolds));
     for (size_t i = p->first; i <= p->last; i++) {
-        double bound = fabs(*part_of(r, i, kind)) / film_of(r, i, kind),
-               e = fabs(p->error[i - p->first][kind]);
-        if (bound > EHL_FILM_LIMIT / 2)
-            share = fmax(share, e <= bound ? e / bound : 1);
+        double coarse = film_of(r, i, kind), fine = film[i - p->first][kind];
+        double off = (coarse - fine) / (1 - left) / coarse, *part = part_of(r, i, kind);
+        if (!has_bound(r, i, kind))
+            continue;
+        *part = ehl_known_error(EHL_CAUTION * off) * coarse;
+        *part_of(r, i, EHL_MEASURED + kind) = 1;
+        r->measured[kind] = 1;
     }
-    return share > 0 ? share : 1;
 }
 
-/* Replaces bounds and transported errors by measured errors. At rows that were not measured, bounds
- * are multiplied by the largest ratio found, and transported errors stay. A film without load has
- * no bound; its error counts only if the lowest film alone is wanted. */
-static void put_errors(ehl_results *r, const ehl_passage *p, int kind)
+/* Measures the errors of the films around a row. */
+static ff_status measure_passage(ehl_results *r, const ehl_march *m, ehl_passage *p, size_t row,
+                                 int kind)
 {
-    double share = largest_share(r, p, kind);
-    for (size_t i = 0; i < r->series.count; i++) {
-        double *part = part_of(r, i, kind);
-        if (i < p->first || i > p->last) {
-            *part *= is_signed(r, i, kind) ? 1 : share;
-        } else if ((has_bound(r, i, kind) || is_extreme(r, kind)) &&
-                   !isnan(p->error[i - p->first][kind])) {
-            *part = p->error[i - p->first][kind] * film_of(r, i, kind);
-            *part_of(r, i, EHL_ORIGIN + kind) = EHL_FINER;
-            r->measured[kind] = 1;
-        }
+    ehl_passage_about(p, r, m, row, is_doubtful, kind);
+    double(*film)[EHL_PASSED] = malloc((p->last - p->first + 1) * sizeof *film);
+    ff_status status = film ? ehl_passage_again(r, m, p, p->first, p->last, 2, film) : FF_NOMEM;
+    for (int k = EHL_LEAST; k <= EHL_CENTRAL && status == FF_OK; k++)
+        put_errors(r, m, p, film, k);
+    free(film);
+    return status;
+}
+
+/* Measures the films that decide the error of an output, and a second time if another row decides
+ * it then. */
+static ff_status measure_film(ehl_results *r, const ehl_march *m, ehl_passage *p, int kind)
+{
+    enum { MOST = 2 };
+    ff_status status = FF_OK;
+    for (int k = 0; k < MOST && status == FF_OK; k++) {
+        size_t row = deciding_row(r, kind);
+        if (!(error_of(r, kind) > EHL_FILM_LIMIT) || *part_of(r, row, EHL_MEASURED + kind) > 0)
+            break;
+        status = measure_passage(r, m, p, row, kind);
     }
+    return status == FF_NOMEM || status == FF_STOPPED ? status : FF_OK;
 }
 
 /* Returns the row of the lowest film of all. */
@@ -200,89 +218,6 @@ static size_t lowest_row(const ehl_results *r)
     while (row + 1 < r->series.count && film_of(r, row, EHL_LEAST) > r->lowest)
         row++;
     return row;
-}
-
-static int is_looked_at(const ehl_passage *p, size_t row)
-{
-    return row >= p->first && row <= p->last;
-}
-
-/* Whether the row of the lowest film is measured: if its error is large, or if it has a bound
- * and the outlet moves, since bounds are those of steady films. */
-static int lowest_counts(const ehl_results *r, const ehl_passage *p, size_t row, double enough)
-{
-    return is_signed(r, row, EHL_LEAST) ? error_of(r, EHL_LEAST) > enough
-                                        : ehl_outlet_moves(p, r, row);
-}
-
-/* Returns the row to measure next; SIZE_MAX: none. It is the worst row if that row is not measured
- * yet; else the row of the lowest film if lowest_counts says so. */
-static size_t find_row(const ehl_results *r, const ehl_passage *p, int kind, double enough)
-{
-    size_t row = worst_row(r, kind);
-    if (error_of_row(r, row, kind) > enough && !is_looked_at(p, row))
-        return row;
-    row = lowest_row(r);
-    return is_extreme(r, kind) && !is_measured(r, row, kind) && !is_looked_at(p, row) &&
-                   lowest_counts(r, p, row, enough)
-               ? row
-               : SIZE_MAX;
-}
-
-/* Whether the verdict depends on how much of an error is left on twice the cells: half of the error
- * on the cells of the run, or nothing. */
-static int order_decides(const ehl_results *r, const ehl_march *m, int kind)
-{
-    double left = ldexp(1, -ehl_carrying_order(m->solver->reynolds));
-    double found = (1 - left) * error_of(r, kind);
-    return found <= EHL_FILM_LIMIT && 2 * found > EHL_FILM_LIMIT;
-}
-
-/* Puts the measured errors in place of what is known of the output that they were measured for. A
- * transported error stands on its own, so that the passage serves the other output as well. */
-static void put_measured(ehl_results *r, const ehl_march *m, const ehl_passage *p, int kind)
-{
-    put_errors(r, p, kind);
-    if (m->transport)
-        put_errors(r, p, kind == EHL_LEAST ? EHL_CENTRAL : EHL_LEAST);
-}
-
-/* Measures the errors of the films around a row. */
-static ff_status measure_passage(ehl_results *r, const ehl_march *m, ehl_passage *p, size_t row,
-                                 int kind)
-{
-    int low = is_extreme(r, kind) && (is_signed(r, row, kind) || ehl_outlet_moves(p, r, row));
-    ehl_row_counts *counts = low ? is_low : is_doubtful;
-    ehl_passage_destroy(p);
-    ehl_passage_about(p, r, m, row, counts, kind);
-    ff_status status = ehl_passage_errors(r, m, p, counts, kind);
-    if (status == FF_OK)
-        put_measured(r, m, p, kind);
-    return status;
-}
-
-/* Measures the films that decide the error of an output, and a second time if another row is then
- * the worst. The lowest film of all is measured from half of the limit on. */
-static ff_status measure_film(ehl_results *r, const ehl_march *m, ehl_passage *p, int kind)
-{
-    enum { MOST = 2 };
-    double enough = is_extreme(r, kind) ? EHL_FILM_LIMIT / 2 : EHL_FILM_LIMIT;
-    ff_status status = FF_OK;
-    p->first = 1; /* no row has been measured */
-    p->last = 0;
-    for (int k = 0; k < MOST && status == FF_OK; k++, enough = EHL_FILM_LIMIT) {
-        size_t row = find_row(r, p, kind, enough);
-        if (row == SIZE_MAX)
-            break;
-        status = measure_passage(r, m, p, row, kind);
-    }
-    if (status == FF_OK && p->film && order_decides(r, m, kind)) {
-        status = ehl_passage_refine(r, m, p);
-        if (status == FF_OK)
-            put_measured(r, m, p, kind);
-    }
-    ehl_passage_destroy(p);
-    return status == FF_NOMEM || status == FF_STOPPED ? status : FF_OK;
 }
 
 /* Inserts a look, in the order of the rows. */
@@ -388,9 +323,10 @@ ff_status ehl_results_measure(ehl_results *r, const ehl_march *m, const ehl_hist
     ff_status status = FF_OK;
     if (r->rough || m->solver->outside)
         return FF_OK;
-    if (count > 1 && ehl_wants_h_min(r->wanted))
+    const int films = count > 1 && !m->heat && !m->thermal;
+    if (films && ehl_wants_h_min(r->wanted))
         status = measure_film(r, m, &p, EHL_LEAST);
-    if (status == FF_OK && count > 1 && ehl_wants_h_central(r->wanted))
+    if (status == FF_OK && films && ehl_wants_h_central(r->wanted))
         status = measure_film(r, m, &p, EHL_CENTRAL);
     if (status == FF_OK && ehl_wants_p_max_itself(r->wanted) && !m->heat && !m->thermal)
         status = ehl_narrow_peaks(r, m, &p);
@@ -400,7 +336,7 @@ ff_status ehl_results_measure(ehl_results *r, const ehl_march *m, const ehl_hist
 /* Returns how many cells would meet the limit of an error of a film, by its order. */
 static double enough_cells(const ehl_march *m, double error, double limit)
 {
-    double times = pow(error / limit, 1. / ehl_carrying_order(m->solver->reynolds));
+    double times = pow(error / limit, 1. / ehl_space_order(m->solver->reynolds));
     return 16 * ceil((double)(m->solver->grid->nodes - 1) * times / 16);
 }
 
@@ -422,8 +358,10 @@ static void report_cells(const ehl_results *r, const ehl_march *m, int kind, con
                  r->finest, r->share);
     else if (kind != EHL_PEAK && r->measured[kind])
         snprintf(how, sizeof how, "; measured by the last passage of the contact on more cells");
-    else if (kind != EHL_PEAK && m->transport)
-        snprintf(how, sizeof how, "; 1.5 times what their transport tells");
+    else if (kind != EHL_PEAK)
+        snprintf(how, sizeof how, "; 1.5 times what %s tell%s",
+                 m->transport ? "their transport" : "half the cells and steps",
+                 m->transport ? "s" : "");
     if (kind == EHL_PEAK && isinf(error))
         snprintf(enough, sizeof enough,
                  "; a peak as narrow as a few cells is not resolved: p_max is at least what they "
@@ -449,8 +387,7 @@ int ehl_results_estimate_cells(const ehl_results *r)
 {
     if (r->rough || !(ehl_wants_h_min(r->wanted) || ehl_wants_h_central(r->wanted)))
         return 0;
-    return !r->lowest_alone || r->series.count == 0 || has_bound(r, lowest_row(r), EHL_LEAST) ||
-           is_signed(r, lowest_row(r), EHL_LEAST);
+    return !r->lowest_alone || r->series.count == 0 || has_bound(r, lowest_row(r), EHL_LEAST);
 }
 
 void ehl_results_report_cells(const ehl_results *r, const ehl_march *m)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Relative errors of a film due to the cells. Bounds follow from the known errors of similar films.
- * The error of the pressure peak at one instant is measured on more cells; passage-refinement.h
- * measures the errors of h_min and h_central. */
+/* Relative errors of a film due to the cells. Those of h_min and h_central come from their
+ * transport or from a film on half the cells, that of the pressure peak from a model of its spike.
+ * Errors above their limits are measured on more cells. */
 #ifndef EHL_SPACE_ERROR_H
 #define EHL_SPACE_ERROR_H
 
@@ -9,12 +9,12 @@
 
 #include <math.h>
 
-/* Above these limits the quality lines are doubtful, and the errors are measured. */
+/* Above these limits the quality lines are doubtful. */
 #define EHL_FILM_LIMIT 0.02
 #define EHL_PEAK_LIMIT 0.1
 
-/* A larger error due to the cells is taken as infinite, that is, not known: on cells so coarse,
- * neither the factors of the bounds nor the order of convergence holds. */
+/* A larger error due to the cells is taken as infinite, that is, not known: on cells so coarse, the
+ * order of convergence does not hold. */
 #define EHL_KNOWN_ERROR 0.5
 
 static inline double ehl_known_error(double error)
@@ -22,7 +22,7 @@ static inline double ehl_known_error(double error)
     return fabs(error) <= EHL_KNOWN_ERROR ? error : (double)INFINITY;
 }
 
-/* The values of a film from which its bounds follow. */
+/* The values of a film from which the error of its peak follows. */
 typedef struct ehl_crest {
     const double *p;
     double h_central, p_max;
@@ -37,13 +37,16 @@ typedef struct ehl_spike {
 
 enum { EHL_LEAST, EHL_CENTRAL, EHL_PEAK, EHL_BOUNDS };
 
-/* Errors of h_min, h_central and p_max. */
-typedef struct ehl_space_errors {
-    double of[EHL_BOUNDS];
-} ehl_space_errors;
+/* Estimates the spike at the outlet, which the cells may cut off. */
+ehl_spike ehl_spike_of(const ehl_reynolds *eq, const ehl_instant *at, double modulus,
+                       const ehl_crest *of);
 
-ehl_space_errors ehl_space_bounds(const ehl_reynolds *eq, const ehl_instant *at, double modulus,
-                                  const ehl_crest *of, ehl_spike *spike);
+/* Returns the node where the outlet begins, 1.6 build-up lengths inside x = a, as a fraction. */
+double ehl_outlet_begins(const ehl_reynolds *eq, double a, double buildup);
+
+/* Returns the order of the errors due to the cells. It is 1 for control volumes that may be
+   cavitated, since the change in time is then taken at one node. */
+int ehl_space_order(const ehl_reynolds *eq);
 
 /* The film of an instant, and how it changes. */
 typedef struct ehl_instant_film {

@@ -46,13 +46,16 @@ double ehl_pressure_of_error(const ehl_reynolds *eq, const double *error, double
 void ehl_results_peak_in_time(ehl_results *r, const ehl_march *m, size_t peak, double p_max)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
-    const ehl_carried *c = &r->carried;
     double a = ehl_hertz_half_width(m->at.load, m->at.radius, m->history->modulus);
     r->row[EHL_P_MAX_ERROR] = 0;
-    if (m->rough || !ehl_wants_p_max(r->wanted) || !ehl_march_is_loaded(m) || c->end <= c->first)
+    if (m->rough || !ehl_wants_p_max(r->wanted) || !ehl_march_is_loaded(m))
         return;
-    size_t node = peak < c->first ? c->first : peak < c->end ? peak : c->end;
-    double x = eq->first + (double)node * eq->dx;
+    double buildup = ehl_inlet_buildup(a, m->at.radius, r->row[EHL_H_CENTRAL]);
+    double first = ceil((buildup - a - eq->first) / eq->dx),
+           end = floor(ehl_outlet_begins(eq, a, buildup));
+    if (!(end > first))
+        return;
+    double x = eq->first + fmax(first, fmin((double)peak, end)) * eq->dx;
     double off = fabs(ehl_pressure_of_error(eq, m->accumulated_error, m->history->modulus, a, x));
     r->row[EHL_P_MAX_ERROR] = off;
     ehl_worse(&r->worst_peak_in_time, off / p_max);

@@ -25,15 +25,14 @@ static void films_without(ehl_results *r, const ehl_march *m, const double *erro
     memcpy(eq->h, kept, r->nodes * sizeof *kept);
 }
 
-/* Turns errors, relative, into bars with a floor that fades within a passage. An error that is not
- * finite is not known, and its bar is infinite. */
-static void widen(const ehl_march *m, double *error, double *known)
+/* Turns errors, relative, into bars with a floor that fades while the oil moves by `way`, in
+ * half-widths. An error that is not finite is not known, and its bar is infinite. */
+static void widen(double way, double *error, double *known)
 {
-    double way = m->known > 1 ? m->at.entrainment * (m->state[0].time - m->state[1].time) : 0;
     double largest = 0;
     for (int k = 0; k < EHL_PEAK; k++)
         largest = fmax(largest, isfinite(error[k]) ? fabs(error[k]) : 0);
-    *known = fmax(largest, *known * exp(-way / (2 * m->solver->grid->half_width)));
+    *known = fmax(largest, *known * exp(-way / 2));
     for (int k = 0; k < EHL_PEAK; k++)
         error[k] = isfinite(error[k])
                        ? copysign(EHL_CAUTION * fmax(fabs(error[k]), FLOOR * *known), error[k])
@@ -46,5 +45,6 @@ void ehl_results_transported(ehl_results *r, const ehl_march *m, double *error)
     films_without(r, m, m->transport->h, error);
     for (int k = 0; k < EHL_PEAK; k++)
         error[k] = 1 - error[k] / film[k];
-    widen(m, error, &r->known_by_cells);
+    double way = m->known > 1 ? m->at.entrainment * (m->state[0].time - m->state[1].time) : 0;
+    widen(way / m->solver->grid->half_width, error, &r->known_by_cells);
 }

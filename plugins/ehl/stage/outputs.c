@@ -63,13 +63,11 @@ ff_status ehl_results_create(ehl_results *r, const ff_host *host, uint64_t wante
         r->field[k].width = wants(r, EHL_FIRST_FIELD + k) ? nodes : 0;
     if (ehl_balance_create(&r->balance, m) != FF_OK)
         return FF_NOMEM;
-    r->memory = calloc(4 * nodes, sizeof *r->memory);
+    r->memory = calloc(2 * nodes, sizeof *r->memory);
     if (!r->memory)
         return FF_NOMEM;
     r->tau = r->memory;
     r->ln_eta = r->memory + nodes;
-    r->carried.error = r->memory + 2 * nodes;
-    r->carried.room = r->memory + 3 * nodes;
     return FF_OK;
 }
 

@@ -109,6 +109,12 @@ static const double SHORT = 0.9;
 /* Fits the domain and its nodes to the contact, the oil and the roughness. */
 static void fit_domain(const ehl_model *m, ehl_run *r)
 {
+    if (r->like) {
+        r->grid = *r->like;
+        r->grid.nodes = (size_t)m->cells + 1;
+        r->grid.dx = (r->grid.inlet + r->grid.outlet) / (double)m->cells;
+        return;
+    }
     double rq = r->rough.count > 0 ? ehl_roughness_rq(&r->rough) : 0;
     double supplied = ehl_inlet_supplied(&r->history, &r->oil);
     ehl_grid_fit(&r->grid, (size_t)m->cells, m->inlet, m->outlet, &r->history, &r->oil, rq,

@@ -19,6 +19,7 @@ typedef struct ehl_run {
     double hardness; /* hardness of rough flanks, Pa; 0: they stay elastic */
     int gears_tell;  /* whether the hardness comes from the gears */
     ehl_oil oil;
+    const ehl_grid *like; /* the grid of a run that has twice the cells of this one; or NULL */
     ehl_grid grid;
     ehl_reynolds reynolds;
     double *kernel;

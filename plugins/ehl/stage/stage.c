@@ -6,6 +6,7 @@
 #include "../time/start.h"
 #include "landings.h"
 #include "run.h"
+#include "twin.h"
 
 #include <flankfilm/author.h>
 
@@ -267,6 +268,14 @@ static int is_of_places(uint32_t output)
            output == EHL_PLASTIC_DEPTH || output == EHL_ROUGHNESS;
 }
 
+/* Whether no transport of errors tells those of a film that is wanted. */
+static int needs_twin(const ehl_run *r)
+{
+    const uint64_t wanted = r->results.wanted;
+    return !r->march.transport && !r->march.rough &&
+           (ehl_wants_h_min(wanted) || ehl_wants_h_central(wanted));
+}
+
 static ff_status evaluate(ehl_model *m, uint64_t wanted, const ff_array *in)
 {
     ehl_run r = {0};
@@ -309,6 +318,8 @@ static ff_status evaluate(ehl_model *m, uint64_t wanted, const ff_array *in)
     r.results.cutoff = in[EHL_IN_CUTOFF].data ? *in[EHL_IN_CUTOFF].data : 0;
     if (status == FF_OK)
         status = march(m, in, &r);
+    if (status == FF_OK && needs_twin(&r))
+        status = ehl_twin_errors(m, in, &r);
     if (status == FF_OK)
         status = ehl_results_measure(&r.results, &r.march, &r.whole, m->steps > 0);
     if (status == FF_OK)

@@ -31,7 +31,8 @@ static ehl_spike look_at(const ehl_laws *laws, double tip, double *error)
         highest = fmax(highest, p[i]);
     }
     const ehl_crest of = {p, 1e-6, highest};
-    *error = ehl_space_bounds(&eq, &at, modulus, &of, &spike).of[EHL_PEAK];
+    spike = ehl_spike_of(&eq, &at, modulus, &of);
+    *error = spike.error;
     ehl_reynolds_destroy(&eq);
     return spike;
 }
