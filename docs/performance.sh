@@ -52,9 +52,8 @@ def move(a, b):
 
 print("""# What a film costs
 
-Made by `sh docs/performance.sh build`. The instructions are counted by callgrind, since times on shared machines are not reproducible. The
-benchmark (`build/tests/bench/bench-ehl CELLS STEPS`) is the film of a smooth tooth with Doolittle-Tait and Eyring, including its start. The table also has
-the minimum work for its counts with n cells: floating-point operations (10 n log2 2n for a convolution, 52 n for the band matrix in each convolution
+Made by `sh docs/performance.sh build`. The instructions are counted by callgrind, since times on shared machines are not reproducible. uding its start. The last columns estimate the least work for the counted convolutions, Newton steps and
+Krylov vectors with n cells: floating-point operations (10 n log2 2n for a convolution, 52 n for the band matrix in each convolution
 and Newton step, 62 n for a Krylov vector, 254 n for an evaluation of laws and balances) and memory traffic for the band factors (28 numbers per
 cell, read once in each solution).
 
@@ -67,18 +66,18 @@ for line in open(counted):
     print("| %.0f | %.0f | %.3f | %.0f | %.0f | %.2f | %.2f |" % (
         cells, steps, giga, each, flops, flops / each, 28 * 8 * cells * (convolutions + newton) / 1e6))
 print("""
-With 256 cells, 0.426e9 instructions measure the errors on finer cells (`ehl_results_measure`). `docs/lines.sh` measures the cost of the other quality lines;
-its result is a row of [campaigns.md](campaigns.md).
+With 256 cells, 0.426e9 of the instructions measure the errors on finer cells (`ehl_results_measure`); [campaigns.md](campaigns.md) has the cost of the other quality
+lines.
 
 | film | instructions |
 |---|---|
-| 512 cells, `thermal: inlet` over `none` (`valgrind --tool=callgrind flankfilm run configs/li-kahraman-2011.yaml --set mesh.use=stiffness/iso-6336 --set film.cells=512 --set film.thermal=inlet --set "outputs=[film.h_min]"`, `ehl_evaluate`) | 1.047 times |
+| 512 cells, `thermal: inlet` compared with `none` (`valgrind --tool=callgrind flankfilm run configs/li-kahraman-2011.yaml --set mesh.use=stiffness/iso-6336 --set film.cells=512 --set film.thermal=inlet --set "outputs=[film.h_min]"`, `ehl_evaluate`) | 1.047 times |
 | 512 cells, 1000 steps, `thermal: full` | 3.33e9 |
 | rough, 150 rpm, 512 cells, by output step (`valgrind --tool=callgrind build/tests/bench/bench-ehl 512 1000 150`) | 11.9e6 |
 
 ## The film of a vibrating gear pair
 
-The dynamic tooth of Li & Kahraman's pair with its vibrating load, without errors:
+The film of Li & Kahraman's pair under dynamic load, without error estimates:
 `valgrind --tool=callgrind --trace-children=yes build/flankfilm run configs/li-kahraman-2011.yaml --set mesh.use=stiffness/iso-6336
 --set film.cells=512 --set "outputs=[film.h_min]"`, `ehl_evaluate`; counts by `"outputs=[film.h_min,film.newton_steps,film.convolutions]"`.
 
@@ -90,11 +89,10 @@ Compared with the same equations solved to 1e-9, `h_min` differs by at most 7.9e
 
 ## What the presets leave
 
-The film of the paper's point I at 1000 steps, with its presets and with `tolerance: 1e-9`, which solves the same
-equations on the same grid exactly. The table has the largest relative change of `h_min` and `p_max` at any instant, and the error that the run reports for its
+The film of the paper's point I at 1000 steps, with presets and with `tolerance: 1e-9`, which solves the same equations on the same grid nearly exactly. The table has the largest relative change of `h_min` and `p_max` at any instant, and the error that the run reports for its
 cells.
 
-| cells | Newton steps | convolutions | with 1e-9 | h_min moves by | p_max moves by | stated error by the cells |
+| cells | Newton steps | convolutions | convolutions with 1e-9 | change of h_min | change of p_max | stated error due to the cells |
 |---|---|---|---|---|---|---|""")
 for cells in (128, 256, 512, 1024, 2048):
     preset, quality = film("ehl/finite-volume", cells)
@@ -105,7 +103,7 @@ for cells in (128, 256, 512, 1024, 2048):
 print("""
 ## A tenth of a per cent
 
-The same film with steps matched to its cells, against 4096 cells and 8000 steps at 251 instants: the largest error of `h_min(t)` and of `h_central(t)`
+The same film with steps in proportion to its cells, compared with 4096 cells and 8000 steps at 251 instants: the largest error of `h_min(t)` and of `h_central(t)`
 along the path, the error after Richardson extrapolation from two levels (second order), and the error that the run reports for cells and steps.
 
 | cells | steps | h_min | extrapolated | h_central | extrapolated | stated for h_min |
@@ -122,12 +120,12 @@ for (_, coarse, _), (cells, fine, stated) in zip(levels, levels[1:-1]):
         row += [move(fine[name], exact), move([f + (f - c) / 3 for f, c in zip(fine[name], coarse[name])], exact)]
     print("| %d | %d | %.3f %% | %.3f %% | %.3f %% | %.3f %% | %.2f %% |" % ((cells, cells * 1000 // 512) + tuple(100 * x for x in row + [stated])))
 print("""
-1024 cells and 2000 steps reach 0.1 % everywhere; the extrapolation of 512 and 256 cells does not. On random scenes `h_min` hardly ever has a reliable
-order of convergence ([error bars](validation/error-bars.md#extrapolated-answers)), so answers are not extrapolated.
+1024 cells and 2000 steps reach 0.1 % everywhere; the extrapolation of 512 and 256 cells does not. For random gear
+pairs, `h_min` hardly ever has a reliable order of convergence ([error bars](validation/error-bars.md#extrapolated-answers)), so answers are not extrapolated.
 
 ## Rough flanks
 
-`build/tests/bench/bench-ehl CELLS 1000 150`: both flanks with Rq 0.5 um at 150 rpm, by output step.
+`build/tests/bench/bench-ehl CELLS 1000 150`: both flanks with Rq 0.5 um at 150 rpm, for each output step.
 
 | cells | Newton steps | convolutions | 1e6 instructions |
 |---|---|---|---|""")
@@ -136,23 +134,11 @@ for line in open(rough):
     print("| %s | %s | %s | %.1f |" % (cells, newton, convolutions, float(giga)))
 print("""
 With 512 cells, the numbers are 20.4, 53.2 and 11.9; with a fixed cut-off, the asperity share changes by 6 % from 512 to 1024 cells
-([mixed](validation/mixed.md)). With all waves of the flanks, 512 cells took 40.4 Newton steps, 112 convolutions and 28.5e6 instructions.
-The cut-off (`roughness_cutoff`) reduced that to 32.3 and 90.8, and time steps as long as the asperity share allows to 22.4 and 62.0
-(14.3e6). `tolerance: auto` of 1e-4 instead of 1e-5 and shorter loops gave the rest.
+([mixed](validation/mixed.md)).
 
-With a fixed cut-off, the work grows with the cells to the power of some 1.7. From 512 to 2048 cells the number of steps grows by 1.2, the Newton
-steps in each from 3.0 to 5.1, since more nodes change between film, cavity and contact, and the convolutions in a Newton step from 3.3 to 4.2.
-The factorisation takes 18 % of the instructions.
-
-These attempts did not reduce the 52.5 Newton steps of each of the first 400 output steps (flanks with all waves): contacts predicted from the extrapolated
-gap (52.5); predicted nodes without pressure as well (52.1, and 137 convolutions instead of 126); p may fall to 0 or to 0.8 of itself in a step instead of 0.5
-(52.1, 54.2); half or no extrapolation (61.7, 67.2); a parabola instead of a line (same first step); a more exact solution that needs no further
-step if no node changes (57.1, and 150 convolutions); changes of p up to 0.3 instead of 0.1 of the Hertz pressure (4 % more).
-
-## Against the release before
-
-For the smooth film with 256 cells, 1000 steps, 1500 rpm and `tolerance: 1e-9`, `h_min` and `p_max` differ from those of c93fe0c by
-at most 5.4e-10, with either `cavitation`, and from those of 441d7a7 by 1.6e-10.
+With a fixed cut-off, the work grows with the cells to the power of some 1.7. From 512 to 2048 cells, the number of
+steps grows by a factor of 1.2, the Newton steps in each from 3.0 to 5.1, since more nodes change between film, cavity
+and contact, and the convolutions in each Newton step from 3.3 to 4.2. The factorisation takes 18 % of the instructions.
 
 ## Against a dense solver
 

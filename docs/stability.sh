@@ -15,12 +15,14 @@ cd "$here/.."
 cat >"$page" <<PAGE
 # Where the numbers can be trusted
 
-Maps of \`configs/studies/stability-*.yaml\` in full, by \`docs/stability.sh\` on $(date -u +%Y-%m-%d), flankfilm
-$("$program" --version | sed 's/flankfilm //'), $(uname -m). What the verdicts mean, and how to draw such a map for a
-pipeline of your own, stands in the [guide](guide/accuracy.md#where-can-it-be-trusted). A *silent* cell is one
-whose lines of quality all hold while the finer twin differs by more than three times the estimate
-that is printed. Halved distances between cells of the grid count, too. A case may take $limit, more than the files say,
-so that none fails for other work on the machine. Figures show the maps; below each stands what decides where.
+Maps of \`configs/studies/stability-*.yaml\`, computed in full by \`docs/stability.sh\` on $(date -u +%Y-%m-%d), flankfilm $("$program" --version | sed 's/flankfilm //'),
+$(uname -m). The [guide](guide/accuracy.md#where-can-it-be-trusted) explains the verdicts and says how to draw such a
+map for your own pipeline. The table counts cells with each verdict; cells added by halving the distance between
+cells of the grid ("between") count, too. In a *silent* cell all quality lines are good although a twin differs by
+more than three times the printed estimate. The last column is the largest such difference, divided by the
+estimate. A case could take $limit, more than the files allow, so that none failed because of other work on the
+machine. Below each map stand the quality lines that decide its verdicts, with the number of cells and one value as
+an example.
 
 | map | cells | converged | outside | physical | unchecked | degraded | silent | failed | refused | worst difference over estimate |
 |---|---|---|---|---|---|---|---|---|---|---|

@@ -124,12 +124,11 @@ sh "$here/draw.sh" "$program" "$work/film/tradeoff.figure.json" "$here/tradeoff.
 Written by \`docs/tradeoff.sh\` on $(field date). Processor: $(field processor), one of $(nproc) cores; load of the
 machine at the beginning and at the end: $load and $(cut -d' ' -f1 /proc/loadavg).
 
-Cost is the processor time of the stages that the candidates change, the median of the repeats; *run* is that of all stages.
-*Error* is the relative difference from the reference that
+Each table compares candidates (models and settings) with a reference, a finer run. *Cost* is the CPU time of the
+stages that the candidates change, the median of the repeats; *run* is that of all stages. *Error* is the relative difference from the reference that
 is not exceeded on 95 % of the mesh cycle. It is **bold** if the candidate is on the front: no cheaper candidate has as
-small an error. The files of all
-candidates also have the spread of the cost over the repeats. The run prints what a step along a front costs. The
-[guide](guide/accuracy.md#speed-against-accuracy) says how to measure a trade-off of your own.
+small an error. "reference 1" is the refinement of "reference 0", and the changes between them show the uncertainty of
+the reference. The [guide](guide/accuracy.md#speed-against-accuracy) says how to measure your own trade-off.
 
 ## Film: models, cells and steps
 
@@ -138,8 +137,8 @@ candidates also have the spread of the cost over the repeats. The run prints wha
 ![error against cost of the film](tradeoff.svg)
 TEXT
     reference film
-    echo "- Costs span $(decades) decades."
-    echo "- A second run of the study: costs differ by at most $(repeats);"
+    echo "- The largest cost is 10^$(decades) times the smallest."
+    echo "- In a second run of the study, costs differ by at most $(repeats);"
     echo "  errors by at most $(changes)."
     echo "- Cost of a candidate, divided by the cost of the cheapest candidate with no larger error in h_min, and in friction:"
     echo "  $(over_front 'finite-volume') for the presets (\`film.use: ehl/finite-volume\` alone);"
@@ -150,7 +149,7 @@ TEXT
 
 ## Mesh stiffness
 
-\`configs/studies/tradeoff-stiffness.yaml\`: sources of the stiffness, and the errors of the motion that follow from them.
+\`configs/studies/tradeoff-stiffness.yaml\`: models of the mesh stiffness, and the errors of the motion that they cause.
 TEXT
     reference stiffness
     table stiffness
@@ -166,16 +165,16 @@ TEXT
 
 ## Laws of the oil
 
-\`configs/studies/tradeoff-laws.yaml\`: all laws of one card; the reference has the free-volume law.
+\`configs/studies/tradeoff-laws.yaml\`: the laws of one lubricant card; the reference uses Doolittle-Tait.
 TEXT
     reference laws
     table laws
     cat <<TEXT
 
-## What the scene requires
+## Which effects are needed
 
-\`configs/studies/tradeoff-scene.yaml\`: static tooth force (load mesh) or dynamic (load motion),
-Newtonian or shear-thinning oil, quick or full film. The cost includes that of the motion.
+\`configs/studies/tradeoff-scene.yaml\`: static tooth force (\`load: mesh\`) or dynamic (\`load: motion\`), Newtonian or
+shear-thinning oil, film by inlet analysis or finite volumes. The cost includes that of the motion.
 TEXT
     reference scene
     table scene

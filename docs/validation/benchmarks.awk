@@ -8,7 +8,7 @@ function table(title, source) {
     print "\n## " title "\n\n" source "\n\n| | reference | here | difference |\n|---|---|---|---|"
 }
 function geometry(  rb, C, m, t) {
-    table("Geometry and motion of the unity pair", "Closed forms with r_b = 75 cos 20 deg and C = 150 mm; r1 + r2 = C sin 20 deg, u_r = omega C sin(20 deg)/2.")
+    table("Geometry and motion of the unity pair", "References are closed forms with r_b = 75 mm cos 20 deg and C = 150 mm; r1 + r2 = C sin 20 deg, u_r = omega C sin(20 deg)/2.")
     rb = 75 * cos(20 / deg); C = 150 * sin(20 / deg)
     row("base radius, mm", rb, v["gg.base_radius", 1] * 1e3)
     row("base pitch, mm", 3 * pi * cos(20 / deg), s["g.base_pitch"] * 1e3)
@@ -27,7 +27,7 @@ function geometry(  rb, C, m, t) {
     row("m_e of two solid discs, kg", m, s["g.equivalent_mass"])
 }
 function contact(  i, E, R, w, U, W, G, speed, u, a, names, k) {
-    table("Contact at the pitch point", "Hertz, and the numbers of Moes and the films of the printed formulas (Moes 2000; Dowson & Higginson 1977: 2.65 G^0.54 U^0.7 W^-0.13; Pan & Hamrock 1989: 1.714 W^-0.128 U^0.694 G^0.568; Dowson & Toyoda 1978: 3.06 G^0.56 U^0.69 W^-0.10), worked out for alpha = 11 1/GPa, eta0 = 5.006 mPa s, no compression, one pair.")
+    table("Contact at the pitch point", "Hertz' half width a and pressure p_H, Moes' numbers M and L, and films by published formulas (Moes 2000; Dowson & Higginson 1977: 2.65 G^0.54 U^0.7 W^-0.13; Pan & Hamrock 1989: 1.714 W^-0.128 U^0.694 G^0.568; Dowson & Toyoda 1978: 3.06 G^0.56 U^0.69 W^-0.10), computed by hand for alpha = 11 1/GPa, eta0 = 5.006 mPa s, no compression, one pair of teeth.")
     E = 206e9 / (1 - 0.09); R = 150e-3 * sin(20 / deg) / 4; w = 250 / (0.075 * cos(20 / deg)) / 0.02
     split("1250 2085 2375", speed, " ")
     a = sqrt(8 * w * R / (pi * E))
@@ -55,7 +55,7 @@ function moes(M, L,  ri, ei, rp, ep, q) {
     return ((ri ^ (7 / 3) + ei ^ (7 / 3)) ^ (3 * q / 7) + (rp ^ -3.5 + ep ^ -3.5) ^ (-2 * q / 7)) ^ (1 / q)
 }
 function laws(  i, k, at, want) {
-    table("Doolittle-Tait, eta/eta0", "V = 1 - ln(1 + p (1 + K0')/K0)/(1 + K0'), eta = eta0 exp(B V_occ (1 - V)/((V - V_occ)(1 - V_occ))) worked out by hand for B = 3.7303, V_occ = 0.6132, K0 = 1.05 GPa, K0' = 10.076.")
+    table("Doolittle-Tait, eta/eta0", "V = 1 - ln(1 + p (1 + K0')/K0)/(1 + K0'), eta = eta0 exp(B V_occ (1 - V)/((V - V_occ)(1 - V_occ))) computed by hand for B = 3.7303, V_occ = 0.6132, K0 = 1.05 GPa, K0' = 10.076.")
     split("8.416 40.97 170.5 671.5 2626", want, " ")
     for (i = 1; i <= count["law"]; i++) for (k = 1; k <= 5; k++)
         if (abs(v["law.p", i] - k * 2e8) < 1e6) row(F("%.1f GPa", k / 5), want[k], v["law.doolittle-tait", i] / v["law.doolittle-tait", 1])
@@ -67,7 +67,7 @@ function stiffness() {
     row("c_gamma times 20 mm, 1e8 N/m", 0.8 / (0.04723 + 0.15551 / 50 + 0.25791 / 50) * (0.75 * s["g.contact_ratio"] + 0.25) * 20 * 1e6 / 1e8, s["iso.stiffness_mean"] / 1e8)
 }
 function motions(  i, n, list, part) {
-    table("Forced response", "Another program (Runge-Kutta, 400 steps a cycle, 64 cycles after 400) for k = 325.81 - 74.5 cos - 46.5 cos 2 - 21.9 cos 3 MN/m, m_e 0.7852 kg, damping ratio 0.01, half backlash 70 um; printed to four digits. rms and peak to peak of s in um, largest mesh force over F.")
+    table("Forced response", "References come from another program (Runge-Kutta, 400 steps per mesh cycle, 64 cycles after 400 to settle) for k(x) = 325.81 - 74.5 cos x - 46.5 cos 2x - 21.9 cos 3x MN/m over the phase angle x, m_e 0.7852 kg, damping ratio 0.01, half backlash 70 um, and have four digits: rms and peak to peak of s in um, largest mesh force over F.")
     n = split("1250-lower 5.067 14.99 1.735|2085-lower 3.634 11.22 1.567|2375-lower 4.367 12.17 1.539|2375-upper 24.74 70.54 3.942|3600-lower 5.297 15 1.847|4000-lower 2.806 7.99 1.509", list, "|")
     for (i = 1; i <= n; i++) {
         split(list[i], part, " ")
@@ -79,11 +79,11 @@ function motions(  i, n, list, part) {
     print "\nFolds and stability: [dynamics](dynamics.md)."
 }
 function momentum() {
-    table("Load of a motion of two mesh cycles", "The same pair at 6484 Hz, twice the natural frequency, with a damper that acts in contact: its motion repeats itself after two mesh cycles and loses contact for 29 % of the time. As no gear gains speed, the pairs in mesh bear torque over base radius on the mean over both engagements.")
+    table("Load of a motion of two mesh cycles", "The same pair at 6484 Hz, twice the natural frequency, with a damper that acts only in contact: its motion repeats after two mesh cycles and loses contact for 29 % of the time. Since the mean speeds are constant, the force of all pairs, averaged over both engagements, must be torque over base radius.")
     scalars(in_ "/momentum-all", "static", "both"); scalars(in_ "/momentum-all", "duty", "d")
     row("mean load of the mesh, N", s["d.line_force"], s["both.mesh_load_mean"])
     scalars(in_ "/momentum-0", "static", "first"); scalars(in_ "/momentum-1", "static", "second")
-    printf "\nThe first engagement alone would make it %.0f N, the second %.0f N.\n", s["first.mesh_load_mean"], s["second.mesh_load_mean"]
+    printf "\nThe first engagement alone would give %.0f N, the second %.0f N.\n", s["first.mesh_load_mean"], s["second.mesh_load_mean"]
 }
 function hertz(name) { sub(/-/, " Hz ", name); return name }
 BEGIN {
@@ -93,6 +93,6 @@ BEGIN {
     if (failed) exit 1
     print "# Numbers known from elsewhere\n"
     print "```sh\nsh docs/validation/benchmarks.sh build\n```\n"
-    print "writes this page; the references and their sources are in `benchmarks.awk`. A difference below\n1e-5 % is printed as 0. Exact and independent films are in [steady films](film-steady.md)."
+    print "writes this page; `benchmarks.awk` contains the references and their sources. A difference below\n1e-5 % is printed as 0. [Steady films](film-steady.md) compares films with exact and independent solutions."
     geometry(); contact(); laws(); stiffness(); motions(); momentum()
 }

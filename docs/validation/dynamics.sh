@@ -83,7 +83,7 @@ while IFS='|' read -r source title settings; do
         END { print "| folds of motions of period 1 above 800 Hz | " substr(list, 3) " |" }' \
         "$work/$source-atlas/motion-fold.csv"
     awk -F, 'NR > 1 && $2 < 2000 && $1 > 800 { list = list sprintf(", %.1f", $1) }
-        END { print "| their doublings | " substr(list, 3) " |" }' "$work/$source-atlas/motion-doubling.csv"
+        END { print "| their period doublings | " substr(list, 3) " |" }' "$work/$source-atlas/motion-doubling.csv"
     echo
     "$program" run "$here/dynamics.yaml" "$@" --set 'outputs=[mesh.stiffness_mean, mesh.stiffness_harmonics]' -o "$work/$source-mesh" > /dev/null
     python3 "$here/tables.py" "$work/$source-mesh"
@@ -92,7 +92,7 @@ while IFS='|' read -r source title settings; do
     top=$((top + 390))
 done < "$work/variants"
 
-# what the figure is held to
+# what the figure is compared with
 awk -v in_="$work" -F, '
     function get(source, point, name,  path, line, cell, x) {
         path = in_ "/" source "-" point ".csv"
@@ -140,11 +140,11 @@ awk -v in_="$work" -F, '
     BEGIN {
         read("energy"); read("load")
         still = both("%.2f", "2375-upper", "dynamic_factor_tooth", 1)
-        print "| the paper says | potential energy, and load distribution with corner contact |"
+        print "| the paper says | result |"
         print "|---|---|"
-        printf "| harmonics of k: digits lost | first harmonic over the mean %.2f and %.2f |\n", first["energy"], first["load"]
+        printf "| harmonics of k (digits lost) | first harmonic over the mean: %.2f and %.2f |\n", first["energy"], first["load"]
         printf "| near the primary resonance two stable motions, linear without separation, non-linear with it; softening | between %.0f and %.0f Hz, and %.0f and %.0f Hz |\n", low["energy"], upper["energy"], low["load"], upper["load"]
-        printf "| points I and II linear | %s: apart for %s (I), %s (II) of the time |\n", \
+        printf "| points I and II linear | %s: apart for %s of the time at I, %s at II |\n", \
             yes(get("energy", "1250-lower", "contact_loss") + get("energy", "2085-lower", "contact_loss") + get("load", "1250-lower", "contact_loss") + get("load", "2085-lower", "contact_loss") == 0), \
             both("%g", "1250-lower", "contact_loss", 1), both("%g", "2085-lower", "contact_loss", 1)
         printf "| III on the upper branch: separation | apart for %s of the time |\n", both("%.2f", "2375-upper", "contact_loss", 1)
@@ -172,9 +172,9 @@ worst() { # TITLE CHECKS TEST...; the worst of the checks that are so called
         { n++; if (off + 0 > most) most = off + 0; if (held + 0 > limit) limit = held + 0 }
         END { if (!n) exit 1; printf "| %s | %g | %.1e | %d |\n", title, limit, most, n }'
 }
-echo "| what | held to | worst | of |"
+echo "| compared quantity | limit | largest difference | number of values |"
 echo "|---|---|---|---|"
-worst "states of another program (trapezoidal k), lengths over b" "[0-9]+ Hz (lower|upper) (x.0.|v.0.|rms|max|min)" pinned
+worst "states by another program (trapezoidal k), lengths over half the backlash b" "[0-9]+ Hz (lower|upper) (x.0.|v.0.|rms|max|min)" pinned
 awk '
     /^ok   fold_frequency/ { own[++n] = $3 + 0 }
     /^ok   fold at/ { theirs[++m] = $4 }
@@ -184,17 +184,17 @@ awk '
             for (k = 1; k <= n; k++) { d = own[k] - theirs[i]; if (d < 0) d = -d; if (d < least) least = d }
             if (least > most) most = least
         }
-        printf "| its folds, rounded as it gives them, Hz | 1 | %.2f | %d |\n", most, m
+        printf "| folds by that program, which rounds them, Hz | 1 | %.2f | %d |\n", most, m
     }' "$work/test-pinned"
-worst "own folds and doublings, found with steps that differ by a factor of 4, relative" "fold_frequency|doubling_frequency" pinned
-worst "determinant of the monodromy against exp(-2 zeta omega_n T)" "det|det M|det by steps|determinant" pinned flow twin extremes atlas
+worst "folds and doublings with continuation steps of different length (factor 4), relative" "fold_frequency|doubling_frequency" pinned
+worst "determinant of the monodromy matrix and exp(-2 zeta omega_n T)" "det|det M|det by steps|determinant" pinned flow twin extremes atlas
 worst "the same at 3 to 40 Hz, thousands of radians in a mesh cycle" "determinant, slow mesh" extremes
 worst "energy balance" "energy balance" pinned twin extremes atlas
 worst "Mathieu characteristic values a1, b1, a2, b2" "Mathieu.s characteristic value" flow
-worst "return map without separation against its closed form" "fixed point|monodromy" flow
-worst "free vibration with backlash against its closed form (front flank, flight, back flank), and back in time" "free vibration returns|returns" flow
+worst "return map without separation and its closed form" "fixed point|monodromy" flow
+worst "free vibration with backlash and its closed form (front flank, flight, back flank), also backwards in time" "free vibration returns|returns" flow
 worst "dte of \`dynamics/time-integration\` at 1e-10, same branch, three kinds of damper, over b" "dte" twin
-worst "derivatives after state, speed and period against differences" "after [xvT]" flow
+worst "derivatives with respect to state, speed and period, and finite differences" "after [xvT]" flow
 echo
 echo "| atlas from 400 to 4500 Hz with stability | points | CPU, s |"
 echo "|---|---|---|"

@@ -43,10 +43,10 @@ speeds = list(MEASURED)
 print("""# Friction and loss against measurement
 
 Made by `sh docs/validation/friction.sh build`. The spur pair 40/40 of Petry-Johnson, Kahraman, Anderson & Chase 2008 at 413 N m
-([its data](measured.md#loss-of-a-spur-gear-mesh)), `configs/validation/mesh-loss-oils.yaml`: laws and temperatures were laid down in a commit before
-the first run, and no constant is fitted. The laws of the 75W90 at high pressure are not published, so another oil is chosen in its place: eta0 is
-that of the 75W90 in all rows, and the rise with pressure and the limiting stress are those of three gear oils that were measured. The
-spread of the rows is the claim.
+([its data](measured.md#loss-of-a-spur-gear-mesh)), `configs/validation/mesh-loss-oils.yaml`: laws and temperatures were
+fixed before the first run, and no constant is fitted. Laws of the measured oil, a 75W90, at high pressure are not
+published. All rows therefore use eta0 of the 75W90, and the rise with pressure and the limiting stress of one of three
+measured gear oils. The spread of the rows shows what this choice means for the loss.
 
 ## Loss of the mesh, W
 
@@ -56,8 +56,8 @@ for name, row in told.items():
     print("| %s | %s |" % (name, " | ".join("%.0f" % r["power_loss_mean"] if r else "no film was found" for r in row.values())))
 print("| **measured** | %s |" % " | ".join("%.0f to %.0f" % MEASURED[s] for s in speeds))
 first = next(iter(told.values()))
-print("\nOf which sliding, by the first row: %s W.\n" % ", ".join("%.0f" % r["sliding_loss_mean"] if r else "-" for r in first.values()))
-print("## Held to 10 % of the measured interval\n\n| rpm | loss, W | over the nearer end of the interval | |\n|---|---|---|---|")
+print("\nOf the losses in the first row, sliding makes %s W.\n" % ", ".join("%.0f" % r["sliding_loss_mean"] if r else "-" for r in first.values()))
+print("## Compared with the measured interval, widened by 10 %\n\n| rpm | loss by PAO100, W | difference from the nearer end of the measured interval | |\n|---|---|---|---|")
 for s in speeds:
     low, high = MEASURED[s]
     loss = first[s] and first[s]["power_loss_mean"]
@@ -65,14 +65,15 @@ for s in speeds:
     judged = "shown" if s in (2000, 10000) else "met" if loss and abs(off) <= 0.1 else "**missed**"
     print("| %d | %s | %s | %s |" % (s, "%.0f" % loss if loss else "-", "within" if loss and off == 0 else "%+.0f %%" % (100 * off), judged))
 print("""
-Up to 8000 rpm the measured losses lie between those of PAO100 and M100; the choice misses the 10 %, by up to 16 %. The oil moves
-the loss by a factor of 2.2 to 3.4, an Eyring stress 10 % higher or lower moves it by 1 to 3 % only, since heat limits the stress. Not in these films: that oil
-conducts heat better under pressure, and asperities at 2000 rpm.
+Up to 8000 rpm the measured losses lie between those of PAO100 and M100; PAO100 is off by up to 16 % from 4000 to 8000
+rpm, instead of 10 %. The choice of the oil changes the loss by a factor of 2.2 to 3.4. An Eyring stress 10 % higher or
+lower changes it only by 1 to 3 %, since heat limits the stress. These films neglect that oil conducts heat better under
+pressure, and that asperities touch at 2000 rpm. At 2000 and 10000 rpm the result is shown but not judged.
 
 ## Friction coefficients
 
-By the film, weighted with load and sliding speed; by the formula of ISO/TR 14179-2; and measured, loss over power and loss factor, which
-has half the load on each of two pairs.
+The film's coefficient is weighted with load and sliding speed; the formula is that of ISO/TR 14179-2; the measured
+coefficient is the loss over power and loss factor, which assumes half the load on each of two pairs.
 
 | rpm | film | formula | measured |
 |---|---|---|---|""")
@@ -85,7 +86,7 @@ for s in speeds:
 C_PT, C_MOD = "configs/validation/fzg-friction.yaml", "configs/validation/fzg-cmod-friction.yaml"
 FLUID = ["film.roughness=ignored"]
 RPM = {0.5: 130.5, 2: 522, 8.3: 2166, 8.6: 2250, 20: 5218}  # at the pitch line, m/s
-# mean coefficients of the fluid alone by a local model of the contact, computed apart from this program with the same laws
+# mean coefficients of the fluid alone by a local model of the contact, computed by a separate program with the same laws
 LOCAL = {94.1: (0.0368, 0.0392, 0.0375, 0.0324), 183.4: (0.0456, 0.0458, 0.0429, 0.0361), 302: (0.0470, 0.0470, 0.0442, 0.0366)}
 
 
@@ -100,10 +101,10 @@ def off(value, of):
 print("""
 ## FZG C-mod gears
 
-`%s`: 183.4 N m, Ra 0.2 um, a paraffinic gear oil of ISO VG 100 at 90 degC. At 0.5 m/s a mean of at most 0.065 was measured, which is also where the boundary friction 0.065 of the film comes from, so that this row cannot be missed and tests nothing; at 8.3 m/s
-only the formula's 0.0423 is known, which is no measurement of these gears: held to 0.040 to 0.055.
+`%s`: 183.4 N m, Ra 0.2 um, a paraffinic gear oil of ISO VG 100 at 90 degC. At 0.5 m/s a mean of at most 0.065 was measured; the film's boundary friction, 0.065, comes from the same source, so this row agrees by construction and tests nothing. At 8.3 m/s
+only the formula's 0.0423 is known, which was not measured on these gears; the film is expected between 0.040 and 0.055.
 
-| m/s | film, fluid alone | with asperities | formula | held to | |
+| m/s | film, fluid alone | with asperities | formula | expected | |
 |---|---|---|---|---|---|""" % C_MOD)
 for v, low, high in ((0.5, 0, 0.065), (8.3, 0.04, 0.055)):
     speed = ["duty.speed=%g rpm" % RPM[v]]
@@ -114,11 +115,11 @@ TEETH_ONLY = ["flanks=", "gears.roughness_ra=0.3 um", "film={use: ehl/inlet-anal
 print("""
 ## FZG C-PT gears over torque and speed
 
-`%s`: the same oil, Ra 0.3 um, teeth by ISO/TR 15144-1 from the loss of the run. *Local* is a model of the contact at one temperature, with
-the same laws, fluid alone: *apart* was computed apart from this program, *here* is `thermal: local` of `ehl/inlet-analysis`. The film is held to 10 %% of
-*apart*, and above 2 m/s to -40 to +25 %% of the formula.
+`%s`: the same oil, Ra 0.3 um, tooth temperature by ISO/TR 15144-1 from the loss of the run. *Local* is a model of the contact at one temperature, with
+the same laws and without asperities: *other* was computed by a separate program, *here* is `thermal: local` of `ehl/inlet-analysis`. The film is expected within 10 %% of
+*other*, and above 2 m/s within -40 to +25 %% of the formula. The columns in per cent are differences of the film.
 
-| N m | m/s | formula | local, apart | local, here | film, fluid alone | over apart | over here | with asperities | over formula | teeth, degC | |
+| N m | m/s | formula | local, other | local, here | film, fluid alone | from local, other | from local, here | with asperities | from formula | teeth, degC | |
 |---|---|---|---|---|---|---|---|---|---|---|---|""" % C_PT)
 largest = 0
 for torque, local in LOCAL.items():
@@ -131,10 +132,10 @@ for torque, local in LOCAL.items():
         largest = max(largest, abs(mu(fluid) / mu(here) - 1))
         print("| %g | %g | %.4f | %.4f | %.4f | %.4f | %s | %s | %.4f | %s | %.1f | %s |" % (
             torque, v, formula, by_local, mu(here), mu(fluid), off(mu(fluid), by_local), off(mu(fluid), mu(here)), mu(both), off(mu(both), formula), mu(both, "bulk_temperature") - 273.15,
-            "met" if near and within else "**missed**: %s" % ("formula" if near else "local, apart" if within else "both")))
+            "met" if near and within else "**missed**: %s" % ("formula" if near else "local, other" if within else "both")))
 print("""
-The coefficient of the film differs from that of the local model of this program by at most %.1f %%. The model computed apart has a thinner film at 20 m/s,
-since it reduces the film by a formula for the heat of the inlet, which takes off more than a film with heat loses
+The coefficient of the film differs from that of the local model of this program by at most %.1f %%. The separate program has a thinner film at 20 m/s,
+since its formula for inlet heating reduces the film by more than a full solution with heat does
 ([films with heat](heat.md#formulas-of-the-inlet-against-the-full-solution)).""" % (100 * largest))
 
 EV = "configs/validation/ev-friction.yaml"
@@ -150,10 +151,10 @@ def ev(heated, sets):
 print("""
 ## A fast stage with a thin oil
 
-`%s`: 23/73 teeth, 110 N m, 14,000 rpm, a PAO of 5.2 mm2/s, everything at 97 degC. Mean coefficient of the film, and of the same laws in
-Hertz' pressure with the film of the inlet analysis or of Moes' formula (`thermal: local`); fluid alone.
+`%s`: 23/73 teeth, 110 N m, 14,000 rpm, a PAO of 5.2 mm2/s, oil and teeth at 97 degC. The table gives the mean friction coefficient without asperities: of the film, and of `thermal: local` with the same laws, Hertz'
+pressure, and the film thickness of the inlet analysis or of Moes' formula.
 
-| heat | film | inlet analysis | film over it | Moes' formula | film over it |
+| heat: film, local | film | inlet analysis | film differs by | Moes' formula | film differs by |
 |---|---|---|---|---|---|""" % EV)
 found = {}
 for name, heated, sets in (("none", False, []), ("full, local", True, []),
@@ -163,17 +164,17 @@ for name, heated, sets in (("none", False, []), ("full, local", True, []),
 film, inlet, moes = found["none"]
 hot = found["full, local"]
 print("""
-The %+.1f %% to the local model with Moes' formula consist of three parts. The film of the formula is thinner than that of the inlet analysis: %+.1f %%. The
-pressure of the film is not that of Hertz: under so light a load a part of it lies outside Hertz' width, where there is little friction: %+.1f %%. Heat: %+.1f %%.
-Cells and steps: twice the cells and 2.5 times the steps change the coefficient by %.2f %%.""" % (
+The difference of %+.1f %% from Moes' formula has three parts. %+.1f %%: the film of the formula is thinner than that of the inlet analysis. %+.1f %%:
+the film's pressure is not that of Hertz; under so light a load, part of it lies outside Hertz' width, where there is little friction. %+.1f %%: heat.
+Twice the cells and 2.5 times the steps change the coefficient by %.2f %%.""" % (
     100 * (hot[0] / hot[2] - 1), 100 * (inlet / moes - 1), 100 * (film / inlet - 1), 100 * (hot[0] / hot[2] / (film / moes) - 1),
     100 * abs(mu(run(EV, ["film.cells=512", "film.steps=1000"])) / film - 1)))
 formula = mu(run(EV, []), "friction_coefficient_formula")
-print("The formula of ISO/TR 14179-2 has %.4f here, outside its range of speeds; the film with heat is %s off it." % (formula, off(hot[0], formula)))
+print("The formula of ISO/TR 14179-2 has %.4f here, outside its range of speeds; the coefficient of the film with heat is %.0f %% lower." % (formula, 100 * (1 - hot[0] / formula)))
 print("""
 ## A worked example of the formula
 
-C14 gears with the tips of their drawing, a mineral oil of 13.28 mPa s, 200 N m, 1500 rpm, Ra 0.355 um, X_L 0.846, as printed by another program.
+FZG C14 gears with the tip diameters of their drawing, a mineral oil of 13.28 mPa s, 200 N m, 1500 rpm, Ra 0.355 um, X_L 0.846; "printed" is the result of another program.
 
 | | printed | here |
 |---|---|---|""")

@@ -34,13 +34,14 @@ def ratio(hot, cold):
 
 print("""# Films with heat
 
-Made by `sh docs/validation/heat.sh build`. The temperature of the teeth is the largest unknown of every number here. Losses are
-computed at two values of it. Films are computed with teeth at the oil temperature, the lowest possible value, and, as the error bar of
-this input, with teeth and entering oil 10 K warmer. Films of gears have 256 cells and 400 steps here.
+Made by `sh docs/validation/heat.sh build`. The temperature of the teeth is the most uncertain input of all numbers on
+this page. Losses are computed at two tooth temperatures. Films are computed with teeth at the oil temperature, the
+lowest possible value, and, to show the effect of this input, with teeth and entering oil 10 K warmer. Films of gears
+have 256 cells and 400 steps.
 
-## The film by each step of the ladder
+## The film with each setting of `thermal`
 
-`configs/li-kahraman-2011.yaml`, `h_min_lowest` over that of `thermal: none`. There is no step `mean`, a parabola across the film, since it would save little time compared with `full`.
+`configs/li-kahraman-2011.yaml`: `h_min_lowest` divided by that of `thermal: none`, at the paper's points I, II and III.
 
 | point | none | inlet | full | full, teeth 10 K warmer | Gupta's formula |
 |---|---|---|---|---|---|""", flush=True)
@@ -54,13 +55,14 @@ for name, sets in points.items():
     print("| %s | 1 | %s | %.4f |" % (name, " | ".join(ratio(h, least[0]) for h in least[1:]), 1 - share), flush=True)
 
 print("""
-Gupta's value is the least of the quality line `inlet_heating` over all instants. With as little heat as here it reduces the film
-five to six times as much as `full` does, since its reduction varies as Q^0.64, but the heat as Q. `inlet` neglects that the flanks warm up.
+Gupta's value is the least over all instants, from the quality line `inlet_heating`. With so little heat, Gupta's
+formula reduces the film five to six times as much as `full` does, since its reduction varies as Q^0.64, but the heat as
+Q. `inlet` neglects that the flanks warm up.
 
 ## Formulas of the inlet against the full solution
 
-`configs/thermal.yaml` (ISO VG 320 at 60 degC) with `viscosity/roelands` and `tau0: 6 MPa`, 512 cells: central film over that of the cold oil, L = eta0 beta u_r^2/k.
-Gupta by `inlet_heating`; Wilson & Sheu 1983 by 1/(1 + 0.241 (1 + 14.8 Z^0.83) L^0.64), Z = |u_1 - u_2|/(u_1 + u_2).
+`configs/thermal.yaml` (ISO VG 320 at 60 degC) with `viscosity/roelands` and `tau0: 6 MPa`, 512 cells: central film divided by that without heat; L = eta0 beta u_r^2/k measures the heat.
+The column Gupta comes from `inlet_heating`; Wilson & Sheu 1983 is 1/(1 + 0.241 (1 + 14.8 Z^0.83) L^0.64), Z = |u_1 - u_2|/(u_1 + u_2).
 
 | slide-roll ratio | u_r, m/s | L | full | full, teeth 10 K warmer | inlet | Gupta | Wilson & Sheu |
 |---|---|---|---|---|---|---|---|""", flush=True)
@@ -91,20 +93,20 @@ for slip in (0, 0.2, 1, 1.9):
             slip, speed, L, ratio(central(hot, "hot"), h), ratio(central(warm, "hot"), h), ratio(central(heated, "heated"), h),
             1 - cold["cold/inlet_heating"], 1 / (1 + 0.241 * (1 + 14.8 * Z ** 0.83) * L ** 0.64)), flush=True)
 print("""
-`-`: no film was found, which the run reports. At 20 m/s the error of `full` due to the cells is 13 to 27 % (its line
-`h_central_space_error`), so the formulas are judged up to 10 m/s.
+`-` would mean that the run found no film. At 20 m/s the error of `full` due to the cells is 13 to 27 % (quality line
+`h_central_space_error`), so the formulas are judged only up to 10 m/s.
 
-Where a formula holds, by this table: in pure rolling both are within 3 % of the film, and `inlet` within 8 %. With sliding
-neither is. Gupta's film is 1 to 10 % too thin up to 2 m/s, and 15 to 33 % at 10 m/s; Wilson & Sheu's, whose sliding part is
-several times as large, 3 to 34 % and 42 to 74 %: as printed it does not hold with sliding. Where the slower flank hardly
-moves (slide-roll ratio 1.9) all films are too thick up to 2 m/s, except Wilson & Sheu's at 2 m/s: the slow flank heats
-the oil before the inlet does. `inlet` is within 3 % up to 2 m/s and a slide-roll ratio of 1, and 20 % too thin at 10 m/s there.
+Compared with `full`, both formulas are within 3 % in pure rolling, and `inlet` within 8 %. With sliding neither formula is accurate. Gupta's
+film is 1 to 10 % too thin up to 2 m/s, and 15 to 33 % too thin at 10 m/s; that of Wilson & Sheu, whose sliding term is several times as large, 3
+to 34 % and 42 to 74 %. At a slide-roll ratio of 1.9 the slower flank hardly moves and heats the oil ahead of the inlet; up to 2 m/s, `inlet` and
+both formulas then give too thick a film, except Wilson & Sheu at 2 m/s. `inlet` is within 3 % up to 2 m/s and a slide-roll ratio of 1; at this
+ratio and 10 m/s it is 20 % too thin.
 
 ## Traction over slip
 
-The same contact at 2 m/s: friction coefficient. Without heat the friction rises with slip throughout; with heat it falls again.
+Friction coefficient of the same contact at 2 m/s. Without heat, friction rises with slip throughout; with heat it falls again. The last column is the highest temperature rise of the oil.
 
-| slide-roll ratio | none | inlet | full | full, teeth 10 K warmer | hottest oil over its own, K |
+| slide-roll ratio | none | inlet | full | full, teeth 10 K warmer | highest rise, K |
 |---|---|---|---|---|---|""", flush=True)
 for slip in (0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1):
     films = [(stage, film(stage, slip, 2, model)) for stage, model in (("cold", ()), ("heated", ()), ("hot", ()), ("hot", WARMER))]
@@ -118,11 +120,11 @@ print("""
 ## Loss of a spur gear mesh
 
 `configs/validation/mesh-loss-heat.yaml`: Petry-Johnson, Kahraman, Anderson & Chase 2007/2008, 413 N m; data, laws, the
-oil over temperature and the rule for the bulk temperature were written down before the first run. All four laws are shown at both
-temperatures; none is selected. Oil at 110 degC; the measured interval assumes the loss of one mesh; if it is that of
+oil over temperature and the rule for the bulk temperature were written down before the first run. All four laws are shown, first with teeth at the oil
+temperature of 110 degC, then with teeth at the temperature given by the rule. The measured interval assumes the loss of one mesh; if it is that of
 both meshes of a back-to-back rig, each has half of it.
 
-| laws | rpm | teeth, degC | loss, kW | teeth, degC | loss, kW | measured, kW | |
+| laws: eta(p), Eyring stress | rpm | teeth, degC | loss, kW | teeth by the rule, degC | loss, kW | measured, kW | |
 |---|---|---|---|---|---|---|---|""", flush=True)
 MESH = "configs/validation/mesh-loss-heat.yaml"
 COARSE = ["film.cells=256", "film.steps=400"]
@@ -158,8 +160,8 @@ for name in laws:
               for a, b in zip(losses[name, 8000], losses[name, 10000])]
     print("| %s | %s | -0.08 to +0.02 |" % (name, ", ".join(slopes)), flush=True)
 print("""
-With heat the losses grow more slowly with speed, most for the law with the highest loss (Barus, 28 MPa: 1.361 kW at 10,000
-rpm, 3.335 without), but for none of the four as slowly as the measured ones; each law agrees at one speed at most. What else moves the loss, at 6000 rpm and
+With heat the losses grow more slowly with speed than without, most for the law with the highest loss (Barus, 28 MPa: 1.361 kW at 10,000
+rpm, 3.335 kW without heat). With none of the four laws they grow as slowly as measured, and each law agrees at one speed at most. The effect of other inputs on the loss in kW, at 6000 rpm and
 110 degC:
 
 | laws | as above | alpha -10 % | alpha +10 % | 512 cells, 1000 steps |
@@ -170,10 +172,10 @@ for name, sets in laws.items():
     row = [losses[name, 6000][0], *others]
     print("| %s | %s |" % (name, " | ".join("%.3f" % x if x is not None else "no film was found" for x in row)), flush=True)
 print("""
-The bars: the temperature of the teeth moves the loss by 1 to 8 %, alpha within 10 % by 11 to 24 %, cells and steps by 0.2 %, the law of
-eta(p) and the Eyring stress by a factor of four. By these data no law is right. What would settle it: traction of this oil
-over slip and pressure, its viscosity over temperature, the temperature of the teeth, and whether one mesh or two were
-measured. Losses without load are in none of these numbers.""")
+The temperature of the teeth changes the loss by 1 to 8 %, alpha within 10 % by 11 to 24 %, cells and steps by 0.2 %,
+the law of eta(p) and the Eyring stress by a factor of four. No law agrees with these data. To decide, one would need
+the traction of this oil over slip and pressure, its viscosity over temperature, the temperature of the teeth, and
+whether one mesh or two were measured. No-load losses are not included.""")
 END
 mv "$lab/page" docs/validation/heat.md
 sh docs/made.sh docs/validation/heat.md plugins/ehl plugins/losses plugins/rheology

@@ -76,7 +76,7 @@ loss()
 
 losses()
 {
-    echo '| laws | rpm | sliding, kW | all, kW | measured, kW | |'
+    echo '| laws | rpm | sliding, kW | total loss, kW | measured, kW | |'
     echo '|---|---|---|---|---|---|'
     while IFS='|' read -r name settings; do
         table mesh-loss | while read -r speed low high; do
@@ -98,7 +98,7 @@ slopes()
 
 spread()
 {
-    echo '| laws, 6000 rpm | all, kW | eta0 -10 % | eta0 +10 % | alpha -10 % | alpha +10 % |'
+    echo '| laws, 6000 rpm | total loss, kW | eta0 -10 % | eta0 +10 % | alpha -10 % | alpha +10 % |'
     echo '|---|---|---|---|---|---|'
     while IFS='|' read -r name settings; do
         row="| $name"
@@ -130,26 +130,30 @@ Every number of this page comes from
 sh docs/validation/measured.sh build
 ```
 
-which writes the page. Each set of data is one YAML and one CSV file of `configs/validation`: the printed data, how they were
-derived, and the run that is compared with them, so that a reader without the paper can repeat it. The films of this page are
+which writes the page. Each set of data has a CSV file in `configs/validation` with the published numbers and how they were
+derived, and a YAML file with the run that is compared with them, so that you can repeat it without the paper. The films of this page are
 isothermal.
 
 ## Rolling force
 
-`rolling-force.yaml`: Biboulet & Houpert 2010, a fit to multigrid solutions of flooded line contacts in pure rolling.
+`rolling-force.yaml`: Biboulet & Houpert 2010, a formula fitted to multigrid solutions of flooded line contacts in pure
+rolling. M and L are Moes' numbers; `ratio` is the computed rolling loss over that of the fit.
 
 TEXT
     rolling
     cat <<'TEXT'
 
-Agreement within 15 % is claimed for M from 2 on. Our loss includes the part of the inlet in front of the domain ([theory,
-7.11](../theory.md#7-film)); whether the fit includes it is not known. At small L the difference then slightly exceeds the claim.
+The paper claims 15 % for M from 2 on. The computed loss includes the part of the inlet in front of the domain ([theory,
+7.11](../theory.md#7-film)); whether the fit includes this part is not known. At small L the difference slightly exceeds 15
+%.
 
 ## Loss of a spur gear mesh
 
-`mesh-loss.yaml`: Petry-Johnson, Kahraman, Anderson & Chase 2007/2008, 413 N m. The measured values are intervals because of
-rounded percentages. They assume the loss of one mesh; for the two meshes of a back-to-back rig each would have half. Gears,
-oil, laws and the rule for the temperature were written down before the first run; every run is shown.
+`mesh-loss.yaml`: Petry-Johnson, Kahraman, Anderson & Chase 2007/2008, 413 N m. The measured values are intervals, since the
+paper gives rounded percentages. They assume the loss of one mesh; if the loss is that of the two meshes of a back-to-back
+rig, each has half. Gears,
+oil, laws and the rule for the temperature were written down before the first run; every run is shown. "Laws" are eta(p)
+and the Eyring stress.
 
 TEXT
     losses
@@ -159,14 +163,14 @@ TEXT
     slopes
     cat <<'TEXT'
 
-Measured losses level off from 8000 rpm on; those of isothermal films do not. Effect of the oil's constants, one at a time:
+Measured losses level off from 8000 rpm on; those of isothermal films do not. The effect of the oil's constants on the loss in kW, one at a time:
 
 TEXT
     spread
     cat <<'TEXT'
 
-The law of eta(p) and the Eyring stress change the loss far more than the constants of the oil within 10 %:
-these data agree with no law. To decide, one would need the traction of this oil over slip and pressure, its
+The law of eta(p) and the Eyring stress change the loss far more than the constants of the oil within 10 %. No law agrees
+with these data. To decide, one would need the traction of this oil over slip and pressure, its
 viscosity over temperature, the temperature of the teeth, and whether one mesh or two were measured.
 
 ## Pressure of FZG C-mod gears
@@ -177,17 +181,16 @@ TEXT
     fzg
     cat <<'TEXT'
 
-Without their relief of 35 um at the tips, whose shape and start are not printed. Their loss factor, 0.1680, depends on it
-and is not compared.
+The run omits the tip relief of 35 um, whose shape and start are not published. The published loss factor, 0.1680, depends on
+the relief and is not compared.
 
-## What is not here
+## What is not on this page
 
-- The mesh loss by laws of measured oils: [friction and loss against measurement](friction.md).
-- The mesh loss with heat in the film at two temperatures of the teeth, and inlet heating by Gupta and by Wilson & Sheu
-  against a film with heat: [films with heat](heat.md).
-- Traction of squalane, and losses of the FZG gears: the curves are available only as figures.
-- ISO/TR 6336-30, example 1: its gears are helical, and their virtual numbers of teeth are not whole numbers; this program is for
-  spur gears. The formula of c' for spur gears stands in [benchmarks](benchmarks.md).
+- The mesh loss with laws of measured oils: [friction and loss against measurement](friction.md).
+- The mesh loss with heat in the film, and formulas for inlet heating compared with a film with heat: [films with heat](heat.md).
+- Traction of squalane, and losses of FZG gears: the curves are available only as figures.
+- ISO/TR 6336-30, example 1: its gears are helical; this program is for
+  spur gears. The formula of c' for spur gears is in [benchmarks](benchmarks.md).
 TEXT
 } > "$work/measured.md"
 mv "$work/measured.md" "$here/measured.md"

@@ -52,10 +52,12 @@ sh docs/validation/mixed.sh build
 
 which writes the page from `tests/bench/bench-mixed.c`: one tooth pair of Li & Kahraman 2011 over its path of contact. Both flanks
 have Rq 0.5 um and waves of 40 to 800 um, like a profile filtered at 40 um; no further waves are removed (`roughness_cutoff: 0 um`) unless a row
-says so. Values are means over the path. The last row of each group has means and standard deviations over the surfaces:
-the shares of the load, lambda, the friction coefficient, the share of the load on metal that yields, and the highest plastic part of the gap. `cells per inlet` is the number of cells over sqrt(2 h/k), the length over which an asperity draws in its film,
-for the contact film of 1 nm and the rms curvature k of the flanks: `asperity_resolution` in the
-quality of every run, which says `share not resolved` below 1.
+says so. Each row is a run; values are means over the path of contact, except the least film and `p_max`, which are extremes.
+The row `all` of a group has means and standard deviations over its surfaces. `asperity share` is the share of the load on
+asperities, `trapped share` that on enclosed oil, `yield share` that on yielding metal, and `plastic depth` the highest
+plastic part of the gap. `cells per inlet` is the number of cells over sqrt(2 h/k), the length over which an asperity draws
+in its film, for the contact film h of 1 nm and the rms curvature k of the flanks. Every run reports this number as quality
+line `asperity_resolution`, which says `share not resolved` below 1.
 
 ## Speeds, surfaces and cells
 
@@ -66,14 +68,13 @@ TEXT
     set -- $(change 512 4 1024)
     cat <<TEXT
 
-From 512 to 1024 cells the asperity share changes by $1 % of it at most on a surface where it is
-above 0.01.
+From 512 to 1024 cells the asperity share changes by at most $1 % of its value, for surfaces where it is above 0.01.
 
 ## Steps
 
-A step is divided so that the oil moves at most one cell, or a sixteenth of \`roughness_cutoff\` if that is more. If flanks touch, it moves at
-most half of an asperity's inlet, but at least a quarter of a cell. If asperities carry less than 0.01 of the load, this length is multiplied by
-the square root of 0.01 over their share. In this table the column \`steps\` gives the number of steps before any is divided.
+The program divides time steps so that the oil moves at most one cell, or a sixteenth of \`roughness_cutoff\` if that is more.
+If flanks touch, the limit is half of an asperity's inlet, but at least a quarter of a cell. If asperities carry less than
+0.01 of the load, this limit is multiplied by sqrt(0.01/share). In this table the column \`steps\` gives the number of steps before any is divided.
 
 TEXT
     head
@@ -84,8 +85,8 @@ TEXT
     set -- "$1" $(change 1000 5 27000)
     cat <<TEXT
 
-With 13500 and 27000 steps, a step is a half and a quarter of the longest one allowed in contact. Relative to these runs the asperity share
-with 1000 steps is off by at most $1 % and $2 %.
+With 13500 and 27000 steps, a step is a half and a quarter of the longest step allowed in contact. The asperity share with
+1000 steps differs from these runs by at most $1 % and $2 %.
 
 ## Open valleys
 
@@ -100,11 +101,11 @@ TEXT
     set -- $(change 512 4 1024)
     cat <<TEXT
 
-From 512 to 1024 cells the share changes by $1 % of it at most.
+From 512 to 1024 cells the asperity share changes by at most $1 % of its value.
 
 ## Shorter waves
 
-The same Rq with waves from 20 um on needs more cells than these:
+With waves from 20 um on, and the same Rq, the cells of this table are too wide:
 
 TEXT
     rm -f "$work/all"
@@ -114,12 +115,12 @@ TEXT
     set -- $(change 256 4 512)
     cat <<TEXT
 
-From 256 to 512 cells the share changes by $1 %; the runs say that it is not resolved.
+From 256 to 512 cells the asperity share changes by $1 %; the runs report that it is not resolved.
 
 ## Waves that the cells do not resolve
 
-The preset removes waves that 16 cells of the grid do not resolve. With the cut-off for 512 cells kept, the
-share depends only on the flanks and the oil:
+By preset, the cut-off is 16 cells long and depends on the grid. In this table it is 29 um, the preset for 512 cells, for all
+grids, so that the asperity share depends only on flanks and oil. "9.1 % off" is the share of Rq that is removed:
 
 TEXT
     rm -f "$work/all"
@@ -131,8 +132,9 @@ TEXT
     set -- "$1" $(change 1024 4 2048)
     cat <<TEXT
 
-From 512 to 1024 cells it changes by $1 %, from there to 2048 by $2 %. With the preset it depends on the removed waves. The line \`roughness_left_out\` shows them; above 5 % of Rq they
-are outside the model's range:
+From 512 to 1024 cells the asperity share changes by $1 %, from there to 2048 by $2 %. With the preset it depends on
+which waves are removed. The quality line \`roughness_left_out\` gives their share of Rq; above 5 % the film is outside its
+range:
 
 TEXT
     head
@@ -143,8 +145,8 @@ TEXT
 
 ## Hardness
 
-None of these pressures reaches the 7 GPa of \`asperity_hardness\`, the preset. Softer flanks, of 3 and
-2 GPa, yield: the plastic depth is the mean over the path of its highest value at an instant.
+No pressure above reaches the preset of \`asperity_hardness\`, 7 GPa. Softer flanks with a hardness of 3 and 2 GPa yield:
+\`p_max\` then equals the hardness. The plastic depth is the mean over the path of its highest value at each instant.
 
 TEXT
     rm -f "$work/all"
@@ -156,9 +158,8 @@ TEXT
     rows hardness=2 cells=1024 least=15 most=15
     cat <<TEXT
 
-In all runs the load is balanced to 1e-8 and no step failed; "steps cut" counts the instants before which steps
-were cut. Behind ridges across a line contact the oil cannot escape: the load that it carries there is the
-trapped share. The highest pressures are beyond the range of the oil's law.
+In all runs the load is balanced to 1e-8 and no step failed; "steps cut" counts the instants before which steps were
+shortened. In a line contact, oil between two asperity contacts cannot escape; the load that it carries is the trapped share. The highest pressures are beyond the range of the oil's law.
 TEXT
 } > "$work/mixed.md"
 mv "$work/mixed.md" "$here/mixed.md"

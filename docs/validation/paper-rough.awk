@@ -111,7 +111,7 @@ function figure10() {
     table()
     row("R_q of 0.54 and 0.53 um", F("%.4f and %.4f um", 1e6 * s["r.rq_1"], 1e6 * s["r.rq_2"]), "`rq` is given", -2)
     row("the traces measured on ground flanks", "made by `surface/synthetic`: waves from 20 to 400 um, power falling with the square of the wave number", "(the traces are not known)", -1)
-    say("The paper's surfaces are measured and not published. What follows holds for " seed_count " surfaces of the same Rq (`seed` " surface[1] \
+    say("The paper's measured surfaces are not published. The following results are for " seed_count " surfaces with the same Rq (`seed` " surface[1] \
         " to " surface[seed_count] "); the first one is drawn.")
 }
 function of_ten(set, name) { return shown(set, name, 1, 1) }
@@ -119,28 +119,28 @@ function figure11(  set, first, i, fine_touch, cells, why) {
     look("I", "d")
     set = "Id"; first = surface[1]
     head("Fig. 11: rough flanks under W_d at I", 11)
-    text = text "At the positions of Fig. 8; pressures beyond the scale are cut off. Means over the surfaces, with the lowest and the highest.\n\n"
+    text = text "At the positions of Fig. 8; pressures beyond the scale are cut off. The numbers are means over the surfaces, with the lowest and the highest in brackets.\n\n"
     table()
     spread(set, "over_1")
     row("local pressures easily exceed 1 GPa", F("at %s of 10 positions; %s GPa at the most", of_ten(set, "over_1"), shown(set, "p_max", 1, 1e-9)), "at 5 or more", spread(set, "over_1") >= 5 ? 1 : mean_ > 0 ? 0.5 : 0)
-    row("contacts of asperities with h = 0 and spikes of p", F("p above 1 GPa where h is below 10 nm, which a drawing cannot tell from 0, at %s of 10 positions; contact (h = 1 nm) at %s of them, and for %s %% of the time", \
+    row("contacts of asperities with h = 0 and spikes of p", F("p above 1 GPa where h is below 10 nm (which looks like 0 in a drawing) at %s of 10 positions; contact (h = 1 nm) at %s of them, and for %s %% of the time", \
         of_ten(set, "thin"), of_ten(set, "touch"), shown(set, "touch_time", 1, 100)), "contact at 5 or more; partly: such spikes at 5 or more", spread(set, "touch") >= 5 ? 1 : spread(set, "thin") >= 5 ? 0.5 : 0)
     row("valleys with much larger films", F("up to %s times the smooth film at the same place", shown(set, "valley", 1, 1)), "over 3", spread(set, "valley") > 3)
-    row("the contact zone varies as with smooth flanks", F("zone above 0.1 GPa: its width has a correlation of %s with that of smooth flanks, the mean width over the surfaces one of %.2f; it is %s um on average, smooth %.0f um", shown(set, "zone", 2, 1), mean_zone(set, "I"), shown(set, "width", 0, 1e6), 1e6 * M[set, "smooth_width", first]), \
+    row("the contact zone varies as with smooth flanks", F("the width of the zone above 0.1 GPa has a correlation of %s with that of smooth flanks; the mean width over the surfaces has %.2f; the width is %s um on average, smooth %.0f um", shown(set, "zone", 2, 1), mean_zone(set, "I"), shown(set, "width", 0, 1e6), 1e6 * M[set, "smooth_width", first]), \
         "above 0.8; partly above 0.5", spread(set, "zone") > 0.8 ? 1 : mean_ > 0.5 ? 0.5 : 0)
     row("neither p nor h is smooth", F("%s peaks of p at a position, smooth %.1f; film over the roughness of both flanks %s on average", shown(set, "peaks", 1, 1), M[set, "smooth_peaks", first], shown(set, "lambda", 2, 1)), \
         "over twice the peaks", spread(set, "peaks") > 2 * M[set, "smooth_peaks", first])
-    row("the influence of W_d on p and h is evident", F("correlation of the zone with W_d %s", shown(set, "by_load", 2, 1)), "above 0.5", spread(set, "by_load") > 0.5)
+    row("W_d clearly influences p and h", F("correlation of the zone with W_d %s", shown(set, "by_load", 2, 1)), "above 0.5", spread(set, "by_load") > 0.5)
     for (i = 1; i <= count["finer"]; i++) fine_touch += v["finer.contact_ratio", i] > 0
-    why = "Why: other traces touch at other places, so no single spike can agree, and the zone at ten positions depends on single asperities. "
+    why = "Why partly: other traces touch at other places, so single spikes cannot agree, and the zone at ten positions depends on single asperities. "
     if (spread(set, "touch") < 5)
-        why = why "Under the pressure peaks of asperities the oil is almost solid and can hardly escape: the film falls to some nanometres there, and for part of the time to 1 nm, which counts as contact. For waves of 20 um that share has not converged with the cells of these runs ([mixed lubrication](mixed.md)). "
+        why = why "Under the pressure peaks of asperities the oil is almost solid and can hardly escape: the film falls to some nanometres there, and for part of the time to 1 nm, which counts as contact. For waves of 20 um the share of time with contact has not converged with the cells of these runs ([mixed lubrication](mixed.md)). "
     cells = over("Is", "entrainment_speed", pitch) * (tip - sap) / deg / s["duty.speed"] / 1000 / (4 * highest("Is", "hertz_half_width") / 512)
     why = why F("In one of the paper's 1000 steps the oil moves %.1f of its cells, which smears waves of 20 um; here it moves at most one. ", cells)
     if (!quick)
         why = why F("Waves down to 5 um (first surface, 1024 cells) touch over %.1f %% of the time, with up to %.0f GPa; the traces of the paper may reach down to its cells of 1.3 um. ", \
             100 * fine_touch / count["finer"], highest("finer", "p_max") / 1e9)
-    say(why F("No pressure exceeds the hardness of 7 GPa, at which the metal yields here: it is reached over %s %% of the time. The flanks of the paper deform elastically only.", shown(set, "yield_time", 1, 100)))
+    say(why F("Here the metal yields at its hardness of 7 GPa, which is reached during %s %% of the time. In the paper the flanks only deform elastically.", shown(set, "yield_time", 1, 100)))
 }
 
 # where each figure of ten positions is
@@ -148,7 +148,7 @@ function link(P, L, rough) { return "[" (rough ? "rough" : "smooth") "](paper-" 
 function overview(  q, P) {
     if (quick) { text = text "\n"; return } # as before the heading
     head("Beyond the paper: all points and loads", "")
-    say("p and h at ten positions, smooth and with the drawn surface. For point II, the positions B, D and F are turning points of W_d, and J is its last minimum.\n")
+    say("Figures of p and h at ten positions, for smooth flanks and for the first surface. For point II, the positions B, D and F are turning points of W_d, and J is its last minimum.\n")
     text = text "| point | W_s | W_d |\n|---|---|---|\n"
     for (q = 1; q <= 3; q++) {
         P = points[q]
@@ -158,8 +158,8 @@ function overview(  q, P) {
 function all_points(  q, l, P, L, set) {
     if (quick) return
     text = text "\n![least and mean films of rough flanks](paper-rough-films.svg)\n\n"
-    text = text "Rough flanks while the load is above a twentieth of its highest; mean over " seed_count " surfaces, with the lowest and the highest:\n\n"
-    text = text "| point, load | mean film, um | smooth, um | lowest h_min, nm | h_min below 10 nm, % of the time | largest p, GPa | contact, % of the time | share of asperities, % | mean friction | zone against the smooth one, correlation |\n"
+    text = text "Rough flanks, while the load is above a twentieth of its highest: mean over " seed_count " surfaces, with the lowest and the highest:\n\n"
+    text = text "| point, load | mean film, um | smooth film, um | lowest h_min, nm | h_min below 10 nm, % of the time | largest p, GPa | contact, % of the time | share of asperities, % | mean friction | correlation of the zone with the smooth one |\n"
     text = text "|---|---|---|---|---|---|---|---|---|---|\n"
     for (q = 1; q <= 3; q++) for (l = 1; l <= 2; l++) {
         P = points[q]; L = substr("sd", l, 1); set = P L
@@ -167,5 +167,5 @@ function all_points(  q, l, P, L, set) {
         text = text "| " P ", W_" L " | " shown(set, "lambda", 2, both_rq * 1e6) " | " F("%.3f", 1e6 * smooth_film[set]) " | " shown(set, "h_min", 1, 1e9) " | " shown(set, "thin_time", 0, 100) " | " \
             shown(set, "p_max", 1, 1e-9) " | " shown(set, "touch_time", 1, 100) " | " shown(set, "share", 2, 100) " | " shown(set, "friction", 4, 1) " | " shown(set, "zone", 2, 1) " |\n"
     }
-    say("The mean film is taken over the middle half of the Hertz width. It is the space between the flanks, which pressure peaks at their asperities keep apart.")
+    say("The mean film is taken over the middle half of the Hertz width. This film is thicker than the smooth one, since pressure peaks at asperities keep the flanks apart.")
 }

@@ -219,8 +219,9 @@ No film is wired back on this page: it uses `squeeze: series` of `dynamics/shoot
 
 ## Where the branch of parted flanks ends
 
-The mesh of small modulation, k1/k = 0.049, of [both ways](two-way.md#where-oil-ends-the-branch-of-parted-flanks): the pair of Li & Kahraman
-2011 with a stiffness of three harmonics. The end is the fold that the branch reaches at falling speed.
+The mesh is that of [both ways](two-way.md#where-oil-ends-the-branch-of-parted-flanks): the pair of Li & Kahraman 2011 with a
+stiffness of three small harmonics, k1/k = 0.049. The branch with separated flanks ends at a fold when the speed falls. The
+tables give the mesh frequency of this end, in Hz, for oil in series with the teeth.
 
 ![End of the branch over viscosity, load and backlash](rattle.svg)
 
@@ -232,21 +233,24 @@ TEXT
     table 3
     cat <<'TEXT'
 
-More oil and less load raise the end: the momentum that an approach takes depends on the oil (4.9), while a motion without oil is proportional to
-the load. Without oil, backlash matters only if flights reach the back flank, that is below 80 um or above 400 N m. With oil, the end
-shifts by 7 Hz (5.006 mPa s) and 25 Hz (27.7 mPa s) from 80 to 200 um.
+The branch ends at a higher speed if the oil is more viscous or the load smaller: the momentum that the oil takes from
+approaching flanks depends only on the oil (4.9), while a motion without oil is proportional to the load. Without oil,
+backlash matters only if separated flanks reach the back flanks, that is below 80 um or above 400 N m. With oil, the end
+shifts by 7 Hz (5.006 mPa s) and 25 Hz (27.7 mPa s) from a backlash of 80 um to 200 um.
 
 TEXT
     sensitivity
     cat <<'TEXT'
 
-5.006 mPa s, 250 N m, where without oil it is 1935.9 Hz. A film at hand-over eight times as thick reduces the effect of the oil by a fifth.
-Half of the effect arises in gaps below 3 um, four fifths below 10 um: if the supply fills smaller gaps only, the effect is smaller.
+This table is for 5.006 mPa s and 250 N m, where the end without oil is at 1935.9 Hz. If the film at hand-over
+(`handover_film`) is eight times as thick, the effect of the oil is a fifth smaller. Half of the effect arises in gaps below
+3 um, four fifths below 10 um, so the effect is smaller if the oil supply fills only smaller gaps (`supply_film`).
 
 ## Light load
 
-`configs/rattle.yaml`: the pair idles, and the transmission error of 5 um of its tip relief of 10 um excites it. "Touches" is the share of the time in which a film is as thin
-as `handover_film`, 0.2 um. For motions that never repeat, the numbers are means over 64 mesh cycles and depend on round-off.
+In `configs/rattle.yaml` the pair idles; its tip relief of 10 um causes a transmission error of 5 um, which excites it.
+"Touches" is the share of time in which a film is as thin as `handover_film`, 0.2 um; the last number of a cell is the
+peak-to-peak motion. For motions that never repeat, the numbers are means over 64 mesh cycles and depend on round-off.
 
 ```sh
 flankfilm run configs/rattle.yaml
@@ -256,31 +260,34 @@ TEXT
     light
     cat <<'TEXT'
 
-- By squeeze alone, oil carries a load permanently only if the flanks bounce, since each bounce draws in new oil. Over a mesh cycle the momentum of the load, F T_m,
-  must be less than an approach takes until hand-over (4.9), 2 A h_c^-1/2, which is 0.76 N m here for one pair and one bounce. Flanks that do not bounce finally
-  touch. Another model with small steps gives such a motion to 5e-5 (`meson test branch-ends`).
-- The wedge of the rolling flanks carries loads without bouncing. At 1250 Hz it holds a film of 0.2 um under 4.9 eta0 u R b/h_c, about 120 N, or
-  9 N m, but the transmission error reduces this:
+- By squeeze alone, oil carries a load permanently only if the flanks bounce, since each bounce draws in new oil. Over a mesh cycle the
+momentum of the load, F T_m, must be less than the momentum that the oil takes until hand-over (4.9), 2 A h_c^-1/2; for this
+pair and one bounce this allows 0.76 N m. Flanks that do not bounce finally
+  touch. A separate model with small steps reproduces such a motion to 5e-5 (`meson test branch-ends`).
+- The wedge of the rolling flanks carries loads without bouncing. At 1250 Hz a film of 0.2 um carries 4.9 eta0 u R b/h_c,
+about 120 N or 9 N m, but the transmission error reduces this:
 
 TEXT
     errors
     cat <<'TEXT'
 
-The table has the largest torque, of 0.5, 1, 2, 4, 6, 8 and 12 N m, up to which the oil carries all of them permanently ("none": not even the first). If one motion rattles
-and another is carried, the one found by the search for the branch `lower` counts; round-off may decide which, as at 20 um and 1 N m.
-Flanks are rigid and the oil isoviscous: Hertz and piezoviscosity, which both make the film thicker, matter from some 50 MPa on.
+Torques of 0.5, 1, 2, 4, 6, 8 and 12 N m were tried; the table gives the largest one up to which the oil carries every torque
+permanently. If one motion rattles and another is carried by oil, the motion of the branch `lower` counts; round-off may
+decide which that is, as at 20 um and 1 N m. The model assumes rigid flanks and constant viscosity. Elastic flanks and
+piezoviscosity, which both make the film thicker, matter above some 50 MPa.
 
 ## Points I, II and III
 
-The pair itself at 250 N m, alternating s one way, and the end of its upper branch:
+The pair with its own stiffness at 250 N m: rms of the alternating part of s, and the speed at which its upper branch ends:
 
 TEXT
     paper
     cat <<'TEXT'
 
-At I and II the flanks do not separate, so the oil has no effect. The results differ because of the spring: with
-`squeeze: series` the teeth follow the chord of the mesh, not its slope (4.3a). At III the oil takes little energy from the motion, which
-is 970 Hz above the end of its branch. That end shifts little, because k1/k is larger than in the mesh above: the excitation supplies more energy than the oil takes.
+At I and II the flanks do not separate, so the oil has no effect; the numbers differ because with `squeeze: series` the mesh
+force follows the chord of the stiffness, not its slope (4.3a). At III, 970 Hz above the end of its branch, the oil takes
+little energy from the motion. The end shifts little, because k1/k is larger than in the mesh above and the excitation
+supplies more energy than the oil takes.
 Whether a machine runs at III or on the lower branch, which also exists there, depends on the run-up, not on this oil.
 TEXT
 } > "$here/rattle.md.new"

@@ -90,29 +90,31 @@ def main():
         print(rows[-2], rows[-1], *number[-2:], sep='\n', file=sys.stderr)
     page.write_text(f"""# What relief does to resonance, jumps and the number of motions
 
-`python3 docs/validation/relief.py build` writes this page. The 50/50 pair of Li and Kahraman 2011 and a 25/50 pair, both of 3 mm,
-20 mm wide and with the force of 250 N m on 50 teeth; linear relief from HPSTC; `stiffness/load-distribution` with analytical
-compliance, `dynamics/shooting`, the mass of the gears. `frozen` uses sharing and slope of the mean load for any force, `shared` those of
-the force at each instant ([theory](../theory.md#4-dynamics), 4.3b).
+`python3 docs/validation/relief.py build` writes this page. The 50/50 pair of Li and Kahraman 2011 and a 25/50 pair, both of
+3 mm, 20 mm wide and with the force of 250 N m on 50 teeth; linear tip relief from HPSTC on; `stiffness/load-distribution` with analytical
+compliance, `dynamics/shooting`, the mass of the gears. `force: frozen` uses load sharing and slope at the mean load for any
+force, `force: shared` those at the force of each instant ([theory](../theory.md#4-dynamics), 4.3b).
 
-Damping 0.05: natural frequency, highest motion of the map from 1800 to 3800 Hz, and its first two folds. Between the folds a slow sweep
-upwards and one downwards show different motions.
+With a damping ratio of 0.05: natural frequency, the motion with the largest rms from 1800 to 3800 Hz, and the first two
+folds of its branch. Between the folds, slow sweeps upwards and downwards show different motions.
 
-| pair | force | natural, Hz | highest at, Hz | its rms, um | folds, Hz |
+| pair | force | natural frequency, Hz | largest motion at, Hz | its rms, um | folds, Hz |
 |---|---|---|---|---|---|
 {chr(10).join(rows)}
 
-Damping 0.01: stable motions that both branches and 16 starts lead to, and at how many of the {len(SPEEDS)} speeds `frozen` has another number.
+With a damping ratio of 0.01: number of stable motions found from both branches and 16 other starts. The last column
+counts the speeds at which `shared` and `frozen` give different numbers.
 
 | pair | force | {' | '.join(f'{f} Hz' for f in SPEEDS)} | differs |
 |---|---|{'---|' * (len(SPEEDS) + 1)}
 {chr(10).join(number)}
 
-Against another program, which solves sharing at each instant on finite elements: the first fold at zeta 0.05. Its rim is not known. Ours is
-chosen so that the slope of the unmodified pair's stiffness lies as far above the chord, 3.8 %, as in that program; the 25 teeth have the same
-ratio of rim to root radius. `frozen` uses the chord, `shared` ten levels of the force.
+The first fold at a damping ratio of 0.05 is compared with another program, which solves load sharing at each instant with
+finite elements. Its rim radius is not known. The rim radius here is chosen so that for the pair without relief the slope of
+the mesh force exceeds the chord by 3.8 %, as in that program; the gear with 25 teeth has the same ratio of rim to root
+radius. `frozen` uses the chord, `shared` ten force levels.
 
-| pair | frozen there, Hz | here, Hz | off | shared there, Hz | here, Hz | off |
+| pair | frozen, other program, Hz | here, Hz | difference | shared, other program, Hz | here, Hz | difference |
 |---|---|---|---|---|---|---|
 {chr(10).join(map(other, OTHER))}
 """)

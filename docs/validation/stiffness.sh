@@ -89,17 +89,17 @@ finite=mesh.use=stiffness/load-distribution
 energy=mesh.use=stiffness/potential-energy
 iso=mesh.use=stiffness/iso-6336
 echo
-echo "| what changes k, and by how much | mean | first harmonic | one pair | two pairs |"
+echo "| new assumption; before: old assumption | mean | first harmonic | one pair | two pairs |"
 echo "|---|---|---|---|---|"
-effect "neighbours on one body; before: springs side by side" "$finite" "$finite mesh.neighbour_coupling=false"
+effect "neighbouring teeth on one body; before: independent parallel springs" "$finite" "$finite mesh.neighbour_coupling=false"
 effect "potential energy; before: finite elements" "$energy" "$finite"
-effect "fillet and root of a rack, neighbours uncoupled, plane stress; before: potential energy" "$finite mesh.plane=stress mesh.neighbour_coupling=false" "$energy"
-effect "tip of the rack 0.1 module round; before: 0.38" "$finite gears.tool_tip_radius=0.1" "$finite"
+effect "finite elements with the fillet that a rack cuts, neighbours uncoupled, plane stress; before: potential energy" "$finite mesh.plane=stress mesh.neighbour_coupling=false" "$energy"
+effect "tip radius of the rack 0.1 module; before: 0.38" "$finite gears.tool_tip_radius=0.1" "$finite"
 effect "plane stress; before: plane strain" "$finite mesh.plane=stress" "$finite"
 effect "corner contact; before: none" "$finite mesh.corner_contact=true" "$finite"
 effect "ISO 6336 with its own dedendum of 1.2 modules; before: 1.55" "$iso gears.root_diameter=[142.8mm,142.8mm]" "$iso"
 echo
-echo "| 200 mesh positions by | 1e6 instructions, the start of the program among them |"
+echo "| 200 mesh positions by | 1e6 instructions, including the start of the program |"
 echo "|---|---|"
 for source in "finite elements|$finite" "the analytical compliance|$finite mesh.compliance=analytical" "potential energy|$energy" "ISO 6336|$iso"; do
     set --
@@ -108,7 +108,7 @@ for source in "finite elements|$finite" "the analytical compliance|$finite mesh.
         awk -v name="${source%%|*}" '/Collected/ { printf "| %s | %.0f |\n", name, $NF / 1e6 }'
 done
 echo
-echo "| W_s/F at SAP | before LPSTC | at the pitch point | largest difference from the mirror image, ten digits |"
+echo "| W_s/F at SAP | before LPSTC | at the pitch point | largest difference from the mirror image, with ten digits |"
 echo "|---|---|---|---|"
 "$program" run "$here/stiffness.yaml" --set $finite --set 'outputs=[mesh.load_share, gears.roll_angle]' -o "$work/shares" > /dev/null
 python3 "$here/tables.py" "$work/shares"
@@ -162,16 +162,16 @@ echo
         head = "| half width of the pressure over the depth of the axis |"; rule = "|---|"
         for (i = 1; i <= n; i++) {
             w = order[i]; head = head " " w " |"; rule = rule "---|"
-            first = first " " nearer[w] " % |"; second = second " " (w in own ? own[w] " %" : "taken") " |"
+            first = first " " nearer[w] " % |"; second = second " " (w in own ? own[w] " %" : "0") " |"
         }
         print head; print rule
-        print "| flank and axis nearer than by the formula |" first
-        print "| compliance of the tooth against that taken |" second
+        print "| approach of flank and axis beyond that of the formula |" first
+        print "| compliance of the tooth compared with width 0.3 |" second
     }'
 echo
-echo "| torque, N m, and the share of a pair's deflection | 10 | 50 | 250 | 500 |"
+echo "| torque, N m | 10 | 50 | 250 | 500 |"
 echo "|---|---|---|---|---|"
-printf "| added since a tooth is no half plane |"
+printf "| share of the constant in a pair's deflection |"
 for torque in 10 50 250 500; do
     "$program" run "$here/stiffness.yaml" --json --set "duty.torque=$torque N m" |
         grep -o '"half_plane":{"value":[0-9.e-]*' | sed 's/.*://' | awk '{ printf " %.1f %% |", 100 * $1 }'

@@ -76,20 +76,20 @@ def terms(program, config, cells):
     stored = [elastic(p[i], dx, modulus) - energy[i] for i in (0, -1)]
     oil = [compressed(p[i], h[i], dx) for i in (0, -1)]
     given = run['motion.squeeze_loss'] - run['motion.film_power']
-    parts = [('given by the motion: its own sum less that over the stations', given + power * work(load, way)),
-             ('work of the oil force in flight: in the motion less in the film', power * (work(force, way) - work(load, way))),
-             ('elastic energy with which the film begins, short of Hertz\' contact', power * (stored[1] - stored[0])),
+    parts = [('input of the motion: its own sum minus the sum over the stations', given + power * work(load, way)),
+             ('work of the oil force during contact loss: in the motion minus in the film', power * (work(force, way) - work(load, way))),
+             ('elastic energy of a Hertzian contact minus that with which the film begins', power * (stored[1] - stored[0])),
              ('energy of the compressed oil with which the film begins', power * (oil[1] - oil[0])),
-             ('work of the pressure as the flanks become flatter, beyond that of Hertz\' pressure', power * work((p * x**2 / 2).sum(1) * dx - moment, 1 / radius))]
+             ('work of the pressure as the flanks become flatter, minus that of Hertz\' pressure', power * work((p * x**2 / 2).sum(1) * dx - moment, 1 / radius))]
     whole = given - run['loss.squeeze_loss_mean']
-    parts += [('cells and steps: what is left', whole - sum(value for _, value in parts)), ('all', whole)]
+    parts += [('the rest: cells and steps', whole - sum(value for _, value in parts)), ('sum', whole)]
     return [(name, value / run['loss.power_loss_mean']) for name, value in parts]
 
 
 def main():
     program, config = sys.argv[1:]
     coarse, fine = (terms(program, config, cells) for cells in (1024, 2048))
-    print('| given less taken, over the loss | 1024 cells | 2048 cells |\n|---|---|---|')
+    print('| contribution to (input - output)/loss | 1024 cells | 2048 cells |\n|---|---|---|')
     for (name, one), (_, other) in zip(coarse, fine):
         print(f'| {name} | {1e3 * one:.2f}e-3 | {1e3 * other:.2f}e-3 |')
 

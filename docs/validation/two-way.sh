@@ -61,7 +61,7 @@ row()
 
 both()
 {
-    echo '| point | acts | dte rms, um | apart | largest tooth force over static | lowest film, um | highest pressure, MPa | loss, W | films |'
+    echo '| point | acts | dte rms, um | apart | largest tooth force over quasi-static | lowest film, um | highest pressure, MPa | loss, W | rounds |'
     echo '|---|---|---|---|---|---|---|---|---|'
     for at in I II III; do
         # shellcheck disable=SC2086
@@ -78,7 +78,7 @@ both()
 
 books()
 {
-    echo '| point | torques | k(t) and e(t) | sliding | rolling | squeeze | vibration | damper | in less out, over the loss |'
+    echo '| point | torques | k(t) and e(t) | sliding | rolling | squeeze | vibration | damper | (input - output)/loss |'
     echo '|---|---|---|---|---|---|---|---|---|'
     for at in I II III 'III, squeeze in flight'; do
         cp "$work/$at.json" "$work/run.json"
@@ -95,7 +95,7 @@ books()
 # The books at III with squeeze in flight, of finer films.
 refined()
 {
-    echo '| domain in half widths | cells | steps | wedge in flight | squeeze, W | in less out, over the loss | rounds |'
+    echo '| domain in half widths | cells | steps | wedge in flight | squeeze, W | (input - output)/loss | rounds |'
     echo '|---|---|---|---|---|---|---|'
     while read -r domain cells steps wedge; do
         set -- --set film.cells="$cells" --set film.steps="$steps"
@@ -154,7 +154,7 @@ last()
 # The small-step model and its repetition, a test: speeds at which the sweep loses the branch.
 small()
 {
-    echo '| oil between parted flanks | film at hand-over | in series | original | side by side | original |'
+    echo '| oil between parted flanks | film at hand-over | in series, test | in series, original | parallel, test | parallel, original |'
     echo '|---|---|---|---|---|---|'
     "$build/tests/plugins/dynamics/test-dynamics-branch-ends" 400 2000 | awk '/lost at/ {
             key = $2 " mPa s | " ($0 ~ /side by side/ ? $9 : $8) " um"
@@ -172,7 +172,7 @@ small()
 
 ends()
 {
-    echo '| oil between parted flanks | small-step model, swept down | one way, the fold | both ways, lowest speed with parted flanks |'
+    echo '| oil between parted flanks | small-step model, swept down | no film wired back: fold | both ways: lowest speed with parted flanks |'
     echo '|---|---|---|---|'
     echo "| none | 1930 Hz | $(fold --set motion.squeeze=none) Hz | $(last "2200 2150 2125 2100 2050" --set motion.squeeze=none) |"
     echo "| 5.006 mPa s, in series | 2000 Hz | $(fold --set motion.squeeze=series) Hz | $(last "2200 2150 2125 2100 2050" --set motion.squeeze=series) |"
@@ -192,32 +192,36 @@ sh docs/validation/two-way.sh build
 
 ## What the film does to the gears
 
-The pair of Li & Kahraman 2011 at its three points (`configs/two-way.yaml`, 512 cells, 1000 steps): friction as
-torques on both gears, rolling resistance likewise, the thickness of the loaded film in series with the teeth
+The pair of Li & Kahraman 2011 at the paper's three operating points (`configs/two-way.yaml`, 512 cells, 1000 steps).
+The film acts on the motion by friction and rolling resistance, which are torques on both gears, and by the thickness of
+the loaded film in series with the teeth
 ([theory](../theory.md#motion-and-film-both-ways)). "films" counts the rounds until the feedback changes by less than 1e-4; without any effect, the second round is not computed.
 
 TEXT
     both
     cat <<'TEXT'
 
-All three together change the vibration by less than 1 % at these points, and the film by less. The motion may therefore
-be computed without its film there. Oil squeezed in flight adds a little at point III.
+All three together change the vibration by less than 1 % at these points, and the film by less, so the motion may be
+computed without its film there. "Squeeze in flight" is oil between separated flanks (`squeeze: series`); it adds a
+little at point III.
 
 ## Where the power goes
 
-In W. The power put in by the torques at the mean speeds of the gears and by the prescribed changes of stiffness and transmission
-error, compared with the power that is taken by the films, by friction from the vibration, and by the damper:
+Powers in W. Input are the torques at the mean speeds of the gears, and the prescribed changes of stiffness k(t) and
+transmission error e(t). Output are sliding, rolling and squeeze losses of the films, the power that friction takes from the
+vibration, and the damper. The last column is the difference, divided by the loss of the films:
 
 TEXT
     books
     cat <<'TEXT'
 
 If contact is kept, the balance closes to less than 5e-4 of the loss, which is the film's own error (its `energy_balance`
-and `power_loss_space_error`). If flanks separate, a motion without a film during contact loss supplies less power than the film takes;
-the line `power_balance` shows this. With `squeeze: series` the flanks land at the same time in the film and in the motion, since both squeeze the oil with the same force;
-the squeeze loss that the motion already contains is not counted twice. The remaining difference there is above 1e-3. Most of it has two causes: the domain of the film
-is fitted to loaded flanks and too short to squeeze all the oil in a gap of some micrometres; and during contact loss the film includes the wedge of the rolling
-flanks, which `squeeze` includes only with `squeeze_rolling`:
+and `power_loss_space_error`). If flanks separate, a motion without a film during contact loss supplies less power than the
+film takes; the quality line `power_balance` shows this. With `squeeze: series` the flanks land at the same time in the film and in the motion, since both squeeze the oil with the same force;
+the squeeze loss that the motion already contains is not counted twice. At point III the remaining difference is above 1e-3.
+It has two main causes: the computed domain suits loaded flanks and is too short for all the oil that is squeezed in a gap of
+some micrometres; and during contact loss the film includes the wedge of the rolling flanks, which the motion includes only
+with `squeeze_rolling` ("wedge in flight"). The table varies both at point III:
 
 TEXT
     refined
@@ -225,41 +229,45 @@ TEXT
 
 The remainder with the finest cells, 1.1e-3 to 1.3e-3, is known term by term (16 half widths, 1000 steps, the wedge during contact loss). At
 the start of active profile, where k(t) jumps, the film begins loaded. It then has less elastic energy than the Hertzian contact that `separation` assumes, and
-its compressed oil releases energy that was never put in. The error of the cells falls with their square:
+its compressed oil releases energy that was never put in. The error due to the cells falls with the square of their number:
 
 TEXT
     python3 "$here/two-way-books.py" "$build/flankfilm" "$configs/two-way.yaml"
     cat <<'TEXT'
 
-The loop takes two to four films at I and II, and up to six at III, for 1e-4: from the third round on, the change of `separation` of landing flanks falls to a
-seventh in each round. Anderson's method with one past round was tried in the engine. It saves no round, with or without squeeze in flight; with the wedge in flight it takes
-five rounds instead of seven. It was left out. Why it does not save more was not measured; a reason may be that the instant of separation changes between the second and the third round.
+For a tolerance of 1e-4, the loop takes two to four rounds at I and II, and up to six at III: from the third round on,
+the change of `separation` of landing flanks falls to a seventh in each round. Anderson's method with one past round was
+tried and left out: it saves two of seven rounds with the wedge in flight, otherwise none.
 
 ## Where oil ends the branch of parted flanks
 
-In a mesh of small modulation, k1/k = 0.049, the branch with separated flanks ends at a fold when the speed falls. A model with small fixed
-time steps, one pair of constant radius and a sweep down in steps of 10 Hz showed how far oil shifts this end: oil in series with the tooth,
-and parallel to it (the teeth are rigid until the film is `handover_film` thick). It is repeated as a
-test (`build/tests/plugins/dynamics/test-dynamics-branch-ends 400 2000`): the first speed at which flanks no longer separate, beside the original result.
+If the stiffness varies little over the mesh cycle (first harmonic over mean k1/k = 0.049), the branch with separated flanks
+ends at a fold when the speed falls. An earlier study used a model with small fixed time steps, one pair of constant radius
+and a sweep down in steps of 10 Hz to find how far oil shifts this end, for oil in series with the tooth and for oil parallel
+to it (the teeth are rigid until the film is `handover_film` thick). A test repeats the study
+(`build/tests/plugins/dynamics/test-dynamics-branch-ends 400 2000`). The table gives the first speed at which flanks no
+longer separate, by the test and by the original study:
 
 TEXT
     small
     cat <<'TEXT'
 
-Rigid teeth overestimate the effect of the oil, since in reality the tooth bends instead of closing the gap; the parallel arrangement is therefore not available. In series,
-half the `handover_film` moves the end by less than a step of 10 Hz. The return map of `dynamics/shooting` with the same one pair has its folds at 1935.9, 2007.8 and
-2292.2 Hz, 2 to 4 Hz from the speeds at which the sweep loses the branch, and the model with fixed steps reproduces its motions to 1e-5 (`meson test branch-ends`).
+Rigid teeth overestimate the effect of the oil, since a real tooth bends before the gap closes; the program therefore does
+not offer the parallel arrangement. In series, half the `handover_film` shifts the end by less than a step of 10 Hz. With the
+same single pair, `dynamics/shooting` finds the folds at 1935.9, 2007.8 and 2292.2 Hz, 2 to 4 Hz from the speeds at which the
+sweep loses the branch, and the model with fixed steps reproduces its motions to 1e-5 (`meson test branch-ends`). With two
+pairs:
 
 TEXT
     ends
     cat <<'TEXT'
 
-Without a film wired back, the folds are 2 and 11 Hz above those of one pair, since here the radii vary along the path of contact and two pairs share the oil. With the film wired back,
-squeezing the loaded film takes power from the vibration: at point III 7 % of that of the damper, 9 % with squeeze in flight (`film_power` and `damper_loss`).
+Without a film wired back, the folds are 2 and 11 Hz above those of the single pair, since here the radii vary along the path of contact and two pairs share the oil. With the film wired back,
+squeezing the loaded film takes power from the vibration: at point III 7 % of the power of the damper, 9 % with squeeze in flight (`film_power` and `damper_loss`).
 The branch therefore ends at a higher speed. Near this end the fixed films of an atlas are not reliable (`atlas_films`), so
-this column comes from separate runs at speeds 25 to 100 Hz apart, each from the branch `upper`, with 256 cells, 500 steps and at most 30 rounds.
+the last column comes from separate runs at speeds 25 to 100 Hz apart, each starting on the branch `upper`, with 256 cells, 500 steps and at most 30 rounds.
 
-The end over viscosity, load and backlash, and loads that oil carries permanently: [oil between parted flanks](rattle.md).
+[Oil between parted flanks](rattle.md) shows this end over viscosity, load and backlash, and loads that oil carries permanently.
 TEXT
 } > "$here/two-way.md.new"
 mv "$here/two-way.md.new" "$here/two-way.md"

@@ -41,7 +41,7 @@ ELEMENTS = ["mesh.elements_per_tooth=3600"]
 # name, title, the file of its pipeline (and of its study) or the pipeline, inputs, condition, models, the film doubled and twice
 # so, the rest likewise, the cheap level where the file has no study
 GEARS = (
-    ("seed", "the pair of Li & Kahraman, `configs/studies/uncertainty.yaml`", "studies/uncertainty.yaml",
+    ("paper", "the pair of Li & Kahraman, `configs/studies/uncertainty.yaml`", "studies/uncertainty.yaml",
      ("duty.torque: {normal: [250 N m, 10 %]}", "duty.mesh_frequency: {lognormal: [1250 Hz, 5 %]}",
       "duty.oil_temperature: {normal: [100 degC, 3 K]}"), "0.11 um",
      {"heat": LAWS["heat"], "Roelands": ["viscosity.use=viscosity/roelands"], "Carreau": LAWS["Carreau"]},
@@ -59,32 +59,33 @@ GEARS = (
 FEW = 10  # samples by each other model
 INTRODUCTION = """# What limits me, against brute force
 
-A study of [uncertain inputs](../guide/studies.md#what-limits-me) ends with a sentence. For three gear pairs this page compares each bar in it with brute force:
+A study of [uncertain inputs](../guide/studies.md#what-limits-me) ends with a sentence that states three errors ("bars"). For
+three gear pairs this page compares each of them with brute force:
 
-- *numerical*: the change when all cells, steps, stations and points of the case are doubled, and when they are multiplied by 4 (the elements of teeth are multiplied by 4 in both);
-- *model*: the change due to each other model, with the film's cells doubled and as the mean over the first 10 plain samples;
-- *inputs*: plain samples of the whole case, drawn by another seed than the study's. Numbers behind ± are their standard errors.
+- *numerical*: the change when all cells, steps, stations and points of the case are doubled ("doubled"), and when they are multiplied by 4 ("twice"); the elements of teeth are multiplied by 4 in both;
+- *model*: the change due to each other model, once with twice the film's cells, and once as the mean over the first 10 plain samples;
+- *inputs*: plain samples of the whole case, with another seed than that of the study. Numbers after ± are standard errors.
 
 ```sh
 python3 docs/validation/uncertainty.py build/flankfilm . DIRECTORY SAMPLES > docs/validation/uncertainty.md
 ```
 
-An interrupted run is continued. A numerical bar *holds* if it is not below the change. The bar of a model holds if it differs from the change on doubled
-cells by at most a tenth of the bar or the numerical bar. A 95 % interval holds if it overlaps that of the plain samples (of some 25 intervals one or two may miss).
+A second call continues an interrupted one. A numerical bar *holds* if it is not below the change. The bar of a model holds
+if it differs from the change on doubled cells by at most a tenth of itself or by the numerical bar. A 95 % interval holds if it overlaps that of the plain samples (of some 25 intervals one or two may miss).
 For a share, brute force gives a range from linear regression: T_i >= S_i >= r_i^2, and T_i <= 1 - sum r_k^2 over the other inputs."""
 
 DIFFERS = """
 ## What differs
 
-At 32c6103b (the last clause of each sentence: at ae63269), with SAMPLES samples, all lines hold except the shares of torque and speed of `own`. Shares are those of the cheap model (`film.use:
+With SAMPLES samples at 32c6103b (for the last clause of each sentence, at ae63269), all checks hold except the shares of torque and speed of `own`. The stated shares are those of the cheap model (`film.use:
 ehl/inlet-analysis` on 30 points of the mesh), whose vibration differs from that of the file's model. The square roots of the shares of the two models may differ by
-sqrt(1 - r^2), which is 0.08 for `pair` and 0.26 for `own` ([theory](../theory.md#15-uncertain-inputs)). The input that the sentence names has the largest share in all three.
+sqrt(1 - r^2), with r the correlation of the models; this is 0.08 for `pair` and 0.26 for `own` ([theory](../theory.md#15-uncertain-inputs)). In all three sentences, the named input has the largest share.
 
-The bar of the inputs comes from the 16 samples of the pilot alone, since the mean needs no further samples. Here it is 10 to 11 % too small, which is
-within its interval. For `pair` and `own` that interval contains the bar of the model, 9.9 and 9.6 %, so the sentence does not say which is larger. By SAMPLES samples
-the bar of the inputs is larger, 11.1 and 10 %.
+The input bar comes only from the 16 samples of the pilot, since the mean needs no further samples. Here it is 10 to 11 % too small, which is
+within its interval. For `pair` and `own` that interval contains the model bar, 9.9 and 9.6 %, so the sentence does not say which is larger. With SAMPLES samples
+the input bar is the larger one, 11.1 and 10 %.
 
-Numerical bars are 3 to 9 times the change on grids doubled twice: they are bounds."""
+Numerical bars are 3 to 9 times the change on the finest grids, since they are upper bounds."""
 
 
 class Gear:
@@ -229,7 +230,7 @@ def main():
         columns, y = gear.samples("plain", count)
         few = {one: [b / a - 1 for a, b in zip(y, gear.samples(one, FEW, sets)[1])] for one, sets in models.items()}
         print(f"\n## {name}: {title}\n\n    {limits['sentence']}\n\n{', '.join(f'`{line}`' for line in inputs)}; {len(y)} plain samples.\n\n"
-              "| | said | brute force | holds |\n|---|---|---|---|")
+              "| | study | brute force | holds |\n|---|---|---|---|")
         judge_grid(limits, nominal, doubled, twice)
         judge_models(limits, changes, few)
         judge_inputs(said["outputs"][OUTPUT], said["conditions"], limits, columns, y)

@@ -355,7 +355,7 @@ def print_refused(scenes, out):
 
 
 def print_sums(rows, out):
-    print('| output | accuracy | held | missed by more than twice | points held | median of bar over error | refused | open |\n|'
+    print('| output | accuracy | bars that hold | error above twice the bar | points where the bar holds | median of bar over error | refused | open |\n|'
           + '---|' * 8, file=out)
     for name in SCALARS + SERIES:
         for level, goal in GOALS.items():

@@ -85,8 +85,8 @@ def main():
     scenes = [solve(campaign, runner, options.seed, number + 1, options.cache) for number in range(options.count)]
     solved = [found for found in scenes if found]
     print(f'{len(solved)} of {options.count} scenes are solved on all levels.\n')
-    print('| output | finest cells | order within the band | error over that of the extrapolation (median) | extrapolation is worse '
-          '| its bar holds at 95 % of points | bar over error (median) |\n|' + '---|' * 7)
+    print('| output | finest cells | order from 1.5 to 2.5 | error of the answer over that of the extrapolation (median) '
+          '| extrapolation is worse | its bar holds at 95 % of points | bar over error (median) |\n|' + '---|' * 7)
     for name in OUTPUTS:
         for top in (2, 3):
             rows = [compare(campaign, found, name, top) for found in solved]

@@ -143,7 +143,7 @@ class Errors(lab.Lab):
     def test_no_results(self):
         os.makedirs("bare-nc", exist_ok=True)
         said = self.call("export", "bare-nc", "--to", "netcdf", "-o", "bare.nc", code=1)
-        self.assertIn("bare-nc: no results of flankfilm are here", said)
+        self.assertIn("bare-nc: no results of flankfilm in this directory", said)
 
     def test_disk_full(self):
         self.call("export", "run", "--to", "netcdf", "-o", "full.nc")

@@ -61,9 +61,9 @@ static domain measure(double load, int isoviscous)
 
 static void print(void)
 {
-    printf(
-        "| load over nominal | inlet, sqrt(2 R h) | film left out | as stated | isoviscous: inlet "
-        "| film left out | as stated |\n|---|---|---|---|---|---|---|\n");
+    printf("| load over nominal load | inlet length | missing film | stated | isoviscous: inlet "
+           "length "
+           "| missing film | stated |\n|---|---|---|---|---|---|---|\n");
     for (int k = 0; k < LOADS; k++) {
         printf("| %g ", loads[k]);
         for (int isoviscous = 0; isoviscous < 2; isoviscous++) {

@@ -163,7 +163,7 @@ def main():
     parser.add_argument('--least', type=float, help='exit code 1 where bars hold at a lower share of all instants')
     args = parser.parse_args()
     args.program = os.path.abspath(args.program)
-    print('| sort | film | scenes | error: median, 95 % | estimate over error: 10 %, median, 90 % | bars hold | in 95 % of a scene |')
+    print('| sort | output | films | error: median, 95 % | estimate over error: 10 %, median, 90 % | bars hold | films with 95 % |')
     print('|---|---|---|---|---|---|---|')
     left_out, low = [], 0
     for sort, count in SHARE.items():

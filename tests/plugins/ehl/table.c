@@ -203,7 +203,7 @@ static void print_films(void)
 
 static void print_law(void)
 {
-    printf("\n| M | L | rho H_central/rho0, control-volume | finite-volume | Moes | apart |\n"
+    printf("\n| M | L | rho H_central/rho0, control-volume | finite-volume | Moes | difference |\n"
            "|---|---|---|---|---|---|\n");
     for (size_t i = 0; i < ROWS; i++) {
         const row *r = &rows[i];
