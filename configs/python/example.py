@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A session with flankfilm in Python, cell by cell; editors that know "# %%" run one at a time.
+"""An example of flankfilm in Python, in cells; editors that support "# %%" run one cell at a time.
 
     python3 example.py        # beside the folder flankfilm
 """
@@ -23,26 +23,26 @@ for name, r in {"250 N m": case, "400 N m": heavy}.items():
     print(f"{name}: least film {film.data.min() * 1e6:.3f} um, "
           f"rms of the transmission error {float(r['motion.dte_rms']) * 1e6:.2f} um")
 
-# %% What the program says when something is wrong
+# %% An error: the program's message
 try:
     flankfilm.run(pair, {"duty.torqu": "3 N m"})
 except flankfilm.Error as error:
     print(error)
 
-# %% A loop of one's own: film against torque. A study does the same, in parallel and durably.
+# %% A loop in Python: film over torque. A study does the same, in parallel, and can be resumed.
 torque = np.array([50, 100, 200, 400])
 least = [float(flankfilm.run(pair, {**sets, "duty.torque": f"{t} N m"})["film.h_min_lowest"])
          for t in torque]
 slope = np.polyfit(np.log(torque), np.log(least), 1)[0]
-print(f"the least film goes with the torque to the power of {slope:.2f}")
+print(f"the least film varies with the torque to the power of {slope:.2f}")
 
-# %% Figures, where matplotlib is
+# %% Figures, if matplotlib is installed
 try:
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 except ImportError:
-    print("matplotlib is not here: no figure")
+    print("matplotlib is not installed: no figure")
 else:
     figure, axes = plt.subplots()
     for name, r in {"250 N m": case, "400 N m": heavy}.items():

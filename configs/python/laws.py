@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A session with the engine in this process, cell by cell: laws, one contact, a whole case.
+"""An example of the engine in this process, in cells: laws, one contact, a whole case.
 
     python3 laws.py           # beside the folder flankfilm
 """
@@ -22,7 +22,7 @@ for name, model in laws.items():
     eta = np.exp(model.law()(pressure))
     print(f"{name}: eta at 0 to 1 GPa, Pa s:", " ".join(f"{x:.3g}" for x in eta))
 
-# %% One steady contact of two discs, with either law
+# %% One steady contact of two discs, with each of the laws
 contact = engine.model("contact/constant", {
     "load_per_width": "200 N/mm", "radius_1": "20 mm", "radius_2": "20 mm",
     "speed_1": "4 m/s", "speed_2": "3 m/s"})
@@ -32,7 +32,7 @@ for name, model in laws.items():
     film.use({"viscosity": model})
     print(f"{name}: central film {film.run('h_central')['h_central'].data[0] * 1e6:.3f} um")
 
-# %% A case of a file: the arrays are the engine's own memory
+# %% A case from a file; the arrays are in the engine's own memory
 pair = os.path.join(here, "..", "li-kahraman-2011.yaml")
 run = engine.run(pair, {"film.cells": 96, "film.steps": 100, "outputs": ["film.pressure", "film.h_min"]})
 p = run["film.pressure"]

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scripts that make up the cases of a study: an optimiser, and a sample of one's own. Needs scipy.
+"""Scripts that choose the cases of a study: an optimiser, and a sample made in Python. Needs scipy.
 
     python3 optimise.py [DIRECTORY]       # beside the folder flankfilm
 
-What was computed once is kept in the directory: a second call, or one after a power cut, goes on.
+The directory keeps finished cases, so a second or interrupted call continues.
 """
 
 # %% The tip relief with the least loaded transmission error: each case depends on the one before
@@ -32,7 +32,7 @@ with flankfilm.Rows(pair, ["gears.tip_relief [um]"], os.path.join(results, "reli
                                     options={"xatol": 0.2})
 print(f"{best.x:.1f} um of relief: {best.fun * 1e6:.3f} um rms, found in {best.nfev} cases")
 
-# %% What the film depends on: a Latin hypercube as a table, which runs as any study does
+# %% What the film depends on: a Latin hypercube as a table of cases
 inputs = {"duty.torque [N m]": (200, 300), "duty.mesh_frequency [Hz]": (1000, 1500),
           "duty.oil_temperature [degC]": (90, 110)}
 least, most = zip(*inputs.values())

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """flankfilm from Python; needs numpy. Numbers are in SI.
 
-The program, in a process of its own, runs any file: a case, a study, a file with choices.
+`run` starts the program in a separate process and runs any file: a case, a study, a file with `use: KIND/auto`.
 
     import flankfilm
     r = flankfilm.run("case.yaml", {"duty.torque": "300 N m"})
@@ -9,21 +9,20 @@ The program, in a process of its own, runs any file: a case, a study, a file wit
     s = flankfilm.open("results/speed-sweep")
     s["motion.dte_rms"].data, s.axes["mesh_frequency"].data
 
-A script may make up the cases of a durable study one after the other.
+With `Rows`, a script chooses the cases of a study one after the other; finished cases are kept in the directory.
 
     with flankfilm.Rows("case.yaml", ["duty.torque [N m]"], "results/least") as rows:
         rows.ask(300)["outputs"]["film.h_min_lowest"]
 
-The engine, in this process, runs a case, a model or a law without any file in between.
+`Engine` runs a case, a model or a law in this process, without result files.
 
     engine = flankfilm.Engine()
     film = engine.run("case.yaml", {"outputs": ["film.pressure"]})["film.pressure"].data
     barus = engine.model("viscosity/barus", {"eta0": "10 mPa s", "alpha": "20 1/GPa"})
     ln_eta = barus.law()(np.linspace(0, 1e9))
 
-What goes wrong raises flankfilm.Error with the sentence of the program or the engine. The program is
-found on the path, or where the variable FLANKFILM says; the engine's library beside the program, or
-where FLANKFILM_LIBRARY says.
+An error raises flankfilm.Error with the message of the program or the engine. The program is found on
+the path or by the variable FLANKFILM, the engine's library beside the program or by FLANKFILM_LIBRARY.
 """
 
 from .arrays import Array, Error

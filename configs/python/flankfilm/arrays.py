@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Numbers with their unit and dimensions, and what is raised."""
+"""Arrays with unit and dimensions, and the exception Error."""
 
 import os
 from collections.abc import Mapping
@@ -8,8 +8,8 @@ import numpy as np
 
 
 class Error(Exception):
-    """What the program or the engine said. `errors`: its messages with file, line and column;
-    `code`: its exit code; `result`: what a run that failed has left, or None."""
+    """An error of the program or the engine. `errors`: its messages with file, line and column;
+    `code`: its exit code; `result`: the results of a failed run, or None."""
 
     def __init__(self, text, code=None, errors=(), result=None):
         super().__init__(text)
@@ -23,7 +23,7 @@ def wrong(name, wanted, found):
 
 
 def as_items(name, mapping):
-    """The items of a dictionary with names as keys, which may be None."""
+    """The items of a dictionary whose keys are names; none if the dictionary is None."""
     mapping = {} if mapping is None else mapping
     if not isinstance(mapping, Mapping):
         raise wrong(name, "a dictionary", mapping)
@@ -39,7 +39,7 @@ def as_name(name, value):
 
 
 def as_list(name, value):
-    """A list of texts, of which one may stand alone."""
+    """A list of texts; a single text counts as a list of one."""
     if isinstance(value, (str, os.PathLike)):
         return [value]
     try:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The engine in this process, through libflankfilm: runs, models by hand, and laws.
+"""The engine in this process, through libflankfilm: runs, single models, and laws.
 
-A model is code of others in this process: one that crashes takes Python along. flankfilm.run starts
-the program instead, which survives that.
+A model is foreign code in this process: if it crashes, Python crashes, too. flankfilm.run starts
+the program in a separate process instead.
 """
 
 import contextlib
@@ -82,7 +82,7 @@ _FUNCTIONS = {
 
 
 def _places():
-    """Where the library may be: as told, beside the program, or where the linker looks."""
+    """Possible paths of the library: FLANKFILM_LIBRARY, beside the program, the linker's folders."""
     if os.environ.get("FLANKFILM_LIBRARY"):
         yield os.environ["FLANKFILM_LIBRARY"]
         return
@@ -110,7 +110,7 @@ def _load():
 
 
 def _code(status):
-    """The exit code that the program would end with."""
+    """The exit code with which the program would end."""
     return 2 if status == INVALID else 3 if status == BUG else 1
 
 
@@ -119,10 +119,10 @@ def _words(text):
 
 
 def _array(result, owner):
-    """An Array that shares the engine's memory, which `owner` keeps."""
+    """An Array that shares memory of the engine; `owner` keeps this memory alive."""
     memory = (c_double * max(result.count, 1)).from_address(result.data)
     memory.owner = owner
-    # of a buffer that is read-only, so that nobody can make the array writable
+    # a read-only buffer, so that nobody can make the array writable
     data = np.frombuffer(memoryview(memory).toreadonly(), count=result.count)
     data = data.reshape(tuple(result.shape[:result.rank]))
     dims = [_words(name) for name in result.dims[:result.rank]]
@@ -142,7 +142,7 @@ def _line(q):
 
 @contextlib.contextmanager
 def _interrupts(stopped):
-    """Ctrl-C in the main thread is kept for when the engine has stopped."""
+    """Delays Ctrl-C in the main thread until the engine has stopped."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
@@ -154,10 +154,10 @@ def _interrupts(stopped):
 
 
 class Engine:
-    """Loads models and runs pipelines in this process. One thread at a time uses an engine with its
-    runs and models; engines in different threads work at the same time.
+    """Loads models and runs pipelines in this process. Only one thread at a time may use an engine with its
+    runs and models; different engines may run in different threads at the same time.
 
-    plugin_paths  a directory, or a list of them, that is searched for models before all others"""
+    plugin_paths  a directory or a list of directories, which are searched first for models"""
 
     def __init__(self, plugin_paths=()):
         self._engine, self._library = c_void_p(), _load()
@@ -168,7 +168,7 @@ class Engine:
         if self._library.ff_engine_new(byref(options), byref(self._engine)):
             raise MemoryError
 
-    def __del__(self):  # of a cycle of objects Python ends any first
+    def __del__(self):  # in a cycle of objects, Python may delete any of them first
         for handle in list(getattr(self, "_open", ())):
             self._close(handle)
         if getattr(self, "_engine", None):
@@ -180,7 +180,7 @@ class Engine:
             close(handle)
 
     def _hold(self, status, result=None):
-        """Raises what a call of a run has met."""
+        """Raises the error of a call, if there is one."""
         if status == NOMEM:
             raise MemoryError
         if status < 0 or status > 1:
@@ -190,10 +190,10 @@ class Engine:
         return _words(self._library.ff_engine_message(self._engine)).rstrip()
 
     def run(self, file, sets=None, progress=None):
-        """Runs the case of a file with `sets` laid over it, {"duty.torque": "300 N m"}: texts, numbers
-        in SI where the parameter has no unit, lists, also those of numpy. `progress` is called with
-        the share of the work of the stage at hand, and stops the run by answering True. A file with
-        a study, an accuracy or a model left open is refused: flankfilm.run."""
+        """Runs the case of a file, with the values in `sets`, such as {"duty.torque": "300 N m"}, in place of those
+        of the file. Values are texts, numbers (for parameters without a unit), lists and numpy arrays.
+        `progress` is called with the finished share of the current stage; the run stops if it returns True.
+        Files with a study, an accuracy or `use: KIND/auto` are refused; use flankfilm.run."""
         words = [text.encode() for text in assignments(sets)]
         handle = c_void_p()
         if progress is not None and not callable(progress):
@@ -205,7 +205,7 @@ class Engine:
         return run
 
     def model(self, name, parameters=None, wires=None):
-        """One model by hand: engine.model("viscosity/barus", {"alpha": "20 1/GPa"})."""
+        """One model without a file: engine.model("viscosity/barus", {"alpha": "20 1/GPa"})."""
         model = Model(self, name)
         model.set(parameters or {})
         model.use(wires or {})
@@ -213,9 +213,9 @@ class Engine:
 
 
 class Run(Mapping):
-    """A run that has ended: a mapping of "stage.output" to Array. The arrays share the memory of the
-    engine, are read-only, and keep it for as long as they live. `quality` has the lines of each
-    stage, `warnings` what the engine said beside."""
+    """A finished run: a mapping of "stage.output" to Array. The arrays are read-only and share the memory of the
+    engine, which stays allocated as long as they exist. `quality` has the quality lines of each
+    stage, `warnings` the warnings of the engine."""
 
     def __init__(self, engine, handle):
         self._of, self._library, self._run = engine, engine._library, handle
@@ -270,8 +270,8 @@ class Run(Mapping):
 
 
 class Model:
-    """One model by hand. Texts are read as in a file, "3 mm"; numbers and arrays are SI. `warnings` is
-    what the last call said beside its answer."""
+    """One model without a file. Texts are parsed as in a file, "3 mm"; numbers and arrays are in SI. `warnings` has
+    the warnings of the last call."""
 
     def __init__(self, engine, name):
         self._of, self._library, self.name = engine, engine._library, name
@@ -300,15 +300,15 @@ class Model:
             self._hold(status)
 
     def use(self, wires):
-        """Feeds wires by other models: film.use({"viscosity": barus})."""
+        """Connects wires to other models: film.use({"viscosity": barus})."""
         for name, model in as_items("wires", wires):
             if not isinstance(model, Model) or model._of is not self._of:
                 raise wrong(name, "a model of the same engine", model)
             self._hold(self._library.ff_instance_use(self._model, name.encode(), model._model))
-            self._used[name] = model  # lives as long as this one
+            self._used[name] = model  # keeps it alive as long as this one
 
     def give(self, inputs):
-        """Feeds inputs by numbers in SI: film.give({"contact.load_per_width": load})."""
+        """Sets inputs to numbers in SI: film.give({"contact.load_per_width": load})."""
         for name, value in as_items("inputs", inputs):
             numbers = as_numbers(name, value)
             shape = (c_size_t * max(numbers.ndim, 1))(*numbers.shape)
@@ -316,7 +316,7 @@ class Model:
             self._hold(self._library.ff_instance_give(self._model, name.encode(), byref(array)))
 
     def run(self, *outputs):
-        """Runs what feeds the model and then the model: a dictionary of Arrays, which are copies."""
+        """Runs the models wired to this one, then this one; returns a dictionary of Arrays, which are copies."""
         if not outputs:
             raise Error(f"{self.name}: name the outputs that are wanted", 2)
         for name in outputs:
@@ -336,7 +336,7 @@ class Model:
                 for q in _lines(self._library.ff_instance_quality, self._model)}
 
     def law(self):
-        """The law as functions of numpy arrays, by its kind: see the classes below."""
+        """The law as functions of numpy arrays; the classes below describe them for each kind."""
         kind = self.name.partition("/")[0]
         if kind not in _LAWS:
             raise Error(f"{self.name} is not a law; laws are of the kinds {', '.join(_LAWS)}", 2)
@@ -368,7 +368,7 @@ def _at(array):
 
 
 class _Law:
-    """The functions of a service; `domain` is True after a call that left the law's range."""
+    """The functions of a service; `domain` is True after a call outside the law's range."""
 
     def __init__(self, model, interface, *functions):
         self._model, self._interface, self.domain = model, interface, False
@@ -376,7 +376,7 @@ class _Law:
         self._table()
 
     def _table(self):
-        """As it is now: the model may have been set anew."""
+        """The present table of functions, since the model's parameters may have changed."""
         table = POINTER(_Service)()
         self._model._hold(self._model._library.ff_instance_service(
             self._model._model, self._interface, byref(table)))
@@ -392,9 +392,9 @@ class _Law:
 
 
 class _PressureLaw(_Law):
-    """law(p, T): viscosity laws give ln(eta / 1 Pa s), density laws rho, kg/m3, at the pressure p, Pa,
-    and the temperature T, K; T None is the temperature that the law was given for. `slopes=True`
-    gives three arrays: that, and its derivatives over p and T."""
+    """law(p, T): viscosity laws return ln(eta / 1 Pa s), density laws rho, kg/m3, at the pressure p, Pa,
+    and the temperature T, K; if T is None, at the law's own temperature. With `slopes=True` they
+    return three arrays: the value, and its derivatives with respect to p and T."""
 
     def __init__(self, model, interface):
         super().__init__(model, interface, (c_size_t, *[c_void_p] * 5))
@@ -409,10 +409,10 @@ class _PressureLaw(_Law):
 
 
 class _FlowLaw(_Law):
-    """How shear changes the flow in a film. Of both functions, points may be arrays of one shape:
+    """The effect of shear on the flow in a film. The arguments of both functions, except u_s, may be arrays of one shape:
 
-    ln_eta  ln(eta / 1 Pa s) of the liquid at rest, from a viscosity law
-    h       the thickness of the film there, m, above 0
+    ln_eta  ln(eta / 1 Pa s) of the unsheared liquid, from a viscosity law
+    h       the film thickness at that point, m, above 0
     u_s     the sliding speed u_1 - u_2 of the surfaces, m/s, one number; the stress has its sign
     p       the pressure, Pa"""
 
@@ -422,8 +422,8 @@ class _FlowLaw(_Law):
                          (c_size_t, c_void_p, c_void_p, c_void_p, c_double, c_void_p))
 
     def flow(self, ln_eta, h, u_s, slopes=False):
-        """The fluidity psi, 1/(Pa s), that the pressure flow sees: 1/eta of a Newtonian liquid.
-        `slopes=True` gives three arrays: that, and its derivatives over ln_eta and h."""
+        """The effective fluidity psi for pressure flow, 1/(Pa s), which is 1/eta for a Newtonian liquid. With
+        `slopes=True` three arrays: psi, and its derivatives with respect to ln_eta and h."""
         ln_eta, h = _like(ln_eta=ln_eta, h=h)
         u_s = _one("u_s", u_s)
         psi, over_ln_eta, over_h = (np.empty_like(h) for _ in range(3))
@@ -440,15 +440,15 @@ class _FlowLaw(_Law):
 
 
 class _Liquid(_Law):
-    """liquid("rho0", T): a property of the oil at ambient pressure over the temperature T, K; NaN where
-    its data do not tell it. `slopes=True` gives two arrays: that, and its derivative over T.
+    """liquid("rho0", T): a property of the oil at ambient pressure and the temperature T, K; NaN if
+    the oil's data lack it. With `slopes=True` two arrays: the property, and its derivative with respect to T.
 
     "ln_eta0"                ln(eta / 1 Pa s)
     "rho0"                   density, kg/m3
     "conductivity"           thermal, W/(m K)
     "heat_capacity"          J/(kg K)
     "pressure_coefficient"   dln(eta)/dp, 1/Pa
-    "reference_temperature"  that the oil was given for, K, whatever T is"""
+    "reference_temperature"  temperature at which the oil's data were given, K (independent of T)"""
 
     PROPERTIES = ("ln_eta0", "rho0", "conductivity", "heat_capacity", "pressure_coefficient",
                   "reference_temperature")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The journals of a study and the logs that hold the arrays of its cases: core/program/arrays/log.h
-says how these are laid out."""
+"""The journals of a study and the logs with the arrays of its cases; core/program/arrays/log.h
+describes the layout of the logs."""
 
 import io
 import json
@@ -18,7 +18,7 @@ TITLE = b"flankfilm arrays, format 1".ljust(63) + b"\n"
 
 
 def filled(form, values):
-    """A record's form with the values of a line in the places of None."""
+    """A record: its form, in which the values of a line replace each None."""
     if isinstance(form, dict):
         return {key: filled(item, values) for key, item in form.items()}
     if isinstance(form, list):
@@ -27,8 +27,8 @@ def filled(form, values):
 
 
 def records_of(path):
-    """{key: record} of all journals of a study. A line that was broken off does not count; of the
-    lines of a case the last one that is ok does."""
+    """{key: record} of all journals of a study. A truncated line is ignored; if a case has several
+    lines, the last one that is ok counts."""
     records, forms = {}, {}
     for name in sorted(os.listdir(path)):
         if not (name.startswith("journal") and name.endswith(".jsonl")):
@@ -53,8 +53,8 @@ def records_of(path):
 
 
 class Logs:
-    """The logs of a study, which are mapped: what nobody uses takes no memory, and writing to an
-    array leaves its log as it is."""
+    """The logs of a study. They are mapped: unused arrays take no memory, and writing to an
+    array does not change its log."""
 
     def __init__(self, path):
         self._path, self._maps = path, {}

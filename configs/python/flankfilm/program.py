@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The program from Python: runs cases and studies in a process of its own, and opens results."""
+"""The program from Python: runs cases and studies in a separate process, and opens results."""
 
 import csv
 import json
@@ -17,7 +17,7 @@ from .logs import FORMAT, Logs, records_of
 
 
 def _map(path, shape):
-    """The numbers of a .npy file, which are read as they are used; writing to them leaves it as it is."""
+    """The numbers of a .npy file. They are read when used; writing to them does not change the file."""
     try:
         data = np.lib.format.open_memmap(path, mode="c") if np.prod(shape) else np.empty(shape)
     except (OSError, ValueError) as error:
@@ -32,7 +32,7 @@ def _map(path, shape):
 
 
 def _array(entry, directory):
-    """Of {"unit", "value"} or {"unit", "dims", "shape", "data" or "file"}; null is NaN."""
+    """Makes an Array from {"unit", "value"} or {"unit", "dims", "shape", "data" or "file"}; null becomes NaN."""
     doc, against = entry.get("doc") or "", entry.get("against") or ()
     if "file" in entry:
         name = entry["file"]
@@ -48,9 +48,9 @@ def _array(entry, directory):
 
 
 class Result(Mapping):
-    """A run: a mapping of "stage.output" to Array. `asked` are the names that the file asks for,
-    `quality` has the lines of each stage, `json` all that the program said. Fields are mapped from
-    their files, so that those that nobody uses take neither time nor memory."""
+    """A run: a mapping of "stage.output" to Array. `asked` has the names of the requested outputs,
+    `quality` the quality lines of each stage, `json` the program's whole answer. Fields are mapped from
+    their files, so unused ones take neither time nor memory."""
 
     def __init__(self, answer, path=None, keep=None):
         self.json, self.path = answer, path
@@ -82,7 +82,7 @@ class Result(Mapping):
         return f"<Result {self.title or ''}: {', '.join(self._entries)}>"
 
     def against(self, name, dimension=0):
-        """The series that the dimension is plotted against, or None."""
+        """The series over which the dimension is plotted, or None."""
         names = self[name].against
         return self[names[dimension]] if dimension < len(names) and names[dimension] in self else None
 
@@ -95,12 +95,12 @@ def _number(text):
 
 
 class Study(Mapping):
-    """A study: a mapping of "stage.output" to Array whose first dimensions are what is varied. What
-    a case lacks is NaN; arrays of different lengths are padded with NaN.
+    """A study: a mapping of "stage.output" to Array. The first dimensions are the varied parameters. Missing values of a case
+    are NaN; arrays of different lengths are padded with NaN.
 
     axes     the values of each dimension, by its name ("mesh_frequency", "viscosity.use")
     status   of each case, in the shape of the study; reason likewise
-    table    the columns of table.csv as they are"""
+    table    the columns of table.csv, unchanged"""
 
     def __init__(self, path):
         self.path = path
@@ -143,14 +143,14 @@ class Study(Mapping):
                 self.axes[name if len(mine) == 1 else a["path"]] = axis
 
     def case(self, index):
-        """The arrays of one case, by its number from 0: a dictionary. They are mapped from the logs."""
+        """A dictionary of the arrays of one case, given by its number from 0. They are mapped from the logs."""
         record = self._records.get(self.table["key"][index]) or {}
         return {name: Array(self._logs.read(record, name), entry[0], entry[1], self._docs.get(name) or "",
                             entry[4] if len(entry) > 4 else [""] * len(entry[1]))
                 for name, entry in (record.get("arrays") or {}).items()}
 
     def _part(self, index, name):
-        """The numbers of one case; None where it has none."""
+        """The numbers of one output of a case, or None if the case has none."""
         record = self._records.get(self.table["key"][index]) or {}
         if name in (record.get("arrays") or {}):
             return self._logs.read(record, name)
@@ -208,7 +208,7 @@ def open(path):  # as in xarray or gzip
     if os.path.exists(os.path.join(path, "study.json")):
         return Study(path)
     if not os.path.exists(os.path.join(path, "result.json")):
-        raise Error(f"{path}: no results of flankfilm are here")
+        raise Error(f"{path}: no results of flankfilm in this directory")
     with _file(path, "result.json") as file:
         return Result(json.load(file), path)
 
@@ -222,7 +222,7 @@ def _program():
 
 
 def as_text(name, value):
-    """As YAML has it."""
+    """The value as YAML."""
 
     def plain(value):  # of numpy, whose numbers are none to json
         if isinstance(value, (np.ndarray, np.generic, Array)):
@@ -239,7 +239,7 @@ def as_text(name, value):
 
 
 def assignments(sets):
-    """What `sets` says, as --set takes it: "film.cells=512"."""
+    """The assignments in `sets`, in the form of --set: "film.cells=512"."""
     return [f"{key}={as_text(key, value)}" for key, value in as_items("sets", sets)]
 
 
@@ -248,7 +248,7 @@ def _sets(sets):
 
 
 def _call(*words):
-    """The JSON answer. An answer with errors raises, one of a run with what it has left."""
+    """The program's JSON answer. If it has errors, raises Error, with the results of a failed run."""
     line = [*_program(), *map(str, words), "--json"]
     try:
         done = subprocess.run(line, capture_output=True, text=True, check=False)
@@ -270,9 +270,9 @@ def _call(*words):
 
 
 def run(file, sets=None, directory=None, jobs=None):
-    """Runs a case or a study with `sets` laid over it, {"duty.torque": "300 N m"}, and gives a
-    Result or a Study. With `directory` the results are also written there; those of a study always
-    are. Failed cases of a study do not raise: see Study.status."""
+    """Runs a case or a study, with the values in `sets`, such as {"duty.torque": "300 N m"}, in place of those of the file;
+    returns a Result or a Study. With `directory` the results are also written there; a study always
+    writes them. Failed cases of a study raise no error: see Study.status."""
     line = ["run", as_path("file", file), *_sets(sets)]
     line += ["-j", jobs] if jobs else []
     keep = None
@@ -291,12 +291,12 @@ def run(file, sets=None, directory=None, jobs=None):
 
 
 def check(file, sets=None):
-    """Raises what is wrong with the file, and runs nothing. Says whether it is a study."""
+    """Raises the errors of the file, and does not run it. Returns whether it is a study."""
     return _call("check", as_path("file", file), *_sets(sets))["study"]
 
 
 def fit(kind, data, laws=(), at=(), sets=None, directory=None):
-    """Parameters of laws from measured data, as the dictionary that `flankfilm fit --json` prints."""
+    """Fits parameters of laws to measured data; returns the dictionary that `flankfilm fit --json` prints."""
     line = ["fit", kind, as_path("data", data), *_sets(sets)]
     line += [word for law in as_list("laws", laws) for word in ("--law", law)]
     line += [word for value in as_list("at", at) for word in ("--at", value)]

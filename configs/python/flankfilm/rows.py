@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A study whose cases a script makes up one after the other."""
+"""A study whose cases a script chooses one after the other."""
 
 import csv
 import json
@@ -11,7 +11,7 @@ from .program import _program, _sets, as_text
 
 
 class Rows:
-    """Feeds a study with `study: {cases: "-"}`, which is durable: what the directory has is answered
+    """Runs a study with `study: {cases: "-"}`. Cases that the directory already contains are answered
     from there. Columns are paths, with a unit in brackets for bare numbers.
 
         with flankfilm.Rows("pair.yaml", ["duty.torque [N m]"], "results/least") as rows:
@@ -35,14 +35,14 @@ class Rows:
             raise self._end() from None
 
     def _end(self):
-        """The error of a program that is gone."""
+        """The error if the program has ended."""
         self._process.wait()
         self._said.seek(0)
         return Error(self._said.read().strip() or "the rows are closed", self._process.returncode)
 
     def ask(self, *values):
-        """Runs the case of these values; returns its line as a dict, of which "status" is "ok" or
-        "reason" says why not."""
+        """Runs the case with these values; returns its line of JSON as a dictionary. If "status" is not "ok",
+        "reason" says why."""
         self._write([as_text("a value", value) for value in values])
         line = self._process.stdout.readline()
         if not line:
@@ -50,7 +50,7 @@ class Rows:
         return json.loads(line)
 
     def close(self):
-        """Lets the program write the table of the cases."""
+        """Ends the study; the program then writes the table of the cases."""
         if not self._process.stdin.closed:
             self._process.communicate()
         self._process.stdin.close()
