@@ -96,7 +96,7 @@ static bool ends_at_tips(const conformance_evaluation *run)
         if (reached[i] > most * (1 + 1e-9))
             return ff_check_failf(run->fixture,
                                   "at %s the flank of gear %d has a radius of curvature of %.6g m, "
-                                  "but it has only %.6g m at its tip_radius %g m",
+                                  "but at its tip_radius %g m it has only %.6g m",
                                   i ? "roll_sap" : "roll_tip", i + 1, reached[i], tip.data[i],
                                   most);
     }

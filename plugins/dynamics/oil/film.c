@@ -3,10 +3,10 @@
 
 #include <math.h>
 
-/* w of the wedge alone, at beta = 0 (squeeze-law.h). */
+/* The load number w of the wedge alone, at beta = 0 (squeeze-law.h). */
 static const double wedge_load = 4.8949684937;
 
-/* Converts a phase to mesh cycles. A phase that differs from a node only by round-off counts as
+/* Converts a phase to mesh cycles. A phase that differs from a node only by round-off is treated as
    just after the node. A phase deliberately placed before a node (landing.c) stays before it. */
 static double cycles_to(const dynamics_film *film, double phase)
 {
@@ -33,9 +33,9 @@ static double radius_power(const dynamics_film *film, double x)
     return r * sqrt(r);
 }
 
-/* Combines the pairs in mesh; their widths add up. A common radius R is chosen so that the squeeze
-   force is exact. The error of the wedge force is then of second order in the differences of the
-   radii. */
+/* Combines the pairs in mesh into one contact, whose width is the sum of their widths. A common
+   radius R is chosen so that the squeeze force is exact. The error of the wedge force is then of
+   second order in the differences of the radii. */
 dynamics_film_place dynamics_film_at(const dynamics_film *film, double phase, double T)
 {
     static const double root_of_two = 1.4142135623730951;

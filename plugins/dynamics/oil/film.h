@@ -1,14 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * The oil between separated flanks, in series with the teeth. On each flank, with the sign s of its
- * force (1: driving, -1: back) and q = s delta - b:
- *   W = k (q + y),   y' = -V(W, h),   h = h_c + y,
- * Here h_c is the film thickness of the loaded flanks (the hand-over film), y the film thickness
- * beyond h_c, q + y the deflection of the teeth, and V the speed of approach at the load W
- * (squeeze-law.h). A flank is held while y = 0: the film of the loaded flanks is stiff and keeps
- * its thickness. A flank is free while W = 0, since oil does not pull: then y = -q. All units are
- * those of excitation.h.
- */
+/* The oil between separated flanks, in series with the teeth. On each flank, with the sign s of its
+   force (1: driving, -1: back), the load W, the tooth stiffness k and q = s delta - b: W = k (q +
+   y), y' = -V(W, h), h = h_c + y, Here h_c is the film thickness of the loaded flanks (the
+   hand-over film), y the film thickness beyond h_c, q + y the deflection of the teeth, and V the
+   speed of approach at the load W (squeeze-law.h). While y = 0 a flank is called held: the film of
+   the loaded flanks is stiff and keeps its thickness. While W = 0 a flank is called free; oil does
+   not pull, so y = -q then. All units are those of excitation.h. */
 #ifndef DYNAMICS_FILM_H
 #define DYNAMICS_FILM_H
 
@@ -29,10 +26,11 @@ typedef struct dynamics_film {
     dynamics_squeeze_table table; /* made if `rolling` is 1 */
 } dynamics_film;
 
-/* The film at a phase of the mesh cycle, summed over all pairs in mesh. */
+/* Coefficients of the film at a phase of the mesh cycle, summed over all pairs in mesh. */
 typedef struct dynamics_film_place {
     double squeeze;      /* sum of 3 sqrt(2) pi eta0 b R^1.5 */
-    double wedge, speed; /* n eta0 u R b and u/sqrt(2 R), with the common R that gives `squeeze` */
+    double wedge, speed; /* n eta0 u R b and u/sqrt(2 R), with the number n of pairs and the common
+                            R that gives `squeeze` */
 } dynamics_film_place;
 
 /* V and its derivatives with respect to W, h and u; the last one is multiplied by u. */
@@ -54,7 +52,7 @@ dynamics_approach dynamics_film_approach(const dynamics_film *film,
 double dynamics_film_holding_load(const dynamics_film *film, const dynamics_film_place *place);
 
 /* Returns the quasi-static film y between flanks that approach with q' = speed. A motion whose film
-   is not known starts with it. */
+   is not known starts with this film. */
 double dynamics_film_quasi_static(const dynamics_film *film, const dynamics_film_place *place,
                                   double stiffness, double q, double speed);
 

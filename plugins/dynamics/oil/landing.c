@@ -105,7 +105,8 @@ void dynamics_landing_polynomial(const dynamics_radau *r, const double *value, d
 
 /* Solves n equations with `columns` right-hand sides in place, by Gaussian elimination with
    pivoting. Returns 0 if the matrix is singular. GSL is slower for so few equations:
-   light-load.yaml with squeeze: series takes 3.0e9 instructions, and 8.8e9 with GSL. */
+   light-load.yaml with squeeze: series takes 3.0e9 instructions with this function and 8.8e9 with
+   GSL. */
 static int eliminate(int n, double m[MOST][MOST], int columns,
                      double side[DYNAMICS_FILM_COLUMNS][MOST])
 {
@@ -144,13 +145,15 @@ static int eliminate(int n, double m[MOST][MOST], int columns,
 /* Quantities that are constant while a step is solved. */
 typedef struct stages {
     const dynamics_radau *r;
-    double h, c, load[S], bend[S], k[S]; /* load: load less drag and e'' at each stage; bend: e'' */
+    double h, c, load[S], bend[S], k[S]; /* load: load minus drag minus e'' at each stage; bend:
+                                            e'' */
     double thicken[S];                   /* growth rate of the loaded film; the damper acts on
                                             the rate of delta minus this rate */
     int count, flank[2];                 /* number and flanks of the films that carry load */
     dynamics_film_place place[S];
     double (*inverse)[S];
-    double yield[S][S]; /* derivative of delta at the stages with respect to the force */
+    double yield[S][S]; /* derivatives of delta at the stages with respect to the force at the
+                           stages */
 } stages;
 
 static double sign_of(int flank)
@@ -391,8 +394,8 @@ static void stretch_stages(const stages *g, const dynamics_landing *step, variat
     }
 }
 
-/* Computes the derivatives of the motion at the stages. `start` contains those of delta, its rate
-   and the films. */
+/* Computes the derivatives of the motion at the stages. `start` contains the derivatives of delta,
+   its rate and the films at the start of the step. */
 static void vary_motion(const stages *g, const dynamics_landing *step, const double *start,
                         variation *v)
 {

@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Steps of the motion while no flank is held, with the films of film.h between the flanks. A film
- * in a wide gap reacts at once, so that the equations are stiff there. A step is therefore a
- * collocation at the Radau nodes (Hairer & Wanner 1996, Solving Ordinary Differential Equations II,
- * section IV.5: Radau IIA). It damps components that the step does not resolve, and its order at
- * the end is 13. The step length follows from the last Legendre coefficients of the films and of
- * the speed.
- */
+/* Steps of the motion while no flank is held, with the films of film.h between the flanks. A film
+   in a wide gap reacts without delay, so the equations are stiff there. A step is therefore a
+   collocation at the Radau nodes (Hairer & Wanner 1996, Solving Ordinary Differential Equations II,
+   section IV.5: Radau IIA). It damps components that the step does not resolve, and its order at
+   the end is 13. The step length follows from the last Legendre coefficients of the films and of
+   the speed. */
 #ifndef DYNAMICS_LANDING_H
 #define DYNAMICS_LANDING_H
 
@@ -39,8 +37,8 @@ typedef struct dynamics_landing {
     double delta[DYNAMICS_NODES], rate[DYNAMICS_NODES], film[2][DYNAMICS_NODES];
     double bend[2][DYNAMICS_NODES]; /* deflection of the teeth, q + y */
     double force[DYNAMICS_NODES];   /* force of the teeth on the gears, in the direction of delta */
-    double doubt;                   /* error of the polynomials through the nodes, over the
-                                       allowed error */
+    double doubt;                   /* estimated error of the polynomials through the nodes, over
+                                       the allowed error */
     dynamics_approach approach[2][DYNAMICS_STAGES];
     /* derivative of the accelerations at the stages with respect to the force */
     double inverse[DYNAMICS_STAGES][DYNAMICS_STAGES];
@@ -56,10 +54,10 @@ void dynamics_landing_vary(const dynamics_radau *radau, const dynamics_landing *
 
 /* Energies exchanged in a step. */
 typedef struct dynamics_landing_energy {
-    double damper, films; /* taken by the damper and by the films */
-    double work;          /* supplied by changes of k and e */
+    double damper, films; /* energies taken by the damper and by the films */
+    double work;          /* energy supplied by changes of k and e */
     double thickness;     /* part of `work` supplied by the loaded film */
-    double drag;          /* taken by friction and rolling */
+    double drag;          /* energy taken by friction and rolling resistance */
 } dynamics_landing_energy;
 
 dynamics_landing_energy dynamics_landing_energies(const dynamics_radau *radau,

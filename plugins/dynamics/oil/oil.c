@@ -18,7 +18,7 @@ ff_status dynamics_oil_check(const ff_host *host, const dynamics_oil *oil, int32
         return FF_OK;
     if (damping != DYNAMICS_DAMPING_ALWAYS)
         return ff_failf(host, FF_INVALID, "damping",
-                        "must be always with squeeze: series, since the oil between the flanks "
+                        "must be always if squeeze is series, since the oil between the flanks "
                         "replaces a damper that acts only in contact");
     if (oil->supply <= oil->hand_over)
         return ff_failf(host, FF_INVALID, "supply_film", "must be above handover_film");
@@ -74,8 +74,8 @@ ff_status dynamics_oil_read(const ff_host *host, const ff_array *in, const dynam
         return FF_OK;
     if (excitation->shared)
         return ff_failf(host, FF_UNSUPPORTED, "force",
-                        "a film between separated flanks (squeeze: series) needs a mesh with one "
-                        "stiffness; take force: frozen, or squeeze: none");
+                        "a film between separated flanks (squeeze: series) needs a single mesh "
+                        "stiffness; use force: frozen, or squeeze: none");
     if (!(excitation->half_gap > 0))
         return ff_failf(host, FF_INVALID, "squeeze",
                         "series needs a gear with backlash: without backlash the flanks never "

@@ -16,20 +16,20 @@ typedef struct dynamics_oil {
 /* The parameter rows for a member `oil` of the instance. */
 #define DYNAMICS_OIL_ROWS(type)                                                                    \
     FF_ONE_OF("none|series", "squeeze", type, oil.squeeze, 0, "none",                              \
-              "oil that is squeezed out when separated flanks meet again: none, or series (a "     \
-              "film on either flank in series with the teeth)"),                                   \
+              "model of the oil that is squeezed out when separated flanks meet again. none: no "  \
+              "oil; series: a film on either flank, in series with the teeth"),                    \
         FF_SWITCH(                                                                                 \
             "squeeze_rolling", type, oil.rolling, "false",                                         \
-            "with squeeze: series: whether the wedge of the rolling flanks carries load too"),     \
+            "for squeeze: series, whether the wedge of the rolling flanks carries load too"),      \
         FF_QUANTITY("handover_film", "um", type, oil.hand_over, FF_MIN_OPEN, "0.2 um", NULL, 0,    \
                     1000, 0.02, 5,                                                                 \
-                    "with squeeze: series: film thickness of the loaded flanks, at which the "     \
+                    "for squeeze: series, film thickness of the loaded flanks, at which the "      \
                     "teeth take over the load"),                                                   \
         FF_QUANTITY("supply_film", "um", type, oil.supply, FF_MIN_OPEN, NULL, NULL, 0, 1e6, 0, 0,  \
-                    "with squeeze: series: film thickness above which the oil does not fill the "  \
+                    "for squeeze: series, film thickness above which the oil does not fill the "   \
                     "gap; default: it always fills the gap")
 
-/* Checks the parameters in `ready`: refuses contradictory ones and reports those that have no
+/* Checks the parameters in `ready`: refuses contradictory parameters and reports parameters without
    effect. */
 ff_status dynamics_oil_check(const ff_host *host, const dynamics_oil *oil, int32_t damping);
 

@@ -3,12 +3,13 @@
 
 #include <math.h>
 
-/* Ends of the table in ln w. Beyond them the power laws are accurate to 1e-8 of beta. */
+/* Ends of the table in ln w. Beyond these ends, the power laws give beta with a relative error of
+   1e-8. */
 static const double lowest = -12, highest = 14;
 
-/* Computes the integrals of cos^4 and of sin^2 cos^2 from -pi/2 to delta - pi/2, which equal those
-   of sin^4 and of sin^2 cos^2 from 0 to delta. The closed forms suffer from cancellation near 0, so
-   series replace them there. */
+/* Compute the integrals of cos^4 and of sin^2 cos^2 from -pi/2 to delta - pi/2, which equal those
+   of sin^4 and of sin^2 cos^2 from 0 to delta. Near 0 the closed forms suffer from cancellation, so
+   series are used there. */
 static double fourth_power(double d)
 {
     double x = d * d;

@@ -7,16 +7,16 @@
 #include <string.h>
 
 /* Distances in units of dynamics_state_unit. Newton's method is tried if a state returns to within
-   near_return of an earlier one. The orbit that it finds is accepted if the state is within
-   close_enough of it. */
+   near_return of an earlier state. The orbit found is accepted if the state is within close_enough
+   of the orbit. */
 static const double near_return = 0.05, close_enough = 2e-2;
 
-/* A motion is left to settle only at this damping ratio or above. A smaller damping ratio is then
-   reached by continuation from there. */
+/* Smallest damping ratio at which a motion is integrated until it settles. A smaller damping ratio
+   is reached by continuation from the motion at this ratio. */
 static const double least_damping = 2e-3;
 
-/* Numbers of mesh cycles: between the first attempts of Newton's method, kept in memory, and
-   integrated to measure the growth of a disturbance. */
+/* Numbers of mesh cycles. BATCH: between the first attempts of Newton's method; HISTORY: stored;
+   GROWTH_CYCLES: integrated to measure the growth of a disturbance. */
 enum { BATCH = 16, HISTORY = DYNAMICS_PERIOD_MAX + 1, GROWTH_CYCLES = 400 };
 
 /* Looks for a periodic motion near the last states; history[i] is the state i cycles ago. */
@@ -166,8 +166,8 @@ static double distance_of(const dynamics_excitation *excitation, const dynamics_
 }
 
 /* Continues a stable motion to the speed `lambda` by Newton's method. Returns 0 if the branch ends
-   or becomes unstable on the way. `orbit` is then the last stable motion; its speed is located to
-   within `share` of the remaining change. */
+   or becomes unstable before. `orbit` is then the last stable motion; the speed at which the branch
+   ends is located to within `share` of the remaining change of speed. */
 static int follow_speed(const dynamics_flow *flow, double lambda, double share,
                         dynamics_orbit *orbit)
 {
@@ -196,9 +196,9 @@ static void take_orbit(const dynamics_flow *flow, dynamics_orbit *orbit, dynamic
     memcpy(a->x, orbit->x, sizeof a->x);
 }
 
-/* Returns how many cycles a motion may take to come near a periodic motion while the speed still
-   changes. Newton's method needs no more. Without this limit an aperiodic motion would use up the
-   whole search at each intermediate speed. */
+/* Returns the number of cycles in which a motion must come near enough to a periodic motion for
+   Newton's method, while the speed is still changing. Without this limit an aperiodic motion would
+   use up all cycles of the search at each intermediate speed. */
 static size_t cycles_on_the_way(const dynamics_flow *flow, const dynamics_search *search,
                                 double lambda)
 {
@@ -206,17 +206,17 @@ static size_t cycles_on_the_way(const dynamics_flow *flow, const dynamics_search
     return enough < search->cycles ? enough : search->cycles;
 }
 
-/* Changes the speed slowly from `from` to that of the search. A periodic motion is continued to the
-   end of its branch. There the speed is swept over a short range, and the motion settles again. If
-   there is oil between the flanks, the speed is swept over the whole range, since one Newton
-   solution of such a motion costs more than hundreds of its cycles. */
+/* Changes the speed slowly from `from` to the speed of the search. A periodic motion is continued
+   to the end of its branch. There the speed is swept over a short range, and the motion settles
+   again. If there is oil between the flanks, the speed is swept over the whole range, since one
+   Newton solution of such a motion costs more than hundreds of its cycles. */
 static ff_status change_speed(const dynamics_flow *flow, double from, const dynamics_search *search,
                               const ff_host *host, dynamics_attractor *a)
 {
     int follows = !flow->excitation->film;
     double stretch = follows ? 0.03 : INFINITY; /* length of one sweep, in lambda */
-    /* On the way to a slow speed dozens of branches end. The first end is located exactly, since it
-       is reported. Later ones are located roughly. */
+    /* Before a slow speed is reached, dozens of branches may end. The first end is located exactly,
+       since it is reported; the other ends are located roughly. */
     static const double nearly = 0.01;
     dynamics_search here = *search;
     here.growth = 0;
@@ -253,7 +253,7 @@ static ff_status change_speed(const dynamics_flow *flow, double from, const dyna
     }
 }
 
-/* Where a change of speed starts, and how. */
+/* The start of a change of speed. */
 typedef struct way {
     double from;       /* lambda */
     int seeks_contact; /* 1: accept a stable motion without contact loss */

@@ -19,8 +19,8 @@ static double overlap(const dynamics_run *r, int flank)
     return sign_of(flank) * r->y->delta - r->excitation->half_gap;
 }
 
-/* Sets each film without load from the position of the flanks: to 0, the thickness at hand-over, on
-   a flank that is held, and to the whole gap on the other flank. At the start of a motion this
+/* Sets each film without load from the position of the flanks: y = 0 (hand-over thickness) on a
+   flank that is held, and the whole gap on the other flank. At the start of a motion this
    overwrites given films. */
 void dynamics_run_follow_flanks(dynamics_run *r)
 {
@@ -98,8 +98,8 @@ static void salt(dynamics_run *r, double force, double share)
     y->change[1] += force * share * y->change[0];
 }
 
-/* Applies the force of the film on the opposite flank as a step when a flank is released. That film
-   is not integrated before. */
+/* When a flank is released, applies the force of the film on the opposite flank as a step, since
+   that film was not integrated before. */
 static void jump_in(dynamics_run *r, int flank)
 {
     double s = -sign_of(flank), k = dynamics_run_stiffness(r),
@@ -152,8 +152,8 @@ void dynamics_run_carry_films(dynamics_run *r, const double v[2], const double w
     dynamics_run_follow_flanks(r);
 }
 
-/* Kinds of gates. When the value becomes negative: the film has fallen to the hand-over thickness
-   (HELD), the film stops carrying load (FREE), the flank begins to approach (CLOSING), the gap
+/* Kinds of gates. If the value becomes negative, the film has fallen to the hand-over thickness
+   (HELD), the film stops carrying load (FREE), the flank begins to approach (CLOSING), or the gap
    passes the thickness up to which oil fills it (FILLED). */
 enum { HELD, FREE, CLOSING, FILLED };
 
@@ -265,8 +265,8 @@ static int solve_step(const dynamics_run *r, double end, dynamics_landing *step)
     return dynamics_landing_solve(r->flow->radau, step);
 }
 
-/* Solves the longest step, at most to the next node, that meets the accuracy. Returns 0 if none was
-   found. */
+/* Solves the longest step that is accurate enough and ends at or before the next node. Returns 0 if
+   none was found. */
 static int find_step(dynamics_run *r, dynamics_landing *step)
 {
     double node = dynamics_film_node(r->excitation->film, r->at),
@@ -287,7 +287,7 @@ static int find_step(dynamics_run *r, dynamics_landing *step)
         double used = (to - r->at) * r->T;
         double change = 0.8 * pow(fmax(step->doubt, 1e-6), -1. / DYNAMICS_STAGES);
         if (step->doubt > 1 && used > shortest) {
-            h = fmin(2 * used * fmax(change, 0.1), 1.9 * used); /* the loop halves it */
+            h = fmin(2 * used * fmax(change, 0.1), 1.9 * used); /* the loop halves h */
             continue;
         }
         if (r->idle <= DYNAMICS_MAX_IDLE)
@@ -296,8 +296,8 @@ static int find_step(dynamics_run *r, dynamics_landing *step)
     }
 }
 
-/* Finds the first gate that closes within the step. Returns the fraction of the step at which it
- * closes, or -1 if none does. */
+/* Finds the first gate whose value becomes negative within the step. Returns the fraction of the
+   step at which this happens, or -1 if it does not happen. */
 static double first_gate(const dynamics_run *r, const dynamics_landing *step, oil_gate *which)
 {
     double first = -1, tiny = 8 * DBL_EPSILON * (1 + r->excitation->half_gap);

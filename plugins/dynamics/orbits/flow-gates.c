@@ -35,8 +35,8 @@ static void contact_force_gate(const dynamics_run *r, const dynamics_taylor_seri
 
 /* Makes the gate at a knee of the spring on one flank. Its value is the force of `line` minus the
    force of the previous line, times `sign`. Returns 0 if the knee is out of reach in this step. The
-   bound is that the sum of the absolute coefficients of a product is at most the product of the
-   sums. */
+   bound used: the sum of the absolute coefficients of a product of polynomials is at most the
+   product of the sums for its factors. */
 static int knee_gate(const dynamics_run *r, const dynamics_taylor_series *s, int flank, int line,
                      double sign, dynamics_gate *g)
 {
@@ -173,7 +173,7 @@ static double room_in_flight(const dynamics_excitation *x, double z)
     return x->half_gap + fmin(share * x->back_room - z, (1 - share) * x->back_room + z);
 }
 
-/* The sum of all terms towards the edge bounds the motion. */
+/* The sum of the absolute values of all terms bounds the motion towards the edge. */
 int dynamics_run_misses_edge(const dynamics_run *r, const dynamics_taylor_series *s, double tiny)
 {
     double z = s->c[0][DYNAMICS_Z], first = s->c[1][DYNAMICS_Z];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The state of a motion inside a mesh cycle, shared by flow.c, flow-gates.c and flow-film.c (steps
-   in oil). */
+   with oil between the flanks). */
 #ifndef DYNAMICS_FLOW_RUN_H
 #define DYNAMICS_FLOW_RUN_H
 
@@ -13,18 +13,18 @@ typedef struct dynamics_run {
     const dynamics_excitation *excitation;
     const dynamics_piece *piece;
     double T, at, end; /* duration of the cycle, current phase, phase at the end of the step */
-    int side, pressed; /* as in oscillator.c; in oil, side is the flank that is held */
+    int side, pressed; /* see oscillator-state.h; with oil, `side` is the flank that is held */
     int band;          /* band of the spring (spring.h) */
-    int open[2];       /* in oil: whether the film of each flank carries load */
-    double stride;     /* in oil: proposed duration of the next step */
+    int open[2];       /* with oil: whether the film of each flank carries load */
+    double stride;     /* with oil: proposed duration of the next step */
     int idle;
     int variation;
     dynamics_state *y;
     const dynamics_observer *observer;
 } dynamics_run;
 
-/* A gate is a condition that holds while p >= 0. When it fails, the contact changes to (side,
-   pressed); at a knee only the band of the spring changes. */
+/* A gate is a condition that holds while its polynomial p is not negative. When p becomes negative,
+   the contact changes to (side, pressed); at a knee only the band of the spring changes. */
 enum { DYNAMICS_RUN_GATES = 4 };
 typedef struct dynamics_gate {
     double p[DYNAMICS_ORDER_MAX + 1];
@@ -57,7 +57,7 @@ int dynamics_run_misses_edge(const dynamics_run *r, const dynamics_taylor_series
 double dynamics_run_find_event(const dynamics_run *r, const dynamics_taylor_series *s,
                                dynamics_gate g[DYNAMICS_RUN_GATES], const dynamics_gate **which);
 
-/* Updates of the contact in oil. find_films sets the held flank and the films that carry load, from
+/* Update the contact with oil. find_films sets the held flank and the films that carry load, from
    the state. follow_flanks sets the films without load after a jump of delta. release_flank
    releases the held flank and starts the films. */
 void dynamics_run_find_films(dynamics_run *r);

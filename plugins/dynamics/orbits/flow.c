@@ -94,8 +94,7 @@ static void find_band(dynamics_run *r)
     r->band = r->side ? dynamics_spring_band(r->piece, r->at - r->piece->start, bend) : 0;
 }
 
-/* Returns the change of delta and of its rate when the motion changes to another track (tracks.h)
- * at a phase. */
+/* The change of delta and of its rate when the motion changes to another track (tracks.h). */
 typedef struct shift {
     const dynamics_piece *piece;
     double delta, rate;
@@ -204,9 +203,9 @@ static void move_state(dynamics_run *r, const dynamics_taylor_series *s, double 
     y->det *= v[DYNAMICS_PHI_1] * w[DYNAMICS_PHI_2] - v[DYNAMICS_PHI_2] * w[DYNAMICS_PHI_1];
 }
 
-/* Like change_contact, for flanks with different tracks. The damper then uses another e, so its
- * force jumps at the edge, which the flank approaches at the rate `edge`. If a jump of e moves the
- * edge across the motion, the edge is not passed. */
+/* Does the same as change_contact for flanks with different tracks. The damper then uses another e,
+   so its force jumps at the edge of the gap; the flank approaches this edge at the rate `edge`. If
+   a jump of e moves the edge past the current position, the derivatives are not changed. */
 static void change_track(dynamics_run *r, const dynamics_gate *g)
 {
     const int flank = g->side ? g->side : r->side;
@@ -274,8 +273,8 @@ static void add_offset(const dynamics_run *r, double since, dynamics_piece_equat
     q->drags = 1;
 }
 
-/* Sets the equation and the end of the next step. The end is at most the node where the smooth
-   stretch ends. */
+/* Sets the equation of the next step and returns its end, which is at or before the node where the
+   equation ceases to be smooth. */
 static double plan_step(const dynamics_run *r, dynamics_piece_equation *q)
 {
     double end = dynamics_piece_end(r->excitation, r->piece);

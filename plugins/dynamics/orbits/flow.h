@@ -22,7 +22,7 @@ typedef struct dynamics_flow {
 
 /* The films on both flanks and their derivatives. */
 typedef struct dynamics_film_state {
-    int known; /* 0: at a start; the films are then computed from the motion */
+    int known; /* 0: at the start of a motion whose films are computed from delta and rate */
     double film[2];
     double by[4];     /* derivative of (delta, rate) with respect to the start values of the
                          films, row by row */
@@ -31,7 +31,7 @@ typedef struct dynamics_film_state {
     double change[2]; /* derivative of the films with respect to T */
 } dynamics_film_state;
 
-/* The state at the start or the end of a mesh cycle, before a node there. */
+/* The state at the start or the end of a mesh cycle, before a jump of the excitation there. */
 typedef struct dynamics_state {
     double delta, rate;
     double m[4];      /* derivative of (delta, rate) with respect to their start values, row by
@@ -49,11 +49,11 @@ typedef struct dynamics_step {
     const dynamics_taylor_series *series;
     double at, end; /* phases in the cycle */
     double x, T;
-    int side, pressed; /* as in oscillator.c */
+    int side, pressed; /* see oscillator-state.h */
     int band;          /* band of the spring (spring.h) */
     double damper;
-    const dynamics_landing *landing; /* set in a step in oil while no flank is held; NULL: the step
-                                        is one of the Taylor series */
+    const dynamics_landing *landing; /* set in a step with oil while no flank is held; NULL: the
+                                        step is that of the Taylor series */
 } dynamics_step;
 
 typedef struct dynamics_observer {
@@ -65,19 +65,20 @@ int dynamics_flow_init(dynamics_flow *flow,
                        const dynamics_excitation *excitation); /* 0: out of memory */
 void dynamics_flow_free(dynamics_flow *flow);
 
-/* Sets the films at the start of a motion. Known films are kept where they agree with delta and
-   rate; other films get their quasi-static thickness. */
+/* Sets the films at the start of a motion. If `known`, films that agree with delta and rate are
+   kept; the other films get their quasi-static thickness. */
 void dynamics_flow_films(const dynamics_flow *flow, double T, const double x[2], int known,
                          double film[2]);
 
-/* Integrates the motion over one mesh cycle of duration T, without or with the derivatives.
+/* Integrate the motion over one mesh cycle of duration T, without and with the derivatives.
    `observer` may be NULL. Returns 0 if there are too many steps. */
 int dynamics_flow_motion(const dynamics_flow *flow, double T, dynamics_state *state,
                          const dynamics_observer *observer);
 int dynamics_flow_variation(const dynamics_flow *flow, double T, dynamics_state *state,
                             const dynamics_observer *observer);
 
-/* Returns the start state of a motion, with M = 1: without and with known films. */
+/* Return the start state of a motion, with the unit matrix as monodromy: without and with known
+   films. */
 dynamics_state dynamics_state_at(double delta, double rate);
 dynamics_state dynamics_state_in_oil(double delta, double rate, const double film[2]);
 

@@ -28,14 +28,14 @@ void dynamics_films_monodromy(const dynamics_state *y, double m[4][4])
     }
 }
 
-/* Eliminates the films from M. M consists of blocks for (delta, rate) and for the films: (1 - M_yy)
-   dy = r_y + M_yx dx + slope dlambda. */
+/* Eliminates the films y from the monodromy M, whose blocks belong to x = (delta, rate) and y: (1 -
+   M_yy) dy = r_y + M_yx dx + slope dlambda, with the residual r_y of the films. */
 void dynamics_films_eliminate(const dynamics_state *y, double T, dynamics_orbit *o)
 {
     dynamics_films *films = &o->films;
     dynamics_films_monodromy(y, films->m);
-    double(*m)[4] = films->m, side[4][2]; /* right-hand sides: r_y, and the derivatives with
-                                             respect to delta, rate and lambda */
+    double(*m)[4] = films->m, side[4][2]; /* right-hand sides for the films: r_y, and the
+                                             derivatives with respect to delta, rate and lambda */
     double a = 1 - m[2][2], b = -m[2][3], c = -m[3][2], d = 1 - m[3][3], det = a * d - b * c;
     films->miss = 0;
     for (int f = 0; f < 2; f++) {

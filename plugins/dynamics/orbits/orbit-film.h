@@ -5,8 +5,8 @@
 
 #include "orbit.h"
 
-/* Sets the films at phase 0: those of the last map with their correction, or the quasi-static ones
-   in the first map. */
+/* Sets the films at phase 0: the films of the last map with their correction, or quasi-static films
+   for the first map. */
 void dynamics_films_start(const dynamics_flow *flow, double T, dynamics_orbit *orbit);
 
 /* Sets m to the monodromy of a state in (delta, rate, films). */

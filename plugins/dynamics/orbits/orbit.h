@@ -14,14 +14,14 @@ enum { DYNAMICS_PERIOD_MAX = 6 };
 /* The films at phase 0 are part of the state of an orbit. Newton's method solves for (delta, rate,
    lambda) alone: the films are eliminated from m, end and slope, and the stored films are updated
    to first order with each change of (delta, rate, lambda). This is equivalent to Newton's method
-   in the whole state. The multipliers are those of the whole state. */
+   in the whole state. The multipliers are computed for the whole state. */
 typedef struct dynamics_films {
     int known;
     double film[2]; /* films at phase 0 */
     double miss;    /* largest difference between the films at the start and at the end */
     double step[2]; /* Newton's correction at fixed (delta, rate, lambda) */
-    double at[3];   /* at: (delta, rate, lambda) of the last map; by[][]: derivative of the films
-                       with respect to these */
+    double at[3];   /* at: (delta, rate, lambda) of the last map; by[][]: derivatives of the films
+                       with respect to these three */
     double by[2][3];
     double m[4][4]; /* monodromy in (delta, rate, films) */
 } dynamics_films;
@@ -30,8 +30,8 @@ typedef struct dynamics_orbit {
     int period;
     double lambda;
     double x[2];     /* (delta, rate) at phase 0, before the node */
-    double end[2];   /* the same after `period` cycles */
-    double half[2];  /* the same after half of the cycles, if `period` is even */
+    double end[2];   /* (delta, rate) after `period` cycles */
+    double half[2];  /* (delta, rate) after half of the cycles, if `period` is even */
     double m[4];     /* monodromy: derivative of `end` with respect to x */
     double slope[2]; /* derivative of `end` with respect to lambda */
     double det;      /* determinant of m, computed as a product over all steps, free of
@@ -45,7 +45,7 @@ typedef struct dynamics_orbit {
 double dynamics_cycle_duration(double lambda);
 
 /* Returns the unit in which states near x are compared: static deflection plus the distance of x
- * from the edge of the driving flank. */
+   from contact of the driving flanks. */
 double dynamics_state_unit(const dynamics_excitation *excitation, const double x[2]);
 
 /* Computes the map and its derivatives. period, lambda and x are given. Returns 0 if the motion is

@@ -37,24 +37,24 @@ static void report_aperiodic(const dynamics_attractor *a, const dynamics_excitat
     if (zeta < 2e-3)
         snprintf(
             text, sizeof text,
-            "with so little damping no motion settles, and the periodic motion at a damping "
-            "ratio of 0.002 could not be continued down to %g; the motion shown depends on the "
-            "start",
+            "with so little damping no motion settles, and the periodic motion at a damping ratio "
+            "of 0.002 could not be continued down to %g; the motion shown depends on its start",
             zeta);
     else if (a->growth > dynamics_chaotic_growth) {
         dynamics_chaos_line(exp(a->growth / span), host);
         return;
     } else
         snprintf(text, sizeof text,
-                 "the motion did not repeat within %g mesh cycles after %g of them: its period is "
-                 "longer, or it needs more cycles_settle",
+                 "the motion did not repeat within %g mesh cycles after %g mesh cycles of "
+                 "settling: its period is longer, or it needs a larger cycles_settle",
                  max_period * span, (double)a->cycles * span);
     host->quality(host->ctx, "periodicity", 1, 0, FF_DOUBTFUL, text);
 }
 
 /* Returns the round-off error of det M. A mesh cycle takes at most as many steps as it has pieces,
    plus twice its length in radians. The relative error of the determinant of a step is about
-   DBL_EPSILON. The time t has half of that error, and exp(-2 zeta t) magnifies it by 2 zeta t. */
+   DBL_EPSILON. The relative error of the time t is half as large, and exp(-2 zeta t) magnifies it
+   by 2 zeta t. */
 static double round_off_of_determinant(const dynamics_motion *motion)
 {
     const double each = 16;
@@ -74,16 +74,18 @@ void dynamics_periodicity_report(const dynamics_attractor *a, const dynamics_mot
     } else {
         double largest = dynamics_largest_multiplier(&a->orbit);
         report_line(host, "periodicity", dynamics_orbit_residual(excitation, &a->orbit), 1e-10,
-                    "distance between the start and the end of the period, over the size of the "
-                    "motion");
+                    "distance between the states at the start and the end of the period, over the "
+                    "size of the motion");
         report_line(host, "stability", largest, dynamics_stable_multiplier,
-                    largest < 1 ? NULL : "a disturbance of this motion does not die out");
+                    largest < 1 ? NULL
+                                : "largest Floquet multiplier: a disturbance of this motion "
+                                  "does not decay");
         report_line(host, "state_error", state_error(&a->orbit), 1e-6,
                     "round-off error of the state, over the static deflection");
     }
     report_line(host, "energy_balance", motion->energy_error, 1e-9, NULL);
     if (!excitation->film)
         report_line(host, "determinant", motion->det_error, round_off_of_determinant(motion),
-                    "difference between the determinant of the monodromy and exp(-2 zeta omega "
-                    "t), with t the time in which the damper acts");
+                    "relative difference between the determinant of the monodromy and exp(-2 zeta "
+                    "omega t), with the time t in which the damper acts");
 }

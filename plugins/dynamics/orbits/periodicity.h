@@ -7,7 +7,7 @@
 #include "../oscillator/motion.h"
 #include "attractor.h"
 
-/* A motion is chaotic if the logarithm of a disturbance grows by more than this value per mesh
+/* A motion is chaotic if the logarithm of a disturbance increases by more than this value per mesh
    cycle. */
 extern const double dynamics_chaotic_growth;
 

@@ -7,7 +7,7 @@
 
 const double dynamics_taylor_longest_step = 1.5;
 
-/* For each order n, the square of the step size above which the terms x^n/n! exceed 2e-17. */
+/* For each order n, the square of the step size x above which the term x^n/n! exceeds 2e-17. */
 static const double reach[] = {2e-17,    6.325e-9, 4.932e-6, 1.480e-4, 1.191e-3, 4.932e-3, 1.391e-2,
                                3.078e-2, 5.785e-2, 9.685e-2, 0.1489,   0.2147,   0.2944,   0.3879,
                                0.4949,   0.6150,   0.7476,   0.8921,   1.048,    1.214};
@@ -87,8 +87,8 @@ FF_SIMD_INLINE void recur_straight(const dynamics_piece_equation *q, double T, i
     }
 }
 
-/* The same recurrence for polynomials k and e and with a drag. Here (2 (z'' + e'') + damper z')/T
-   is added for the derivative with respect to T. */
+/* Does the same for polynomials k and e and with a drag. For the derivative with respect to T, (2
+   (z'' + e'') + damper z')/T is added. */
 FF_SIMD_INLINE void recur_curved(const dynamics_piece_equation *q, double T, int columns,
                                  dynamics_taylor_series *s)
 {
@@ -108,7 +108,7 @@ FF_SIMD_INLINE void recur_curved(const dynamics_piece_equation *q, double T, int
     for (int n = 2; n <= DYNAMICS_ORDER_MAX; n++) {
         double fa = -a * share[n], f = -share[n] * share[n - 1], sum[DYNAMICS_COLUMNS] = {0};
         int last = degree < n - 2 ? degree : n - 2;
-        if (last == DYNAMICS_DEGREE) /* the common case: a loop of constant length */
+        if (last == DYNAMICS_DEGREE) /* the usual case gets a loop of constant length */
             for (int i = 0; i <= DYNAMICS_DEGREE; i++)
                 add_product(k[i], c[n - 2 - i], columns, sum);
         for (int i = 0; last < DYNAMICS_DEGREE && i <= last; i++)
@@ -212,8 +212,9 @@ static double value_at(const polynomial *q, double x, double *slope)
     return value;
 }
 
-/* Finds the root on a falling stretch by Newton's method, with bisection where Newton's method
-   leaves the bracket. A step of d leaves an error of at most d^2 bend/(2 slope). */
+/* Finds the root on an interval in which the polynomial decreases, by Newton's method, with
+   bisection where Newton's method leaves the bracket. A step of d leaves an error of at most d^2
+   bend/(2 slope). */
 static double falling_root(const polynomial *q, double low, double high)
 {
     double x = 0.5 * (low + high), slope;
@@ -261,7 +262,8 @@ double dynamics_taylor_first_exit(const double *p, int order, double tiny)
     polynomial q = {p, order, 0, tiny};
     if (p[0] < -tiny)
         return 0;
-    /* p(0) = 0 at the bound: divide by x, since p(x) and p(x)/x have the same sign */
+    /* if the motion starts at the bound, p(0) = 0; p is then divided by x, since p(x) and p(x)/x
+       have the same sign */
     for (int i = 0; q.order > 0 && (i == 0 ? fabs(q.p[0]) <= tiny : q.p[0] == 0) && i < 3; i++) {
         q.p++;
         q.order--;

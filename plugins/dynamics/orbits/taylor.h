@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Taylor series of the motion within one piece of the mesh cycle and one state of contact. The
    equation is z'' = load - drag - e'' - damper z' - k z, with k = k_0 + k_1 t + ..., and drag and e
-   of the same form. The coefficients follow from a recurrence. A root finder locates the first time
-   at which the motion crosses a bound, including grazing contacts. */
+   polynomials in t, too. The coefficients follow from a recurrence. A root finder locates the first
+   time at which the motion crosses a bound, including grazing contacts. */
 #ifndef DYNAMICS_TAYLOR_H
 #define DYNAMICS_TAYLOR_H
 
@@ -54,9 +54,9 @@ void dynamics_taylor_columns_at(const dynamics_taylor_series *s, double x,
                                 double value[DYNAMICS_COLUMNS], double rate[DYNAMICS_COLUMNS]);
 
 /* Finds the first x in (0, 1] at which the polynomial becomes negative. Returns 0 if it is negative
-   at once, -1 if it never is. A start value within `tiny` of 0 counts as 0. Intervals are halved
-   until the sign of the value or of the slope is certain throughout, so that two crossings close to
-   each other are found. */
+   from the start, -1 if it is never negative. A start value within `tiny` of 0 counts as 0.
+   Intervals are halved until the sign of the value or of the slope is certain throughout, so that
+   two crossings close to each other are found. */
 double dynamics_taylor_first_exit(const double *p, int order, double tiny);
 
 #endif

@@ -25,7 +25,8 @@ typedef struct moment {
 } moment;
 
 /* Sets the energy at one end of a step in which no flank is held. The films then deflect the teeth
-   of both flanks, so that two springs may store energy. It is not defined inside such a step. */
+   of both flanks, so that two springs may store energy. Inside the step this energy is not
+   computed. */
 static void bend_in_oil(const dynamics_step *f, double x, double phase, moment *m)
 {
     const dynamics_landing *step = f->landing;
@@ -95,7 +96,7 @@ static void join_strides(dynamics_trajectory *t, const dynamics_step *f)
     else if (f->side == t->side && f->pressed != t->pressed)
         t->loss -= change;
     else if (f->excitation->film &&
-             f->side != t->side) /* a film on the opposite flank begins or ends */
+             f->side != t->side) /* a film on the opposite flank begins or ceases to carry load */
         t->loss -= change;
     else if (f->at == f->piece->start || track != t->track) /* e may jump across a flank */
         t->work += change;
@@ -141,8 +142,8 @@ static double value_in_oil(const dynamics_radau *radau, const double *nodes, dou
     return value;
 }
 
-/* Returns the film on the driving flank beyond the thickness at hand-over (theory, eq. 4.6). It is
-   0 while the flank is held, and the whole gap if the film carries no load. */
+/* Returns the film on the driving flank beyond the thickness at hand-over (theory, eq. 4.6). This
+   is 0 while the flank is held, and the whole gap if the film carries no load. */
 static double film_ahead(const dynamics_radau *radau, const dynamics_step *f, double x,
                          double delta)
 {
@@ -179,7 +180,8 @@ static int jumps_at_end(const dynamics_step *f)
     return next < end ? next->jump && next->start == f->end : track.pieces->jump && f->end == 1;
 }
 
-/* A jump of the excitation has two samples at the same phase, one before and one after it. */
+/* At a jump of the excitation, takes two samples at the same phase, one before and one after the
+   jump. */
 static void take_samples(dynamics_trajectory *t, const dynamics_step *f)
 {
     dynamics_record *record = t->record;
@@ -259,7 +261,7 @@ ff_status dynamics_trajectory_record(const dynamics_flow *flow, const dynamics_i
         motion->loss = trace.loss;
         motion->squeeze = trace.films;
         motion->drag = trace.drag;
-        /* the node at phase 0 is before the start and after the end */
+        /* the jump at phase 0 is before the start and after the end */
         motion->work = trace.work + trace.start - trace.energy;
         motion->thickness = trace.thickness;
     }

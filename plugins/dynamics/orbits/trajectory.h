@@ -26,8 +26,9 @@ typedef struct dynamics_trajectory {
 /* Observer that sums the moments of s only. */
 void dynamics_trajectory_observe_moments(void *trace, const dynamics_step *step);
 
-/* Records the motion from x like dynamics_motion_record, but to round-off. excitation, period,
-   cycles and T of `motion` are already set. A periodic motion restarts at x after each period. */
+/* Records the motion from x, as dynamics_motion_record does, but with an accuracy of round-off.
+   excitation, period, cycles and T of `motion` are already set. A periodic motion restarts at x
+   after each period. */
 ff_status dynamics_trajectory_record(const dynamics_flow *flow, const dynamics_inputs *inputs,
                                      size_t per_cycle, const double x[2], dynamics_motion *motion);
 

@@ -4,8 +4,8 @@
 
 #include <math.h>
 
-/* Every place in the backlash is an equilibrium, and the gears stay where a disturbance leaves
-   them. Therefore one Floquet multiplier is 1, and the other is that of the damper. */
+/* Every position in the backlash is an equilibrium, and the gears stay where a disturbance has
+   moved them. Therefore one Floquet multiplier is 1; the other follows from the damper. */
 ff_status dynamics_motion_put_floating(const dynamics_inputs *inputs,
                                        const dynamics_excitation *excitation, const ff_host *host)
 {

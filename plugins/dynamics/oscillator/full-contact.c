@@ -6,8 +6,9 @@
 
 #include <math.h>
 
-/* Finds the fixed point of the affine map y -> y0' + M (y - y0) of one mesh cycle by solving (1 -
-   M) (y - y0) = y0' - y0. Returns 0 if the fixed point is unstable or does not exist. */
+/* Finds the fixed point of the affine map y -> y0' + M (y - y0) of one mesh cycle, which takes y0
+   to y0', by solving (1 - M) (y - y0) = y0' - y0. Returns 0 if the fixed point is unstable or does
+   not exist. */
 static int fixed_point(const double *after, double *delta, double *rate)
 {
     double a = 1 - after[DYNAMICS_M11], b = -after[DYNAMICS_M12], c = -after[DYNAMICS_M21],

@@ -8,9 +8,9 @@
 
 #include <flankfilm/plugin.h>
 
-/* Finds the state of that motion at phase 0, before the node. T is the duration of a mesh cycle,
-   `tolerance` the error per step. Returns FF_NOCONV if there is no such motion, or if it is
-   unstable. */
+/* Finds the state of this motion at phase 0, before a jump of the excitation there. T is the
+   duration of a mesh cycle, `tolerance` the error per step. Returns FF_NOCONV if there is no such
+   motion, or if it is unstable. */
 ff_status dynamics_full_contact(const dynamics_excitation *excitation, double T, double tolerance,
                                 double *delta, double *rate);
 

@@ -12,8 +12,8 @@ static double gap_at(const dynamics_motion_view *view, double phase, int left)
     return gap;
 }
 
-/* Two neighbouring samples. If the excitation jumps at one of them, the gap has another value
-   outside the interval. */
+/* The interval between two neighbouring samples. If the excitation jumps at one of the samples, the
+   gap has another value outside the interval. */
 typedef struct interval {
     const dynamics_motion_view *view;
     double from, to;

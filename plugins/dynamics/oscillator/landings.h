@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* When, and how fast, the driving flanks meet again after contact loss. */
+/* The times at which the driving flanks meet again after contact loss, and the speeds of
+   approach. */
 #ifndef DYNAMICS_LANDINGS_H
 #define DYNAMICS_LANDINGS_H
 

@@ -21,7 +21,7 @@ const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT] = {
          .dims = "cycle"},
     [DYNAMICS_OUT_DTE_VELOCITY] = {.name = "dte_velocity",
                                    .unit = "m/s",
-                                   .doc = "its rate",
+                                   .doc = "rate of the dynamic transmission error",
                                    .dims = "cycle"},
     [DYNAMICS_OUT_MESH_FORCE] = {.name = "mesh_force",
                                  .unit = "N",
@@ -49,8 +49,8 @@ const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT] = {
     [DYNAMICS_OUT_TOOTH_FORCE] =
         {.name = "tooth_force",
          .unit = "N",
-         .doc = "dynamic tooth force W_s DMF/F of the flanks that the mean load presses, not "
-                "clipped at 0; one row per engagement when the period is several mesh cycles",
+         .doc = "dynamic tooth force W_s DMF/F on the flanks that carry the mean load, not clipped "
+                "at 0; one row per engagement if the period is several mesh cycles",
          .dims = "engagement? gear.station"},
     [DYNAMICS_OUT_GAP] = {.name = "gap",
                           .unit = "m",
@@ -65,7 +65,7 @@ const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT] = {
          .dims = ""},
     [DYNAMICS_OUT_DYNAMIC_FACTOR_MESH] = {.name = "dynamic_factor_mesh",
                                           .unit = "1",
-                                          .doc = "largest mesh force over the static one",
+                                          .doc = "largest mesh force over the static mesh force",
                                           .dims = ""},
     [DYNAMICS_OUT_CONTACT_LOSS] = {.name = "contact_loss",
                                    .unit = "1",
@@ -79,10 +79,10 @@ const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT] = {
                                    .max = 1},
     [DYNAMICS_OUT_NATURAL_FREQUENCY] = {.name = "natural_frequency",
                                         .unit = "Hz",
-                                        .doc = "natural frequency of small vibration at the mean "
-                                               "of the wired stiffness: from the slope dF/d(e_l) "
-                                               "with definition: tangent, from the chord F/(e_l "
-                                               "- e) with secant",
+                                        .doc = "natural frequency of small vibrations at the mean "
+                                               "of the wired stiffness: the tangent dF/d(e_l) or "
+                                               "the secant F/(e_l - e), by its parameter "
+                                               "definition",
                                         .dims = "",
                                         .max = INFINITY},
     [DYNAMICS_OUT_PERIOD] =
@@ -99,8 +99,8 @@ const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT] = {
     [DYNAMICS_OUT_MULTIPLIERS] =
         {.name = "multipliers",
          .unit = "1",
-         .doc = "Floquet multipliers (real and imaginary part): growth of a disturbance over the "
-                "motion shown",
+         .doc = "Floquet multipliers (real and imaginary part): factors by which disturbances grow "
+                "over the motion shown",
          .dims = "multiplier part"},
     [DYNAMICS_OUT_DTE_HARMONICS] = {.name = "dte_harmonics",
                                     .unit = "m",
@@ -116,32 +116,32 @@ const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT] = {
          .dims = "landing"},
     [DYNAMICS_OUT_LANDING_SPEED] = {.name = "landing_speed",
                                     .unit = "m/s",
-                                    .doc = "speeds of approach at these times",
+                                    .doc = "speeds of approach of the flanks at landing_time",
                                     .dims = "landing"},
     [DYNAMICS_OUT_BACK_TOOTH_FORCE] =
         {.name = "back_tooth_force",
          .unit = "N",
          .doc =
-             "the same of the flanks that the mean load does not press, above 0 where they bear; "
-             "these meet from the tip of gear 1 to its root",
+             "dynamic tooth force on the back flanks, opposite to those that carry the mean load, "
+             "above 0 in contact; back flanks meet from the tip of gear 1 to its root",
          .dims = "engagement? gear.station"},
     [DYNAMICS_OUT_BACK_GAP] = {.name = "back_gap",
                                .unit = "m",
-                               .doc = "separation of these flanks; 0 in contact",
+                               .doc = "separation of the back flanks; 0 in contact",
                                .dims = "engagement? gear.station"},
     [DYNAMICS_OUT_BACK_FORCE_MEAN] =
         {.name = "back_force_mean",
          .unit = "N",
-         .doc = "mean mesh force of these flanks; 0 if they have no curves of their own, so that "
-                "tooth_force contains their force, below 0",
+         .doc = "mean mesh force of the back flanks; 0 if the motion uses no separate curves for "
+                "them, tooth_force then contains their force as a negative force",
          .dims = "",
          .max = INFINITY},
     [DYNAMICS_OUT_STABLE_MOTIONS] =
         {.name = "stable_motions",
          .unit = "1",
-         .doc = "number of different stable motions, of at most 6 mesh cycles, at this speed: "
-                "found from both branches and 16 other starts; with known_motions: atlas also "
-                "from the atlas",
+         .doc = "number of different stable motions at this speed, with periods of at most 6 mesh "
+                "cycles, found from both branches and 16 other starts and, with known_motions: "
+                "atlas, in the atlas",
          .dims = "",
          .max = INFINITY},
     [DYNAMICS_OUT_ATLAS_FREQUENCY] =
@@ -156,8 +156,8 @@ const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT] = {
                                 .dims = "point"},
     [DYNAMICS_OUT_ATLAS_STABLE] = {.name = "atlas_stable",
                                    .unit = "1",
-                                   .doc = "stability of each atlas point; 1: disturbances die "
-                                          "out, 0: they grow",
+                                   .doc = "stability of each atlas point; 1: disturbances decay, "
+                                          "0: they grow",
                                    .dims = "point"},
     [DYNAMICS_OUT_ATLAS_BRANCH] =
         {.name = "atlas_branch",
@@ -177,7 +177,7 @@ const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT] = {
                                      .dims = "fold"},
     [DYNAMICS_OUT_FOLD_BRANCH] = {.name = "fold_branch",
                                   .unit = "1",
-                                  .doc = "first of the two branches of each fold",
+                                  .doc = "first of the two branches that meet at each fold",
                                   .dims = "fold"},
     [DYNAMICS_OUT_DOUBLING_FREQUENCY] = {.name = "doubling_frequency",
                                          .unit = "Hz",

@@ -82,7 +82,8 @@ double dynamics_station_phase(const dynamics_inputs *inputs, size_t station)
            (double)dynamics_span(inputs);
 }
 
-/* If two stations coincide, the first takes the value before the jump. The tip takes it too. */
+/* Returns whether the value before a jump is used at a station: at the first of two coincident
+   stations, and at the tip. */
 static int is_left(const dynamics_inputs *inputs, size_t i)
 {
     return i + 1 == inputs->stations ||
@@ -116,8 +117,8 @@ static ff_status put_engagements(const dynamics_motion_view *view,
     return FF_OK;
 }
 
-/* Returns the top of the parabola through three equally spaced points, or the largest point if that
-   top lies outside of them. */
+/* Returns the maximum of the parabola through three equally spaced points, or the largest point if
+   the maximum is outside them. */
 static double top_of(const double force[3])
 {
     double rise = (force[2] - force[0]) / 2, bend = force[1] - (force[0] + force[2]) / 2;
@@ -165,9 +166,9 @@ static dynamics_between look_between(const dynamics_motion_view *view, double ne
 enum { MOST_PARTS = 27 };
 
 /* Returns the number of stations that resolve the motion. Two, three, five and more times the
-   number of stations are tried, and the tooth force between them is checked. With too few stations
-   a vibration turns between two of them unnoticed. Returns 0 if more than MOST_PARTS times as many
-   are needed. */
+   number of stations are tried, and the tooth force between the stations is checked; with too few
+   stations a vibration has turning points between two stations that are not noticed. Returns 0 if
+   more than MOST_PARTS times as many stations are needed. */
 static double enough_stations(const dynamics_motion_view *view, double newton,
                               const dynamics_inputs *inputs, double limit)
 {
@@ -238,7 +239,7 @@ ff_status dynamics_motion_view_put(const dynamics_motion_view *view, const dynam
     }
     dynamics_sharing_report(inputs, excitation->on_chord, st->least_force * newton,
                             st->force * newton, host);
-    /* NaN: no factor was looked for */
+    /* NaN: the largest tooth force was not computed */
     double tooth = looked ? between.largest * newton : NAN;
     const struct {
         uint32_t output;

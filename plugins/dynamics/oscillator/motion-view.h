@@ -16,15 +16,15 @@ typedef struct dynamics_motion_view {
     /* times within the shown cycles: without contact, and with contact on the back flank */
     double parted, back;
     int period;
-    /* Gives the force and the gap at a phase. At a jump of the excitation `left` selects the values
-       before it. */
+    /* Gives the force and the gap at a phase. At a jump of the excitation, `left` selects the
+       values before the jump. */
     void (*look_up)(const void *self, double phase, int left, double *force, double *gap);
     const void *self;
 } dynamics_motion_view;
 
 typedef struct dynamics_statistics {
     double mean, rms, low, high, force, least_force;
-    double rms_error; /* error that comes from the spacing of the samples, relative to rms */
+    double rms_error; /* error of rms due to the spacing of the samples, relative to rms */
 } dynamics_statistics;
 
 size_t
@@ -32,8 +32,8 @@ size_t
 dynamics_motion_view_count(const dynamics_motion_view *view);
 double dynamics_motion_view_phase(const dynamics_motion_view *view, size_t sample);
 dynamics_statistics dynamics_motion_view_statistics(const dynamics_motion_view *view);
-/* Finds the first sample of the interval that contains the phase. At a jump `left` selects the
-   interval before it. */
+/* Finds the first sample of the interval that contains the phase. At a jump, `left` selects the
+   interval before the jump. */
 size_t dynamics_motion_view_before(const dynamics_motion_view *view, double phase, int left);
 
 /* Returns the phase of a station: mesh cycles from SAP. */

@@ -82,7 +82,7 @@ double dynamics_motion_multipliers(const dynamics_motion *motion, double multipl
     }
     double half = 0.5 * (m[0] + m[3]), det = m[0] * m[3] - m[1] * m[2];
     double d = half * half - det, root = sqrt(fabs(d));
-    if (!isfinite(d)) { /* a disturbance of a long aperiodic motion may overflow */
+    if (!isfinite(d)) { /* over a long aperiodic motion the disturbance may overflow */
         multipliers[0] = huge;
         multipliers[1] = multipliers[2] = multipliers[3] = 0;
         return huge;
@@ -100,7 +100,7 @@ double dynamics_motion_multipliers(const dynamics_motion *motion, double multipl
     return fabs(large);
 }
 
-/* The motion at an instant; `behind`: whether the back flanks touch and have their own curves. */
+/* The motion at an instant. `behind`: whether the back flanks touch and have their own curves. */
 typedef struct instant {
     double force, gap, back_gap;
     int behind;
@@ -123,8 +123,8 @@ static dynamics_motion_view view_of(const dynamics_motion *motion)
 }
 
 /* Interpolates force and gap between two samples of a motion with oil between the flanks. They do
-   not follow from s, since the film force bends the teeth and the flanks are further apart than s
-   shows. */
+   not follow from s: the film force deflects the teeth, so the flanks are further apart than s
+   implies. */
 static instant in_films(const dynamics_sample *a, const dynamics_sample *z, double phase)
 {
     double h = z->phase - a->phase, x = h > 0 ? fmin(fmax((phase - a->phase) / h, 0), 1) : 0;
@@ -211,14 +211,14 @@ ff_status dynamics_motion_check_back(const ff_host *host, const dynamics_inputs 
     const uint64_t wanted = inputs->wanted & of_back_flanks;
     const char *why = NULL;
     if (!excitation->both_flanks)
-        why = "this motion takes the curves of the driving flanks for the back flanks, and "
-              "tooth_force contains their force, below 0: take dynamics/shooting or "
+        why = "this motion uses the curves of the driving flanks for the back flanks, and "
+              "tooth_force contains their force as a negative force: use dynamics/shooting or "
               "dynamics/time-integration, without oil in the gap and without a film wired back";
     else if (excitation->half_gap == 0)
-        why = "gears without backlash bear on both flanks at once: tooth_force contains the force "
-              "of the back flanks, below 0";
+        why = "gears without backlash touch on both flanks at the same time: tooth_force contains "
+              "the force of the back flanks as a negative force";
     else if (!dynamics_tracks_differ(excitation))
-        why = "the stiffness does not give the curves of the back flanks: take "
+        why = "the stiffness does not give the curves of the back flanks: use "
               "stiffness/load-distribution, and gears without index deviations";
     else if (!dynamics_floats(inputs, excitation) &&
              (inputs->back_levels.count < 2 || !inputs->back_levels.tooth_force))
@@ -232,16 +232,15 @@ ff_status dynamics_motion_check_back(const ff_host *host, const dynamics_inputs 
                          : FF_OK;
 }
 
-/* Whether the station has the roll angle of the one before it. */
+/* Returns whether the station has the roll angle of the previous station. */
 static int is_repeated(const dynamics_inputs *inputs, size_t i)
 {
     return inputs->roll_angle[i] - inputs->roll_angle[i - 1] < 1e-12 * inputs->pitch;
 }
 
-/* Gives the forces and gaps of the pairs of back flanks. A pair of age a, in mesh cycles along
-   gear 1, is at its station at the phases back_offset - a + n with any integer n (theory,
-   eq. 4.5c). The phase decreases along the stations: the second of two coincident stations is the
-   earlier one. */
+/* Writes the forces and gaps of the pairs of back flanks. A pair is at a station that is a mesh
+   cycles after SAP at the phases back_offset - a + n with any integer n (theory, eq. 4.5c). The
+   phase decreases along the stations: the second of two coincident stations is the earlier one. */
 static ff_status put_back_forces(const dynamics_motion *motion, const dynamics_inputs *inputs,
                                  const ff_host *host)
 {
@@ -362,14 +361,13 @@ ff_status dynamics_motion_put(const dynamics_motion *motion, const dynamics_inpu
         status = put_back_forces(motion, inputs, host);
     host->quality(host->ctx, "rms_sampling_error", st.rms_error, 1e-3,
                   st.rms_error <= 1e-3 ? FF_GOOD : FF_DOUBTFUL,
-                  "estimated relative error of dte_rms that comes from the spacing of the points "
-                  "shown");
+                  "estimated relative error of dte_rms due to the spacing of the points shown");
     return status;
 }
 
 /* Reports the power balance. Torques and the prescribed changes of stiffness and transmission error
    supply power; films, damper and vibration take it. `films` is the power loss that the film model
-   gives. It includes squeezing, so the squeeze loss of the motion is not added. */
+   gives. `films` includes the squeeze loss, so the squeeze loss of the motion is not added. */
 static void check_powers(const double power[DYNAMICS_POWER_OUTPUT_COUNT], double films, int knows,
                          const ff_host *host)
 {
@@ -380,9 +378,9 @@ static void check_powers(const double power[DYNAMICS_POWER_OUTPUT_COUNT], double
     char text[320];
     snprintf(
         text, sizeof text,
-        "torques and excitation supply %.6g W; film, damper and vibration take %.6g W; "
-        "difference over the power of the film. Where flanks separate, the motion neglects the "
-        "film that the film model computes%s",
+        "difference between the power that torques and excitation supply, %.6g W, and the power "
+        "that film, damper and vibration take, %.6g W, over the power of the film. While flanks "
+        "are separated, the motion neglects the film that the film model computes%s",
         in, out, knows ? "" : "; squeeze: series includes it");
     host->quality(host->ctx, "power_balance", off, limit, off <= limit ? FF_GOOD : FF_DOUBTFUL,
                   text);
@@ -394,7 +392,7 @@ ff_status dynamics_motion_put_powers(const dynamics_motion *motion,
     const dynamics_excitation *x = motion->excitation;
     double unit =
         x->stiffness * x->length * x->length * x->omega / ((double)motion->cycles * motion->T);
-    /* without a film, the drag is that of the fluctuation */
+    /* without a film, the drag is the force of the fluctuation */
     const int swings = x->drags && isnan(film->loss);
     const double power[DYNAMICS_POWER_OUTPUT_COUNT] = {
         [DYNAMICS_OUT_DAMPER_LOSS] = unit * (motion->loss - motion->squeeze),

@@ -60,21 +60,22 @@ extern const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT];
 
 typedef struct dynamics_motion {
     const dynamics_excitation *excitation;
-    int period;             /* in mesh cycles, or DYNAMICS_APERIODIC or DYNAMICS_UNBOUNDED */
+    int period;             /* period in mesh cycles, or DYNAMICS_APERIODIC or DYNAMICS_UNBOUNDED */
     size_t cycles;          /* number of cycles that the outputs show */
     double T;               /* duration of a mesh cycle, in rad of the natural frequency */
-    dynamics_record record; /* record of `cycles`, and of as many more as a tooth pair stays in
-                               mesh */
+    dynamics_record record; /* record of `cycles` cycles, and of further cycles as long as a tooth
+                               pair stays in mesh */
     dynamics_clocks clocks; /* clocks over `cycles` */
     double monodromy[4];
     const double *films;        /* film thicknesses at the start; NULL: no films, or not known */
     double in_oil[4][4];        /* monodromy in (delta, rate, films) of a motion with oil films */
-    double loss, squeeze, work; /* energies over `cycles`: taken by damper and films, taken by
-                                   the films alone, supplied by the excitation */
+    double loss, squeeze, work; /* energies over `cycles`: loss, taken by damper and films; squeeze,
+                                   taken by the films alone; work, supplied by the excitation */
     double drag;                /* energy that friction and rolling took from the vibration */
     double thickness;           /* part of `work` that the loaded film supplies */
     double det_error;           /* relative error of det M */
-    double energy_error; /* supplied energy less lost and stored energy, relative to the energies */
+    double energy_error; /* supplied energy minus lost and stored energy, relative to the sum of the
+                            energies */
 } dynamics_motion;
 
 /* Returns the mesh cycles from the start of active profile (SAP) to the last station, rounded
@@ -82,8 +83,8 @@ typedef struct dynamics_motion {
 size_t dynamics_mesh_cycles_of_engagement(const dynamics_inputs *inputs);
 
 /* Records the motion that starts at (delta, rate). The members excitation, period, cycles and T of
-   `motion` are already set. Free it with dynamics_record_free(&motion->record). Returns FF_NOCONV
-   if there were too many steps. */
+   `motion` are already set. The caller frees motion->record with dynamics_record_free. Returns
+   FF_NOCONV if there were too many steps. */
 ff_status dynamics_motion_record(dynamics_motion *motion, const dynamics_inputs *inputs,
                                  double tolerance, size_t per_cycle, double delta, double rate);
 
@@ -110,15 +111,15 @@ void dynamics_motion_check_determinant(dynamics_motion *motion);
 void dynamics_motion_check_energy(dynamics_motion *motion, double start, double end, double work,
                                   double loss);
 
-/* Writes the outputs from DYNAMICS_OUT_DAMPER_LOSS on: means over the motion shown. With a film
-   wired back it also reports the difference between supplied and dissipated power. */
+/* Writes the outputs from DYNAMICS_OUT_DAMPER_LOSS on: means over the motion shown. If a film is
+   wired back, also reports the difference between supplied and dissipated power. */
 ff_status dynamics_motion_put_powers(const dynamics_motion *motion,
                                      const dynamics_film_powers *film, const ff_host *host);
 
 ff_status dynamics_motion_put(const dynamics_motion *motion, const dynamics_inputs *inputs,
                               const ff_host *host);
 
-/* Refuses outputs of back flanks that have no curves of their own. */
+/* Refuses outputs of the back flanks if the motion uses no separate curves for them. */
 ff_status dynamics_motion_check_back(const ff_host *host, const dynamics_inputs *inputs,
                                      const dynamics_excitation *excitation);
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Gates: flanks meet or separate, or the spring force passes to another line. */
+/* Gates of the oscillator: flanks meet or separate, or the spring force changes to another line. */
 #include "oscillator-state.h"
 
 #include <stdlib.h>
 
-/* Lists the gates at which flanks meet or part. Returns their number. */
+/* Lists the gates at which flanks meet or separate. Returns their number. */
 static int find_contact_gates(const dynamics_oscillator *o, double t, const double *y,
                               dynamics_oscillator_gate g[DYNAMICS_OSCILLATOR_GATES])
 {

@@ -15,8 +15,8 @@ struct dynamics_oscillator {
     gsl_odeiv2_system system;
     double y[DYNAMICS_STATE_SIZE];
     int side;    /* 1: driving flanks touch, -1: back flanks, 0: neither */
-    int pressed; /* 0 with side != 0: the clipped damper holds the flank back behind the teeth,
-                    without force */
+    int pressed; /* 0 with side != 0: the flanks touch without force, since the clipped damper
+                    limits the speed at which the teeth spring back */
     int band;    /* band of the spring force (spring.h) */
     const dynamics_piece *piece;
     double T;       /* duration of the mesh cycle */
@@ -29,8 +29,8 @@ struct dynamics_oscillator {
     size_t steps;
 };
 
-/* A gate is a condition that holds while value >= 0. When it fails, the regime changes to (side,
-   pressed); at a knee only the band of the spring changes. */
+/* A gate is a condition that holds while `value` is not negative. When it becomes negative, the
+   regime changes to (side, pressed); at a knee only the band of the spring changes. */
 typedef struct dynamics_oscillator_gate {
     double value, rate;
     int side, pressed, knee, band;
@@ -115,7 +115,7 @@ int dynamics_oscillator_derivative(double t, const double y[], double dydt[], vo
 void dynamics_oscillator_find_band(dynamics_oscillator *o);
 void dynamics_oscillator_enter(dynamics_oscillator *o, const dynamics_piece *piece, double T);
 
-/* Returns the change for the track of a side, at time t of the current piece. */
+/* Returns the change of delta and rate for the track of a side, at time t of the current piece. */
 dynamics_oscillator_move dynamics_oscillator_shift(const dynamics_oscillator *o, double t,
                                                    int side);
 /* Changes to the track of a side; s and s' are continuous. */

@@ -119,8 +119,8 @@ static double gate_after_step(dynamics_oscillator *o, int i, int rate, double h)
     return rate ? g[i].rate : g[i].value;
 }
 
-/* MAX_PROBES: most evaluations; after MAX_SECANTS of them bisection replaces the secant method.
-   About 52 halvings of a step reach round-off. */
+/* MAX_PROBES: largest number of evaluations; after MAX_SECANTS evaluations bisection replaces the
+   secant method. About 52 halvings of a step reach round-off. */
 enum { MAX_PROBES = 100, MAX_SECANTS = 50 };
 
 /* Returns the step at which dynamics_oscillator_gate i, or its rate, changes sign between 0 and h.
@@ -159,8 +159,8 @@ static int stays_clear(const dynamics_oscillator_gate *a, const dynamics_oscilla
 }
 
 /* Returns the first instant in the step of h at which the value of dynamics_oscillator_gate i falls
-   to 0, or -1. A gate without a change of sign may still touch 0 in between, so its lowest point is
-   then checked. */
+   to 0, or -1. If the sign of the gate does not change, the gate may still touch 0 in between, so
+   its minimum is checked. */
 static double find_closing(dynamics_oscillator *o, int i, const dynamics_oscillator_gate *a,
                            const dynamics_oscillator_gate *z, double h)
 {
@@ -210,9 +210,9 @@ static void cross_edge(dynamics_oscillator *o, const dynamics_oscillator_gate *g
     o->y[DYNAMICS_M22] += salt * o->y[DYNAMICS_M12];
 }
 
-/* Changes the regime and adds the change of stored energy to the energy balance. When a flank
-   begins to lag behind the teeth, the damper takes the energy of the spring. When e jumps across
-   the edge of the gap, the excitation supplies or takes energy. */
+/* Changes the regime and adds the change of stored energy to the energy balance. When a clipped
+   damper begins to limit the speed of a flank, the damper takes the energy of the spring. When e
+   jumps across the edge of the gap, the excitation supplies or takes energy. */
 static void change_regime(dynamics_oscillator *o, const dynamics_oscillator_gate *g)
 {
     if (g->knee) {
@@ -347,7 +347,8 @@ static int record_piece(dynamics_oscillator *o, const dynamics_piece *piece, int
     return advance_to(o, piece->length * T);
 }
 
-/* Ends a piece, with a sample where one is due, and enters the next one. 0: the cycle ends. */
+/* Ends a piece, with a sample if one is due there, and enters the next piece. Returns 0 if the
+   cycle ends. */
 static int leave_piece(dynamics_oscillator *o, dynamics_record *record)
 {
     const dynamics_track track = dynamics_track_with(o->excitation, o->piece);

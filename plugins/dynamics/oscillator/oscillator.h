@@ -16,7 +16,7 @@
 enum {
     DYNAMICS_DELTA,
     DYNAMICS_RATE,
-    DYNAMICS_M11, /* monodromy: derivative of (delta, rate) by their initial values */
+    DYNAMICS_M11, /* monodromy: derivative of (delta, rate) with respect to their initial values */
     DYNAMICS_M12,
     DYNAMICS_M21,
     DYNAMICS_M22,
@@ -33,7 +33,8 @@ typedef struct dynamics_oscillator dynamics_oscillator;
 typedef struct dynamics_sample {
     double phase; /* mesh cycles since the start of the record */
     double s, s_rate, force;
-    double film; /* film on the driving flank beyond the thickness at hand-over, if there is oil */
+    double film; /* film thickness on the driving flank minus the hand-over thickness, if there is
+                    oil */
 } dynamics_sample;
 
 /* Samples of consecutive mesh cycles: `per_cycle` in each cycle, and one more at each jump of the

@@ -14,8 +14,8 @@ const double dynamics_longest_cycle = 1e6;
    A rising sweep stays on the lower branch. The falling sweep starts at `top` times the natural
    frequency, the rising one at `bottom` times the mesh frequency. */
 static const double top = 1.4, bottom = 0.7;
-/* Numbers of mesh cycles: at the start of a sweep, the most to settle with and without damping, and
-   those kept in memory. */
+/* Numbers of mesh cycles. START_CYCLES: at the start of a sweep; DAMPED_LIMIT, UNDAMPED_LIMIT:
+   largest numbers for settling with and without damping; HISTORY: stored. */
 enum { START_CYCLES = 50, DAMPED_LIMIT = 20000, UNDAMPED_LIMIT = 1000, HISTORY = 32 };
 
 /* A motion that has not settled is called periodic if its estimated distance to a periodic motion
@@ -31,7 +31,7 @@ static void start_at_rest(const dynamics_follower *follower, const dynamics_exci
 /* Keeps the relative change of the mesh frequency per cycle well below the damping, so that the
    motion can follow. Below a tenth of the natural frequency the resonances are of high order and
    weak; there the change per time is kept instead. */
-/* Returns the mesh cycles in one cycle of the excitation. The sweep counts in cycles of the
+/* Returns the number of mesh cycles in one cycle of the excitation; the sweep counts cycles of the
    excitation. */
 static double span_of(const dynamics_excitation *excitation)
 {
@@ -56,7 +56,8 @@ static int is_unbounded(const dynamics_follower *follower, const dynamics_excita
     return dynamics_is_unbounded(excitation, x[0], x[1]);
 }
 
-/* The sweep starts with five times the time 1/zeta in which a disturbance decays by a factor e. */
+/* At its start the sweep waits for five times the time 1/zeta in which a disturbance decays by a
+   factor e. */
 size_t dynamics_sweep_start_cycles(const dynamics_excitation *excitation, double T)
 {
     double decay = excitation->zeta * T;
@@ -122,10 +123,10 @@ static double change_over(const history *h, int period, int ago)
     return fmax(fabs(h->delta[now] - h->delta[then]), fabs(h->rate[now] - h->rate[then]));
 }
 
-/* Estimates the distance to a motion of that period. A disturbance that shrinks by the factor mu in
-   one period changes by 1 - mu times the distance. mu is exp(-zeta p T), as in contact, or the
-   ratio of the last two changes if that is larger. A change of the size of round-off contains no
-   information about mu. */
+/* Estimates the distance to a periodic motion with the period p. A disturbance that shrinks by the
+   factor mu in one period changes the state by 1 - mu times the distance. mu is exp(-zeta p T), its
+   value in contact, or the ratio of the last two changes if this ratio is larger. A change of the
+   size of round-off contains no information about mu. */
 static double distance_to(const history *h, const dynamics_excitation *excitation, double T,
                           int period)
 {
@@ -141,8 +142,8 @@ static double distance_to(const history *h, const dynamics_excitation *excitatio
 }
 
 /* Finds the shortest period within the tolerance, or else the period that fits best. A decaying
-   disturbance may nearly repeat after some cycles, so a period counts only if the change over every
-   shorter one is far larger. */
+   disturbance may nearly repeat after some cycles, so a period is accepted only if the change over
+   every shorter period is far larger. */
 static void find_period(const history *h, const dynamics_excitation *excitation,
                         const dynamics_settling *how, dynamics_settled *result)
 {

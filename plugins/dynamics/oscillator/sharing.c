@@ -26,7 +26,7 @@ static double value_at(const double *rows, size_t columns, const place *p, size_
     return p->share < 1 ? *low + p->share * (*high - *low) : *high;
 }
 
-/* The deflection at node i under a force, N. */
+/* Returns the deflection at node i under a force, N. */
 static double deflection_of(const dynamics_spring_nodes *nodes, size_t i, double force)
 {
     double g = INFINITY;
@@ -37,7 +37,7 @@ static double deflection_of(const dynamics_spring_nodes *nodes, size_t i, double
     return g;
 }
 
-/* The force at node i and deflection g, N. */
+/* Returns the force at node i and deflection g, N. */
 static double force_of(const dynamics_spring_nodes *nodes, size_t i, double g)
 {
     double force = 0;
@@ -48,15 +48,15 @@ static double force_of(const dynamics_spring_nodes *nodes, size_t i, double g)
     return force;
 }
 
-/* Springs made of all levels, of every second level, and of the other levels. */
+/* Three springs: from all levels, from every second level, and from the other levels. */
 enum { SPRINGS = 3 };
 typedef struct springs {
     dynamics_spring_nodes of[SPRINGS];
     size_t kept[SPRINGS][DYNAMICS_LINES], count[SPRINGS];
 } springs;
 
-/* Returns the largest change that either half of the levels causes. Both halves are needed: near a
-   level the half that contains it shows no change. */
+/* Returns the largest change of the forces if only one half of the levels is used. Both halves are
+   needed: near a level, the half that contains this level shows no change. */
 static double largest_change(const dynamics_force_levels *l, const springs *s, double force)
 {
     const dynamics_chosen_levels all = {l, s->kept[0], s->count[0]};
@@ -74,7 +74,7 @@ static double largest_change(const dynamics_force_levels *l, const springs *s, d
     return worst;
 }
 
-/* Returns the force of a level next to that of the mean force. */
+/* Returns the force of a level next to the level of the mean force. */
 static double neighbour_of(const dynamics_force_levels *l, double mean)
 {
     size_t i = 0;
@@ -83,7 +83,7 @@ static double neighbour_of(const dynamics_force_levels *l, double mean)
     return i + 1 < l->count ? l->force[i + 1] : l->force[i - 1];
 }
 
-/* Returns by how much mesh and tooth forces at a force beyond the last level change (N) if that
+/* Returns the change of mesh and tooth forces (N), at a force beyond the last level, if the last
    level is left out too. The last line is extended, and the last load shares are kept. Returns -1
    if out of memory. */
 static double change_beyond(const dynamics_inputs *inputs, double force)
@@ -143,8 +143,8 @@ static const char *load_of(const dynamics_inputs *inputs)
     return inputs->reference == inputs->line_force ? "mean" : "reference";
 }
 
-/* Returns the interpolation error of the force of back flanks with curves of their own, from 0 to
-   `force` (N). */
+/* Returns the interpolation error of the force of the back flanks, which have their own curves,
+   from 0 to `force` (N). */
 static double error_of_back_levels(const dynamics_inputs *inputs, double force)
 {
     dynamics_inputs back = *inputs;
@@ -171,14 +171,14 @@ static void report_levels(const dynamics_inputs *inputs, double least, double la
         known = known && reach(&inputs->back_levels, -least);
     }
     snprintf(text, sizeof text,
-             "change of mesh and tooth forces, over the %s load, if every second of the %zu "
-             "forces of the stiffness is left out; the motion reaches %.3g to %.3g times that "
-             "load%s%s",
+             "change of mesh and tooth forces, over the %s load, if every second of the %zu force "
+             "levels of the stiffness is left out; the mesh force of the motion is %.3g to %.3g "
+             "times that load%s%s",
              load_of(inputs), l->count, least / mean, largest / mean,
-             known ? "" : ", beyond the largest of these forces, which is then left out too",
+             known ? "" : ", beyond the largest force level, which is then left out too",
              l->tooth_force ? ""
-                            : "; the stiffness gives no tooth forces at these, so those of the "
-                              "mean load are scaled in proportion");
+                            : "; the stiffness gives no tooth forces at these levels, so those of "
+                              "the mean load are scaled in proportion");
     host->quality(host->ctx, "force_levels", fmax(error, 0), limit,
                   error >= 0 && error <= limit && known && l->tooth_force ? FF_GOOD : FF_DOUBTFUL,
                   text);
@@ -252,9 +252,9 @@ static void report_slope(const dynamics_inputs *inputs, int on_chord, double lea
     int known = largest <= inputs->levels.force[inputs->levels.count - 1];
     char text[400];
     snprintf(text, sizeof text,
-             "between the smallest and the largest mesh force of the motion the mesh is on "
-             "average %.3g %% %s than the spring of the %s load that the motion uses, so that "
-             "its resonances lie about %.2g %% %s%s",
+             "between the smallest and the largest mesh force of the motion the mesh is on average "
+             "%.3g %% %s than the mesh spring used, which is that of the %s load, so its "
+             "resonances are about %.2g %% %s%s",
              100 * fabs(change), change < 0 ? "softer" : "steeper", load_of(inputs),
              50 * fabs(change), change < 0 ? "lower" : "higher",
              known ? "" : "; the stiffness gives no larger forces");
@@ -285,8 +285,8 @@ void dynamics_sharing_report(const dynamics_inputs *inputs, int on_chord, double
     int known = largest <= l->force[l->count - 1];
     snprintf(text, sizeof text,
              "largest change of a pair's load share between the %s load, whose load sharing and "
-             "slope the motion uses, and the mesh forces of the motion, %.3g to %.3g times that "
-             "load; the slope of the mesh changes by up to %.3g %%%s",
+             "stiffness the motion uses, and the mesh forces of the motion, %.3g to %.3g times "
+             "that load; the tangent stiffness changes by up to %.3g %%%s",
              load_of(inputs), fmax(least, l->force[1]) / mean,
              fmin(largest, l->force[l->count - 1]) / mean, 100 * slope,
              known ? "" : "; the stiffness gives no larger forces");

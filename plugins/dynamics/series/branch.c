@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Most guesses, one per mesh cycle, made from a motion that is not periodic. */
+/* Largest number of guesses from a motion that is not periodic, one guess per mesh cycle. */
 enum { GUESSES = 32 };
 
 /* The search for one series. */
@@ -27,7 +27,8 @@ typedef struct search {
 
 static int search_init(search *s, const dynamics_branch_request *request)
 {
-    /* with little damping every sample at which contact begins or ends affects the motion */
+    /* with little damping the spacing of the samples at which contact begins or ends affects the
+       motion */
     size_t samples = request->excitation->zeta < 1e-3 ? 16384 : 2048;
     while (samples < 16 * request->harmonics)
         samples *= 2;
@@ -62,8 +63,8 @@ static void state_of_series(const search *s, const dynamics_branch_start *from, 
         from->w * (slope - dynamics_piece_slope(last->e, last->degree, last->length) / (2 * M_PI));
 }
 
-/* Solves for the motion without contact loss; it is the only one at small excitation. Returns 0 if
-   there is none. */
+/* Solves for the motion without contact loss, which is the only motion at small excitation. Returns
+   0 if there is none. */
 static int solve_in_contact(search *s)
 {
     const dynamics_excitation *excitation = s->request->excitation;
@@ -172,9 +173,9 @@ static int solve_near_guess(search *s)
    resonances there are narrow and too numerous. */
 static const double slowest = 0.1;
 
-/* Follows the curve of motions of period 1 from the start of the sweep to the speed, around its
-   folds. It is used with hardly any damping, where motions do not settle. Returns FF_NOCONV if the
-   curve does not reach the speed, or if the speed is below `slowest`. */
+/* Follows the curve of motions of period 1, around its folds, from the start of the sweep to the
+   requested speed. Used with hardly any damping, since motions do not settle then. Returns
+   FF_NOCONV if the curve does not reach the speed, or if the speed is below `slowest`. */
 static ff_status trace_to_speed(const search *s, const dynamics_flow *flow, dynamics_attractor *a)
 {
     const dynamics_branch_request *request = s->request;
@@ -208,7 +209,8 @@ static ff_status trace_to_speed(const search *s, const dynamics_flow *flow, dyna
 static const double hardly_damped = 2e-3;
 
 /* Continues the series from the current damping to that of the request by Newton's method, as far
-   as possible. A new solution with another number of samples may get the rest of the way. */
+   as possible. If this fails, a new solution with another number of samples may reach the requested
+   damping. */
 static void lower_damping(search *s)
 {
     static const double shortest = 1e-3;
@@ -289,7 +291,7 @@ static ff_status solve_on_curve(search *s, const dynamics_flow *flow)
 
 /* Solves for the series on the requested branch. With hardly any damping a motion is followed to
    the speed along the curve; if that fails it is found with more damping first. If settling leads
-   to a motion that is not near one of period 1, the curve is followed instead. */
+   to a motion that is not near a motion of period 1, the curve is followed instead. */
 static ff_status solve_on_branch(search *s, const dynamics_flow *flow,
                                  dynamics_branch_result *result)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Finds the series of the motion of period 1 on a branch. The return map finds the branch and
-   follows it to the speed (attractor.h). The motion found there is the guess from which Newton's
-   method finds the series, whether stable or not. */
+/* Finds the series of the motion of period 1 on a branch. First the motion on the branch is found
+   by the return map and followed to the requested speed (attractor.h). From this motion as a guess,
+   Newton's method finds the series, whether stable or not. */
 #ifndef DYNAMICS_BRANCH_H
 #define DYNAMICS_BRANCH_H
 
@@ -10,7 +10,7 @@
 
 #include <flankfilm/plugin.h>
 
-/* A motion to start from: its series x at w, the ratio of mesh frequency to natural frequency. */
+/* A motion to start from: its series x, and its ratio w of mesh frequency to natural frequency. */
 typedef struct dynamics_branch_start {
     const double *x; /* NULL: none */
     size_t harmonics;
@@ -27,8 +27,9 @@ typedef struct dynamics_branch_request {
 } dynamics_branch_request;
 
 typedef struct dynamics_branch_result {
-    double *x;       /* series at w with the request's number of harmonics; the caller frees it */
-    int ends;        /* number of branch ends on the way */
+    double *x;       /* series at request->w with request->harmonics harmonics; the caller frees
+                        it */
+    int ends;        /* number of branch ends met before the requested speed */
     int lost;        /* 1: the branch was lost, and x is the motion without contact loss */
     const char *why; /* reason if the status is FF_NOCONV */
 } dynamics_branch_result;

@@ -7,8 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Order of the Taylor series of a disturbance. Its longest step is 0.25 rad: 0.25^15/15! is below
-   round-off. */
+/* Order of the Taylor series of a disturbance. With steps of at most 0.25 rad, the first neglected
+   term, 0.25^15/15!, is below round-off. */
 enum { TAYLOR = 14 };
 static const double longest_step = 0.25;
 
@@ -30,7 +30,8 @@ static double delta_at(const walk *w, double phase)
     return s - dynamics_piece_value(w->piece->e, w->piece->degree, phase - w->piece->start);
 }
 
-/* A state of contact: the flank that touches, as in oscillator.c, and the band of the spring. */
+/* A state of contact: the flank that touches (1: driving, -1: back, 0: none), and the band of the
+   spring. */
 typedef struct contact {
     int side, band;
 } contact;
@@ -83,8 +84,8 @@ static void pass_stretch(const walk *w, double from, double to, contact c)
     motion->clocks.damped += h;
 }
 
-/* Advances over a stretch in parts with one state of contact each. Changes of contact are located
-   by bisection. */
+/* Advances over a stretch, divided into parts with one state of contact each. Changes of contact
+   are located by bisection. */
 static void pass_contact_changes(const walk *w, double from, double to, contact first, contact last)
 {
     if (same_contact(first, last) || to - from < instant) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Exact harmonics of the pieces of the mesh cycle, and samples of these. */
+/* Exact harmonics of the pieces of the mesh cycle, and samples computed from these harmonics. */
 #include "harmonics-samples.h"
 
 #include "../excitation/spring.h"

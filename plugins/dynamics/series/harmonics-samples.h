@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a harmonic balance holds, and the sampling of its curves. */
+/* The members of a harmonic balance, and the sampling of its curves. */
 #ifndef DYNAMICS_HARMONICS_SAMPLES_H
 #define DYNAMICS_HARMONICS_SAMPLES_H
 
@@ -11,8 +11,9 @@
 #include <lapacke.h>
 
 /* A crossing of the edge of the gap, or of a knee of the spring, between the neighbouring samples i
-   and j. The trapezoidal rule misses `area` at the kink of the force, and the two samples share
-   this area. after_i and after_j are the derivatives of `area` with respect to s at i and at j. */
+   and j. `area` is the error of the trapezoidal rule at the kink of the force; the correction is
+   distributed to the two samples. after_i and after_j are the derivatives of `area` with respect to
+   s at i and at j. */
 typedef struct dynamics_harmonics_edge {
     size_t i, j;
     double area, after_i, after_j;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The series that one case of a chain passes to the next one, like the state in warm-start.h. */
+/* The series that a case of a chain passes to the next case, as warm-start.h does with a state. */
 #ifndef DYNAMICS_HARMONICS_WARM_START_H
 #define DYNAMICS_HARMONICS_WARM_START_H
 

@@ -10,12 +10,12 @@
 
 enum { MAX_NEWTON = 40, MAX_HALVINGS = 6 };
 
-/* Newton's method has converged if the step, relative to the motion, is below `converged`. It may
- * stop below `nearly_converged` if round-off keeps the residual from falling. */
+/* Newton's method has converged if the step, relative to the motion, is below `converged`. If
+   round-off keeps the residual from decreasing, a step below `nearly_converged` is sufficient. */
 static const double converged = 1e-12, nearly_converged = 1e-9;
 
-/* A residual below this value is round-off. Without load the flanks may rest anywhere in the gap,
-   where no Newton step is defined. */
+/* A residual below this value is round-off. Without load the flanks may rest anywhere in the gap;
+   Newton's step is not defined there. */
 static const double round_off = 1e-15;
 
 dynamics_harmonics *dynamics_harmonics_new(const dynamics_excitation *excitation, size_t harmonics,
@@ -114,15 +114,15 @@ static void transform_samples(dynamics_harmonics *b)
         b->spectrum[n] *= scale;
 }
 
-/* Returns the deflection of the mesh spring behind the dead zone (Li & Kahraman 2011, eq. 2b). */
+/* Returns the deflection of the mesh spring, which is in series with the dead zone (Li & Kahraman
+   2011, eq. 2b). */
 static double bend(const dynamics_excitation *excitation, double delta)
 {
     double h = excitation->half_gap;
     return delta > h ? delta - h : delta < -h ? delta + h : 0;
 }
 
-/* Returns by how much the force of a line exceeds that of the previous line, at sample i
-   (spring.h). */
+/* Returns the force of a line minus the force of the previous line, at sample i (spring.h). */
 static double excess(const dynamics_harmonics *b, size_t line, size_t i, double bend)
 {
     size_t at = line * b->samples + i, below = at - b->samples;
@@ -176,8 +176,8 @@ static int find_edge(const dynamics_harmonics *b, size_t i, int side, dynamics_h
     return 1;
 }
 
-/* Finds where the motion crosses the knee at which `line` begins. The distance is the excess of the
-   line's force. Returns 0 if it does not cross. */
+/* Finds where the motion crosses the knee at which `line` begins. The distance from the knee is the
+   excess of the line's force. Returns 0 if it does not cross. */
 static int find_knee(const dynamics_harmonics *b, size_t line, size_t i, int side,
                      dynamics_harmonics_edge *e)
 {

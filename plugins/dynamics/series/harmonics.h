@@ -1,13 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Harmonic balance of the oscillator of excitation.h. A motion of one mesh cycle is the series
- *   s = a0 + sum a_n cos n theta + b_n sin n theta,  n = 1 ... H,  theta = 2 pi phase,
- * The harmonics up to H of its residual in the equation of motion are 0 (Galerkin). The mesh force
- * is sampled in time and its harmonics are taken from the samples (Cameron & Griffin 1989). k and e
- * are represented by their exact harmonics, so that without contact loss sampling causes no error.
- * The damper always acts.
- * A series is an array of 2 H + 1 numbers: a0, a1, b1, a2, b2 ...
- */
+/* Harmonic balance of the oscillator of excitation.h. A motion of one mesh cycle is the series s =
+   a0 + sum a_n cos n theta + b_n sin n theta, n = 1 ... H, theta = 2 pi phase, Galerkin's method
+   makes the harmonics up to H of the residual in the equation of motion 0. The mesh force is
+   sampled in time and its harmonics are taken from the samples (Cameron & Griffin 1989). k and e
+   are represented by their exact harmonics, so that without contact loss sampling causes no error.
+   The damper always acts. A series is an array of 2 H + 1 numbers: a0, a1, b1, a2, b2 ... */
 #ifndef DYNAMICS_HARMONICS_H
 #define DYNAMICS_HARMONICS_H
 
@@ -24,8 +21,8 @@ void dynamics_harmonics_free(dynamics_harmonics *b);
 size_t dynamics_harmonics_samples(const dynamics_harmonics *b);
 
 /* Computes the harmonics of the residual of the series x at w (mesh frequency over natural
-   frequency), their derivatives with respect to ln w, and those with respect to x, in columns of
-   length `stride`. The last two may be NULL. */
+   frequency); their derivatives with respect to ln w, `after_w`; and the Jacobian with respect to
+   x, in columns of length `stride`. `after_w` and `jacobian` may be NULL. */
 void dynamics_harmonics_residual(dynamics_harmonics *b, double w, const double *x, double *residual,
                                  double *after_w, double *jacobian, size_t stride);
 

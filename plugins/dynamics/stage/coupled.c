@@ -10,10 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The motion that one case of a chain passes to the next one. */
+/* The motion that a case of a chain passes to the next case. */
 typedef struct handed {
     char mark[16];
-    double mesh_frequency;        /* Hz; 0: there is none */
+    double mesh_frequency;        /* Hz; 0: there is no motion */
     double state[DYNAMICS_TAKEN]; /* state at phase 0: m, m/s */
 } handed;
 static const char mark[16] = "coupled 1";
@@ -23,8 +23,8 @@ typedef struct model {
     double zeta, tolerance, settle_tolerance;
     int32_t damping, force, branch;
     dynamics_inertia inertia;
-    ff_reals bearing, bearing_zeta,
-        mass; /* units N/m, 1, kg; one value or two; mass empty: the gears' own masses */
+    ff_reals bearing, bearing_zeta, mass; /* bearing in N/m, bearing_zeta in 1, mass in kg; one
+                                             value or two; mass empty: the masses of the gears */
     int64_t cycles_settle, cycles_measured, steps_per_cycle;
     handed from, to; /* motion from the neighbouring case; motion for the next case */
 } model;
@@ -33,23 +33,23 @@ static const ff_param params[] = {
     FF_QUANTITY("damping_ratio", "1", model, zeta, 0, "0.01", NULL, 0, 10, 1e-3, 0.2,
                 "damping of the mesh over critical damping at the mean stiffness, c/(2 sqrt(k m))"),
     FF_ONE_OF("always|contact|clipped", "damping", model, damping, 0, "always",
-              "when the mesh damper acts: always (also in free flight, as Li & Kahraman 2011), "
-              "in contact only, or clipped: in contact only, and the mesh force never pulls"),
+              "when the mesh damper acts. always: also in free flight (Li & Kahraman 2011); "
+              "contact: only in contact; clipped: only in contact, and the mesh force never pulls"),
     FF_ONE_OF(
         "lower|upper", "branch", model, branch, 0, "lower",
-        "which motion is shown if several exist: lower is the one without contact loss where it "
-        "is stable, or else the one that a slow rise of the speed from 0.7 times the mesh "
-        "frequency leads to; upper is the one that a slow fall from 1.4 times the natural "
-        "frequency of the mesh leads to; in a chain of cases over the speed it applies to the "
+        "motion that is shown if several exist. lower: the motion without contact loss if it is "
+        "stable, otherwise the motion to which a slow rise of the speed from 0.7 times the mesh "
+        "frequency leads; upper: the motion to which a slow fall from 1.4 times the natural "
+        "frequency of the mesh leads. In a chain of cases over the speed, branch applies to the "
         "first case"),
     DYNAMICS_FORCE_ROW(model),
     FF_QUANTITY("equivalent_mass", "kg", model, inertia.equivalent_mass, FF_MIN_OPEN, NULL,
                 "inertia", 0, 1e9, 0, 0,
-                "equivalent mass at the mesh spring in rotation; default: the gear's"),
+                "equivalent mass at the mesh spring in rotation; default: that of the gear"),
     FF_QUANTITY("natural_frequency", "Hz", model, inertia.natural_frequency, FF_MIN_OPEN, NULL,
                 "inertia", 0, 1e9, 0, 0,
                 "natural frequency of the linear mesh on rigid bearings at the mean stiffness, "
-                "in place of the mass"),
+                "instead of equivalent_mass"),
     FF_LIST("bearing_stiffness", "N/m", model, bearing, FF_REQUIRED | FF_MIN_OPEN, NULL, NULL, 0,
             1e15, 1e7, 1e11, 1, 2,
             "radial stiffness of shaft and bearings of each gear, the same in all directions; "
@@ -59,11 +59,11 @@ static const ff_param params[] = {
             "damping of each gear on its bearings over critical damping, c/(2 sqrt(k m)); one "
             "value or two"),
     FF_LIST("gear_mass", "kg", model, mass, FF_MIN_OPEN, NULL, NULL, 0, 1e9, 0, 0, 1, 2,
-            "masses that move on the bearings; default: the gears' masses; one value or two"),
+            "masses that move on the bearings; default: those of the gears; one value or two"),
     FF_COUNT_OR(
         "auto", "cycles_settle", model, cycles_settle, FF_TUNABLE, "auto", NULL, 1, 1e6, 0, 0,
-        "most mesh cycles for settling if shooting does not find the motion; auto: four times "
-        "what the damping requires"),
+        "largest number of mesh cycles for settling if shooting does not find the motion; auto: "
+        "four times the number that the damping requires"),
     FF_COUNT("cycles_measured", model, cycles_measured, 0, "16", NULL, 1, 256, 0, 0,
              "mesh cycles shown if the motion is not periodic"),
     FF_COUNT("steps_per_cycle", model, steps_per_cycle, FF_TUNABLE, "512", NULL, 16, 65536, 0, 0,
@@ -152,7 +152,7 @@ static void report(const model *m, const dynamics_coupled_motion *motion, double
     const ff_host *host = m->host;
     dynamics_periodicity_line(&motion->settled, m->settle_tolerance,
                               "the motion does not repeat within 8 mesh cycles: it is aperiodic, "
-                              "or it needs more cycles_settle",
+                              "or it needs a larger cycles_settle",
                               host);
     host->quality(host->ctx, "settled_cycles", (double)motion->settled.cycles,
                   (double)motion->settled.limit, FF_GOOD, NULL);
@@ -161,7 +161,9 @@ static void report(const model *m, const dynamics_coupled_motion *motion, double
                   motion->energy_error <= limit ? FF_GOOD : FF_DOUBTFUL, NULL);
     if (motion->settled.period > 0)
         host->quality(host->ctx, "stability", largest, 1, largest < 1 ? FF_GOOD : FF_DOUBTFUL,
-                      largest < 1 ? NULL : "a disturbance of this motion does not die out");
+                      largest < 1 ? NULL
+                                  : "largest Floquet multiplier: a disturbance of this "
+                                    "motion does not decay");
 }
 
 static ff_status fail_too_many_steps(const ff_host *host, const dynamics_inputs *inputs)

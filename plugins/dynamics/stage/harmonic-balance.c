@@ -29,20 +29,20 @@ typedef struct model {
 static const ff_param params[] = {
     DYNAMICS_DAMPING_RATIO_ROW(model, 1e-3),
     FF_ONE_OF("always|contact|clipped", "damping", model, damping, 0, "always",
-              "when the damper acts; only always is possible, since a Fourier series needs a "
+              "when the damper acts; only `always` is possible, since a Fourier series needs a "
               "force without jumps"),
     FF_ONE_OF("lower|upper", "branch", model, branch, 0, "lower",
-              "which motion is shown if several exist: lower is the one without contact loss "
-              "where it is stable, or else the one on the branch followed up from 0.7 times the "
-              "mesh frequency; upper is the one on the branch followed down from 1.4 times the "
-              "natural frequency, stable or not; in a chain of cases over the speed it applies "
-              "to the first case"),
+              "motion that is shown if several exist. lower: the motion without contact loss if it "
+              "is stable, otherwise the motion on the branch followed up from 0.7 times the mesh "
+              "frequency; upper: the motion on the branch followed down from 1.4 times the natural "
+              "frequency, stable or not. In a chain of cases over the speed, branch applies to the "
+              "first case"),
     DYNAMICS_FORCE_ROW(model),
     DYNAMICS_INERTIA_ROWS(model),
     FF_COUNT_OR("auto", "harmonics", model, harmonics_given, FF_TUNABLE, "auto", NULL, 1,
                 DYNAMICS_MOST_HARMONICS, 5, DYNAMICS_MOST_HARMONICS,
                 "number of harmonics of the mesh frequency in the series; auto: increased until "
-                "the first neglected ones, estimated from the force, are below the tolerance"),
+                "the first neglected harmonics, estimated from the force, are below the tolerance"),
     FF_COUNT_OR(
         "auto", "samples", model, samples_given, FF_TUNABLE, "auto", NULL, 16, 1 << 20, 0, 0,
         "samples of the mesh force per mesh cycle, at least 8 per harmonic; auto: 32 per harmonic"),
@@ -153,13 +153,13 @@ static ff_status refine(const model *m, const dynamics_excitation *excitation, d
 static void report_stability(const model *m, const dynamics_motion *motion, double largest)
 {
     const ff_host *host = m->host;
-    const char *text = "a disturbance of this motion does not die out";
+    const char *text = "largest Floquet multiplier: a disturbance of this motion does not decay";
     int32_t verdict = largest < 1 ? FF_GOOD : FF_DOUBTFUL;
     if (motion->period == DYNAMICS_UNBOUNDED) {
         text = "without backlash a disturbance of this motion grows without bound";
         verdict = FF_BAD;
     } else if (m->zeta == 0)
-        text = "without damping a disturbance of this motion cannot die out";
+        text = "without damping a disturbance of this motion cannot decay";
     host->quality(host->ctx, "stability", largest, 1, verdict, verdict == FF_GOOD ? NULL : text);
 }
 
@@ -218,7 +218,7 @@ static ff_status fail_without_motion(const model *m, const dynamics_inputs *inpu
                     why ? why : "Newton's method fails with these harmonics");
 }
 
-/* Returns the number of harmonics while a branch is followed. They include 15 times the natural
+/* Returns the number of harmonics used while a branch is followed: they reach 15 times the natural
    frequency, within bounds that limit the work. */
 static size_t harmonics_on_the_way(double w)
 {
@@ -242,7 +242,7 @@ static ff_status find_series(const model *m, dynamics_branch_request *request, d
     return status == FF_NOCONV ? dynamics_branch_series(request, result) : status;
 }
 
-/* Writes the motion at the mesh frequency of the duty. */
+/* Writes the motion at the mesh frequency of the operating point. */
 static ff_status output_motion(model *m, const dynamics_excitation *excitation,
                                const dynamics_inputs *inputs)
 {
@@ -250,8 +250,8 @@ static ff_status output_motion(model *m, const dynamics_excitation *excitation,
     if (w * DYNAMICS_MOST_HARMONICS < 2)
         return fail_without_motion(
             m, inputs,
-            "the mesh frequency is so far below resonance that a series of 512 harmonics does "
-            "not reach twice the natural frequency; use dynamics/quasi-static");
+            "the mesh frequency is so low that a series of 512 harmonics does not reach twice the "
+            "natural frequency; use dynamics/quasi-static");
     dynamics_branch_result result = {0};
     solution s = {.x = calloc(2 * DYNAMICS_MOST_HARMONICS + 1, sizeof *s.x)};
     dynamics_branch_request request = {.excitation = excitation,

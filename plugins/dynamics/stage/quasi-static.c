@@ -23,8 +23,8 @@ typedef struct model {
 static const ff_param params[] = {
     DYNAMICS_INERTIA_ROWS(model),
     FF_QUANTITY("damping_ratio", "1", model, zeta, 0, "0.01", NULL, 0, 10, 1e-4, 0.2,
-                "damping over critical damping; used only to tell how far the motion is from the "
-                "static one if the program chooses the model"),
+                "damping over critical damping; used only to estimate the difference from the "
+                "dynamic motion if the program chooses the model"),
 };
 
 enum {
@@ -70,7 +70,7 @@ static const ff_port inputs[] = {
      .dims = "engagement? station"},
     {.name = "operating.mesh_frequency",
      .unit = "Hz",
-     .doc = "used to tell how far the motion is from the static one",
+     .doc = "mesh frequency, used only to estimate the difference from the dynamic motion",
      .dims = "",
      .flags = FF_OPTIONAL},
     {.name = "operating.reference_force",
@@ -133,7 +133,7 @@ static const ff_port outputs[] = {
      .max = INFINITY},
     {.name = "tooth_force",
      .unit = "N",
-     .doc = "tooth force; equal to the quasi-static one",
+     .doc = "tooth force; equal to the quasi-static tooth force",
      .dims = "engagement? stiffness.station"},
     {.name = "gap",
      .unit = "m",
@@ -159,7 +159,7 @@ static const ff_port outputs[] = {
      .max = 1},
     {.name = "natural_frequency",
      .unit = "Hz",
-     .doc = "natural frequency of small vibration at the mean of the wired stiffness; needs a "
+     .doc = "natural frequency of small vibrations at the mean of the wired stiffness; needs a "
             "mass",
      .dims = "",
      .max = INFINITY},
@@ -272,8 +272,7 @@ static ff_status put_scalars(const ff_host *host, const statistics *st, double p
 static const char no_inertia[] = "needs an inertia: give equivalent_mass or natural_frequency, "
                                  "or wire a gear that gives equivalent_mass";
 
-/* Without a mass there is no natural frequency. That is an error only if the output is
-   requested. */
+/* Writes the natural frequency. A missing mass is an error only if this output is requested. */
 static ff_status put_natural_frequency(const model *m, uint64_t wanted, const ff_array *in)
 {
     double frequency;
@@ -304,8 +303,8 @@ static ff_status evaluate_driving(void *self, uint64_t wanted, const ff_array *i
     if (!floats && in[I_REFERENCE].data && in[I_REFERENCE].data[0] > 0 &&
         fabs(in[I_REFERENCE].data[0] - force) > 1e-9 * force)
         return ff_failf(m->host, FF_UNSUPPORTED, "operating.reference_force",
-                        "the loaded transmission error was computed at %g N, but the line force "
-                        "is %g N: leave reference_torque out of the duty",
+                        "the loaded transmission error was computed at %g N, but the line force is "
+                        "%g N: leave reference_torque out of the operating stage",
                         in[I_REFERENCE].data[0], force);
     if (floats)
         dynamics_floating_line(m->host);

@@ -36,7 +36,7 @@ typedef struct model {
     dynamics_warm_start from, to; /* motion from the neighbouring case; motion for the next case */
 } model;
 
-/* Which motions stable_motions counts, and from which the branch `largest` is chosen. */
+/* The motions that stable_motions counts, from which the branch `largest` is chosen. */
 enum { KNOWS_STARTS, KNOWS_ATLAS };
 
 static const ff_param params[] = {
@@ -44,17 +44,17 @@ static const ff_param params[] = {
     DYNAMICS_DAMPING_ROW(model),
     FF_PHRASE(
         "branch", model, branch_word, 0, "lower", NULL,
-        "which motion is shown if several exist: lower is the one without contact loss where it "
-        "is stable, or else the one that a slow rise of the speed from 0.7 times the mesh "
-        "frequency leads to; upper is the one that a slow fall from 1.4 times the natural "
-        "frequency leads to (where its branch ends, the motion settles to another one); largest "
-        "has the largest rms of all motions that stable_motions counts; or the name of a branch "
-        "of the atlas, such as p2-1. In a chain of cases over the speed, lower and upper apply "
-        "to the first case, largest to every case"),
+        "motion that is shown if several exist. lower: the motion without contact loss if it is "
+        "stable, otherwise the motion to which a slow rise of the speed from 0.7 times the mesh "
+        "frequency leads; upper: the motion to which a slow fall from 1.4 times the natural "
+        "frequency leads (at the end of its branch the motion settles to another branch); largest: "
+        "the motion with the largest rms of those that stable_motions counts; or the name of a "
+        "branch of the atlas, such as p2-1. In a chain of cases over the speed, lower and upper "
+        "apply to the first case, largest to every case"),
     FF_ONE_OF("starts|atlas", "known_motions", model, knows, 0, "starts",
-              "which stable motions stable_motions counts and branch: largest chooses from: "
-              "those to which lower, upper and 16 other starts lead; or also those of the atlas, "
-              "which takes about 50 times as long"),
+              "stable motions that stable_motions counts, and from which branch: largest chooses. "
+              "starts: the motions to which lower, upper and 16 other starts lead; atlas: also the "
+              "motions of the atlas, which takes about 50 times as long"),
     DYNAMICS_FORCE_ROW(model),
     DYNAMICS_INERTIA_ROWS(model),
     DYNAMICS_OIL_ROWS(model),
@@ -73,8 +73,8 @@ static const ff_param params[] = {
                 "longest step along a branch, over the size of the motion"),
     FF_COUNT_OR(
         "auto", "cycles_settle", model, cycles_settle, FF_TUNABLE, "auto", NULL, 1, 1e6, 0, 0,
-        "mesh cycles in which the lower or upper motion may settle; auto: four times what the "
-        "damping requires"),
+        "largest number of mesh cycles in which the lower or upper motion may settle; auto: four "
+        "times the number that the damping requires"),
     FF_COUNT("cycles_measured", model, cycles_measured, 0, "64", NULL, 1, 1024, 0, 0,
              "mesh cycles shown if the motion is not periodic"),
     FF_COUNT("steps_per_cycle", model, steps_per_cycle, FF_TUNABLE, "512", NULL, 16, 65536, 0, 0,
@@ -85,8 +85,7 @@ static const uint64_t power_bits =
     FF_BIT(DYNAMICS_POWER_OUTPUT_COUNT) - FF_BIT(DYNAMICS_ATLAS_OUTPUT_COUNT);
 static const uint64_t motion_bits = FF_BIT(DYNAMICS_MOTION_OUTPUT_COUNT) - 1;
 
-/* Accuracy to which a motion settles with `cycles_settle: auto`; Newton's method starts from
-   there. */
+/* Accuracy to which a motion settles if cycles_settle is auto, before Newton's method starts. */
 static const double settle_tolerance = 1e-4;
 
 static ff_status set_branch(model *m)
@@ -157,8 +156,9 @@ static ff_status build_atlas(job *j)
         return status;
     if (dynamics_cycle_duration(log(from / natural)) > 0.1 * dynamics_longest_cycle)
         return ff_failf(m->host, FF_INVALID, "atlas.from",
-                        "%g Hz is too far below the natural frequency, %g Hz", from,
-                        j->inputs.natural_frequency);
+                        "the atlas cannot begin at %g Hz, too far below the natural frequency, %g "
+                        "Hz",
+                        from, j->inputs.natural_frequency);
     dynamics_atlas_request request = {
         .low = log(from / natural),
         .high = log(to / natural),
@@ -264,8 +264,8 @@ static ff_status output_motion(const job *j, const dynamics_attractor *a)
 static ff_status fail_too_slow(const job *j)
 {
     return ff_failf(j->m->host, FF_NOCONV, "operating.mesh_frequency",
-                    "a mesh frequency of %g Hz is too far below the natural frequency of %g Hz "
-                    "to follow every vibration; use dynamics/quasi-static there",
+                    "a mesh frequency of %g Hz is so far below the natural frequency of %g Hz that "
+                    "every mesh cycle contains too many vibrations; use dynamics/quasi-static",
                     j->inputs.mesh_frequency, j->inputs.natural_frequency);
 }
 
@@ -280,8 +280,8 @@ static ff_status find_at(const void *ctx, double lambda, dynamics_attractor *a)
     return status;
 }
 
-/* A motion is doubtful if a fold is within this relative distance of its speed: the speed of a
-   machine is not known more accurately. */
+/* A motion is doubtful if a fold is within this relative distance of its speed, since the speed of
+   a machine is not known more accurately. */
 static const double near_fold = 0.005;
 
 static void report_jump(const job *j, const dynamics_jump *jump)
@@ -291,13 +291,14 @@ static void report_jump(const job *j, const dynamics_jump *jump)
     double distance = fabs(expm1(jump->lambda - j->lambda));
     char text[320];
     snprintf(text, sizeof text,
-             jump->beside    ? "a fold at %.6g Hz, %.2g %% from the mesh frequency: on one side of "
-                               "it, the motion of dte rms %.3g um coexists with one of %.3g um"
-             : jump->is_fold ? "a fold at %.6g Hz, %.2g %% from the mesh frequency: the motion "
-                               "of dte rms %.3g um may jump; beyond the fold there is one of "
-                               "%.3g um"
-                             : "at %.6g Hz, %.2g %% from the mesh frequency, the branch is another "
-                               "one: dte rms %.3g um here, %.3g um there",
+             jump->beside    ? "fold at %.6g Hz, %.2g %% from the mesh frequency: on one side of "
+                               "the fold, the motion shown (dte_rms %.3g um) coexists with another "
+                               "motion (%.3g um)"
+             : jump->is_fold ? "fold at %.6g Hz, %.2g %% from the mesh frequency: the motion shown "
+                               "(dte_rms %.3g um) may jump; beyond the fold there is another "
+                               "motion (%.3g um)"
+                             : "at %.6g Hz, %.2g %% from the mesh frequency, the motion is on "
+                               "another branch: dte_rms is %.3g um here, %.3g um there",
              natural * exp(jump->lambda), 100 * distance, jump->rms * micron, jump->other * micron);
     host->quality(host->ctx, "distance_of_jump", distance, near_fold, FF_DOUBTFUL, text);
 }
@@ -322,8 +323,8 @@ static ff_status find_jump(const job *j, const dynamics_attractor *motion)
 }
 
 /* Warns that the atlas uses frozen films. A frozen film excites the motion but does not damp it.
-   Far from the speed at which it was computed, the folds and multipliers are therefore not those of
-   motion and film together. */
+   Far from the speed at which the film was computed, folds and multipliers therefore differ from
+   those of motion and film together. */
 static void report_frozen_films(const job *j)
 {
     static const double near = 0.02;
@@ -340,7 +341,7 @@ static void report_frozen_films(const job *j)
         "atlas: it excites the motion but does not damp it");
 }
 
-/* Reports where the branch ended that was followed to the speed, if it ended. */
+/* If the branch that was followed ended before the requested speed, reports where it ended. */
 static void report_end(const job *j, const dynamics_attractor *a)
 {
     const model *m = j->m;
@@ -348,16 +349,14 @@ static void report_end(const job *j, const dynamics_attractor *a)
     char text[200];
     if (m->by_name || a->ends == 0)
         return;
-    snprintf(
-        text, sizeof text,
-        "the branch that \"%s\" followed ends at %.8g Hz; the motion shown is the one to which "
-        "it settled from there",
-        m->largest ? "upper" : m->branch_word, end);
+    snprintf(text, sizeof text,
+             "the branch \"%s\" ends at %.8g Hz; from there the motion settled to the motion shown",
+             m->largest ? "upper" : m->branch_word, end);
     m->host->quality(m->host->ctx, "branch_end", fabs(end / j->inputs.mesh_frequency - 1), 0,
                      FF_GOOD, text);
 }
 
-/* Writes the number of stable motions, and reports if the atlas has more of them. */
+/* Writes the number of stable motions, and reports whether the atlas has more stable motions. */
 static ff_status put_known(job *j)
 {
     const ff_host *host = j->m->host;

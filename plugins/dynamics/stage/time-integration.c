@@ -31,10 +31,10 @@ static const ff_param params[] = {
     DYNAMICS_DAMPING_RATIO_ROW(model, 1e-3),
     DYNAMICS_DAMPING_ROW(model),
     FF_ONE_OF("lower|upper", "branch", model, branch, 0, "lower",
-              "which motion is shown if several exist: lower is the one without contact loss "
-              "where it is stable, or else the one that a slow rise of the speed from 0.7 times "
-              "the mesh frequency leads to; upper is the one that a slow fall from 1.4 times the "
-              "natural frequency leads to; in a chain of cases over the speed it applies to the "
+              "motion that is shown if several exist. lower: the motion without contact loss if it "
+              "is stable, otherwise the motion to which a slow rise of the speed from 0.7 times "
+              "the mesh frequency leads; upper: the motion to which a slow fall from 1.4 times the "
+              "natural frequency leads. In a chain of cases over the speed, branch applies to the "
               "first case"),
     DYNAMICS_FORCE_ROW(model),
     DYNAMICS_INERTIA_ROWS(model),
@@ -42,15 +42,16 @@ static const ff_param params[] = {
     DYNAMICS_FILM_WIRE_ROWS(model),
     FF_COUNT_OR(
         "auto", "cycles_settle", model, cycles_settle, FF_TUNABLE, "auto", NULL, 1, 1e6, 0, 0,
-        "mesh cycles in which the motion may settle; auto: four times what the damping requires"),
+        "largest number of mesh cycles in which the motion may settle; auto: four times the number "
+        "that the damping requires"),
     FF_COUNT("cycles_measured", model, cycles_measured, 0, "64", NULL, 1, 1024, 0, 0,
              "mesh cycles shown if the motion is not periodic"),
     FF_COUNT("steps_per_cycle", model, steps_per_cycle, FF_TUNABLE, "512", NULL, 16, 65536, 0, 0,
              "points shown per mesh cycle; they do not affect the steps of the integrator"),
     FF_QUANTITY("tolerance", "1", model, tolerance, FF_TUNABLE, "1e-9", NULL, 1e-13, 1e-3, 1e-12,
                 1e-6,
-                "error of one integration step over the static deflection; with squeeze: series "
-                "the steps are those of dynamics/shooting"),
+                "error of one integration step over the static deflection; not used with squeeze: "
+                "series, which uses the steps of dynamics/shooting"),
     FF_QUANTITY("settle_tolerance", "1", model, settle_tolerance, FF_TUNABLE, "1e-7", NULL, 1e-12,
                 1e-2, 1e-11, 1e-4,
                 "the motion has settled if its distance to the periodic motion, over the static "
@@ -108,9 +109,9 @@ static void read_in_oil(const void *self, double x[2])
     x[1] = o->y.rate;
 }
 
-/* Estimates the error of the steps. It is the change of the state at the end of the period when the
-   steps are halved and the tolerance is divided by 100, over 1 - |mu|: the fixed point of a map
-   that contracts by mu moves by that amount. */
+/* Estimates the error of the steps. The estimate is the change of the state at the end of the
+   period if the steps are halved and the tolerance is divided by 100, over 1 - |mu|: this is the
+   change of the fixed point of a map that contracts by mu. */
 static ff_status step_error(const model *m, const dynamics_excitation *excitation,
                             const dynamics_motion *motion, const dynamics_settled *settled,
                             double largest, double *error)
@@ -146,12 +147,12 @@ static void report(const model *m, const dynamics_settled *settled, const dynami
     else
         dynamics_periodicity_line(
             settled, m->settle_tolerance,
-            m->zeta > 0 ? "the motion does not repeat within 8 mesh cycles: it is aperiodic, or "
-                          "it needs more cycles_settle"
+            m->zeta > 0 ? "the motion does not repeat within 8 mesh cycles: it is aperiodic, or it "
+                          "needs a larger cycles_settle"
                         : "without damping the motion never settles; the motion shown depends on "
                           "its start",
             host);
-    /* a step is about half a radian long, and at worst the errors of all steps add up */
+    /* a step is about half a radian long; in the worst case the errors of all steps sum */
     double limit = m->tolerance * fmax(1000, 2 * (double)motion->cycles * motion->T);
     host->quality(host->ctx, "settled_cycles", (double)settled->cycles, (double)settled->limit,
                   FF_GOOD, NULL);
@@ -164,10 +165,13 @@ static void report(const model *m, const dynamics_settled *settled, const dynami
         return;
     if (settled->period > 1)
         host->quality(host->ctx, "coexistence", settled->period, 1, FF_DOUBTFUL,
-                      "a motion of several mesh cycles is rarely the only one at its speed, and "
-                      "round-off may decide which one is found; dynamics/shooting lists them all");
+                      "a motion with a period of several mesh cycles is rarely the only motion at "
+                      "its speed, and round-off may decide which motion is found; "
+                      "dynamics/shooting lists all motions");
     host->quality(host->ctx, "stability", largest, 1, largest < 1 ? FF_GOOD : FF_DOUBTFUL,
-                  largest < 1 ? NULL : "a disturbance of this motion does not die out");
+                  largest < 1 ? NULL
+                              : "largest Floquet multiplier: a disturbance of this motion "
+                                "does not decay");
     if (!motion->excitation->film)
         host->quality(host->ctx, "state_error", error, 1e-5, error <= 1e-5 ? FF_GOOD : FF_DOUBTFUL,
                       "error due to the integration steps, over the static deflection");
@@ -176,9 +180,9 @@ static void report(const model *m, const dynamics_settled *settled, const dynami
 static ff_status fail_too_many_steps(const ff_host *host, const dynamics_inputs *inputs)
 {
     return ff_failf(host, FF_NOCONV, "operating.mesh_frequency",
-                    "a mesh frequency of %g Hz and a natural frequency of %g Hz take more than "
-                    "20 million steps, or a step in the oil has no solution; give fewer "
-                    "cycles_settle, or use dynamics/quasi-static far below resonance",
+                    "a mesh frequency of %g Hz and a natural frequency of %g Hz need more than 20 "
+                    "million steps, or a step with oil has no solution; reduce cycles_settle, or "
+                    "use dynamics/quasi-static far below resonance",
                     inputs->mesh_frequency, inputs->natural_frequency);
 }
 

@@ -57,8 +57,8 @@ double ehl_row_film(const ehl_history *h, size_t row, const ehl_oil *oil)
 }
 
 /* Returns the pressure upstream of x = -end for a Hertzian gap with film thickness h. The pressure
-   is low there, so the oil properties are those at ambient pressure: p = 12 eta0 u int (gap -
-   h)/gap^3 dx, x = -end/t, 0 < t < 1. */
+   is low there, so the oil has its properties at ambient pressure: p = 12 eta0 u int (gap -
+   h)/gap^3 dx, integrated over 0 < t < 1 with x = -end/t. */
 FF_SIMD
 ehl_lost ehl_pressure_upstream(const ehl_oil *oil, const ehl_instant *at, double a, double h,
                                double end)
@@ -84,7 +84,7 @@ ehl_lost ehl_pressure_upstream(const ehl_oil *oil, const ehl_instant *at, double
 void ehl_inlet_ahead(const ehl_oil *oil, const ehl_instant *at, double modulus, double end,
                      double *pressure, double *load)
 {
-    const double most = 0.25; /* share of the load */
+    const double most = 0.25; /* largest load in front of the domain, as a share of the load */
     double h = ehl_moes_film(at, modulus, oil);
     double a = ehl_hertz_half_width(at->load, at->radius, modulus);
     *pressure = *load = 0;
@@ -97,20 +97,21 @@ void ehl_inlet_ahead(const ehl_oil *oil, const ehl_instant *at, double modulus, 
     *load = share * l.load;
 }
 
-/* Returns the relative error of the film if the domain begins at a distance of `lengths` S. The
-   pressure of the inlet rises over S. Far from the contact dp/dx ~ x^-4. The film is too thin in
-   proportion to the missing pressure, so that the error is proportional to 1/distance^2. The factor
-   is 2.4 for a rigid cylinder, whose whole pressure arises there, and 0.08 if a is large compared
-   with S. In between it is fitted to solutions with L from 0 to 8. */
+/* Returns the relative error of the film if the domain begins at the distance `lengths` times S
+   from the contact; S is the length `s` over which the pressure of the inlet rises. Far from the
+   contact dp/dx ~ x^-4. The film is too thin in proportion to the missing pressure, so the error is
+   proportional to 1/distance^2. The factor of proportionality is 2.4 for a rigid cylinder, whose
+   whole pressure arises in the inlet, and 0.08 if the half width a is large compared with S. In
+   between it is fitted to solutions with Moes' L from 0 to 8. */
 static double inlet_shortfall(double a, double s, double lengths)
 {
     return (0.08 + 2.45 / (1 + pow(0.65 * (a + s) / s, 7))) / (lengths * lengths);
 }
 
-/* Extends the domain for one instant. At the largest loads less than 0.1 % of the film is missing;
-   at the others the inlet is at least `supplied` (ehl_grid_fit). The film ends before a + 0.5 S.
-   Loads below 2 % of the largest use the domain of the others, since a domain of their own would
-   make the cells too coarse for the others. */
+/* Extends the domain for one instant. At the largest load, starvation reduces the film by less than
+   0.1 %; at other loads the inlet is at least `supplied` (ehl_grid_fit). The film ends before a +
+   0.5 S. Loads below 2 % of the largest load do not extend the domain, since this would make the
+   cells too coarse for the other loads. */
 static void reach(ehl_grid *g, const ehl_instant *at, double modulus, double film, int largest)
 {
     const double missing = 7.5e-4;
@@ -130,12 +131,10 @@ static double gap_times_2R(double from, double a)
     return from * from * (s * y - log(s + y)); /* acosh s = ln(s + y) */
 }
 
-/*
- * Extends the outlet for a contact that grows faster than the oil leaves. Such a contact draws in
- * oil at its outlet, too. Its film there is that of a contact which the oil enters at the
- * difference of both speeds, and it is at most as thick as the gap that was there. The outlet
- * reaches 2 sqrt(2 R h) of that film beyond the contact, as for a film that leaves.
- */
+/* Extends the outlet for a contact whose half width grows faster than the oil leaves. This contact
+   draws in oil at its outlet, too. The film thickness h there is that of a contact with the
+   difference of both speeds as entrainment speed, but at most the gap that was there before. The
+   outlet extends 2 sqrt(2 R h) beyond the contact, as for a film that leaves the contact. */
 static void reach_swelling(ehl_grid *g, const ehl_history *h, size_t row, const ehl_oil *oil)
 {
     ehl_instant at = ehl_history_row(h, row), before = ehl_history_row(h, row - 1);

@@ -13,7 +13,8 @@ typedef struct ehl_grid {
     double half_width;    /* m, largest Hertz half-width a */
     double pressure;      /* Pa, largest Hertz pressure */
     double inlet, outlet; /* m, distances of both ends from x = 0 */
-    double drawn;         /* m, least outlet for contacts that draw in oil there; 0: none does */
+    double drawn;         /* m, smallest outlet for contacts that draw in oil at the outlet; 0:
+                             there is no such contact */
     int fed;              /* 1: the domain begins with the pressure of a longer inlet */
 } ehl_grid;
 
@@ -26,7 +27,7 @@ double ehl_hertz_pressure(double load, double radius, double modulus);
    2000). */
 double ehl_moes_film(const ehl_instant *at, double modulus, const ehl_oil *oil);
 
-/* Returns the same for a row of a history; the history may have stored it. */
+/* Returns this film thickness for a row of a history, which may have stored it. */
 double ehl_row_film(const ehl_history *h, size_t row, const ehl_oil *oil);
 
 /* Returns the distance from a contact of half-width a at which its Hertzian gap has grown by h, for
@@ -34,22 +35,22 @@ double ehl_row_film(const ehl_history *h, size_t row, const ehl_oil *oil);
    1972). */
 double ehl_hertz_gap_distance(double a, double radius, double h);
 
-/* Returns the same, but at most sqrt(2 R h), which applies to light loads. */
+/* Returns this distance, but at most sqrt(2 R h), which applies to light loads. */
 double ehl_inlet_buildup(double a, double radius, double h);
 
-/* Pressure of the oil of an infinite inlet at x = -end, Pa, and its integral upstream of that
-   place, N/m. */
+/* Pressure at x = -end in an infinitely long inlet, Pa, and the integral of the pressure upstream
+   of this point, N/m. */
 typedef struct ehl_lost {
     double pressure, load;
 } ehl_lost;
 
-/* Computes both for a steady film of thickness h. */
+/* Computes both quantities for a steady film of thickness h. */
 ehl_lost ehl_pressure_upstream(const ehl_oil *oil, const ehl_instant *at, double a, double h,
                                double end);
 
 /* Computes the pressure at x = -end, Pa, and the load carried by the oil upstream of it, N/m, in a
-   steady film. Both are 0 without load. Both are reduced towards 0 where they would exceed a
-   certain share of the load. */
+   steady film. Both are 0 without load. Both are reduced where the load upstream would exceed a
+   quarter of the load of the contact. */
 void ehl_inlet_ahead(const ehl_oil *oil, const ehl_instant *at, double modulus, double end,
                      double *pressure, double *load);
 

@@ -49,8 +49,8 @@ static double entrainment(const ehl_history *h, size_t i)
     return (h->speed_1[i] + h->speed_2[i]) / 2;
 }
 
-/* Finds the first row with motion and its direction, and for a start from rest the time at which
-   the creep speed is reached. */
+/* Finds the first row with motion and the direction of entrainment, and for a start from rest the
+   time at which the entrainment speed reaches EHL_CREEP times its maximum. */
 static size_t find_start(ehl_history *h)
 {
     double least = EHL_CREEP * h->speed_max;
@@ -94,8 +94,8 @@ ff_status ehl_history_one_way(const ehl_history *h, const ff_host *host, const c
         if ((h->mirrored ? -1 : 1) * entrainment(h, i) < 0 || (i == 0 && h->at_rest))
             return ff_failf(host, FF_UNSUPPORTED, "contact.speed_1",
                             "the entrainment speed (u1 + u2)/2 is %g m/s at time %g s, but %s "
-                            "needs entrainment from the start, always in the same direction; "
-                            "ehl/finite-volume with smooth flanks does not",
+                            "needs entrainment from the start and always in the same direction; "
+                            "ehl/finite-volume with smooth flanks has no such restriction",
                             entrainment(h, i), h->time[i], what);
     return FF_OK;
 }
@@ -137,8 +137,8 @@ static ff_status check_durations(const ehl_history *h, const ff_host *host)
                             one.time[0]);
         if (n > 1 && !(one.time[n - 1] > one.time[n - 2]))
             return ff_failf(host, FF_INVALID, "contact.time",
-                            "the contact jumps at the last time, %g s: remove the last row, or "
-                            "add what follows it",
+                            "the contact jumps at the last time, %g s: remove the last row, or add "
+                            "rows after the jump",
                             one.time[n - 1]);
     }
     return FF_OK;
@@ -208,7 +208,7 @@ ehl_instant ehl_history_row(const ehl_history *h, size_t row)
     return instant(h, (between){row, row, 0});
 }
 
-/* Returns the number of rows with a time below `time`; if `upto`, also those at `time`. */
+/* Returns the number of rows with a time below `time`, or not above `time` if `upto` is set. */
 static size_t rows_before(const ehl_history *h, double time, int upto)
 {
     size_t low = 0, high = h->count;
@@ -253,8 +253,8 @@ ehl_instant ehl_history_before(const ehl_history *h, double time)
 static double deviation_from_line(const ehl_history *h, const ehl_instant *a, const ehl_instant *b,
                                   const ehl_instant *at, double within, double film)
 {
-    const double none = 1e-2; /* share of the largest value below which loads and speeds are
-                                 compared with that share instead of with themselves */
+    const double none = 1e-2; /* loads and speeds below this share of the largest value are compared
+                                 with this share instead of with their own value */
     double share = (at->time - a->time) / (b->time - a->time), rest = 1 - share;
     double load = fabs(at->load - rest * a->load - share * b->load),
            speed = fabs(at->entrainment - rest * a->entrainment - share * b->entrainment),

@@ -18,15 +18,15 @@ typedef struct ehl_history {
     double load_floor;        /* smallest load that is used, N/m; 0: no lower bound */
     double load_max;          /* N/m */
     double speed_max;         /* largest entrainment speed, m/s */
-    int mirrored;             /* whether the entrainment is towards -x at first */
+    int mirrored;             /* whether the entrainment is towards -x at the start */
     int at_rest;  /* 1: the history begins without entrainment; until `wakes`, the entrainment is at
                      least EHL_CREEP times speed_max */
     double wakes; /* time at which that lower bound ends, s */
     int turns;    /* 1: the entrainment reverses later, or a gap is squeezed at rest */
 } ehl_history;
 
-/* Entrainment speed, as a share of the largest one, with which a history that begins at rest
-   begins. */
+/* Entrainment speed at the start of a history that begins at rest, as a share of the largest
+   entrainment speed. */
 #define EHL_CREEP 0.01
 
 /* The contact at one time. `entrainment` is |u1 + u2|/2. */
@@ -56,13 +56,13 @@ int ehl_is_lost(const ehl_history *h, double load);
 ehl_instant ehl_history_row(const ehl_history *h, size_t row);
 
 /* Returns the largest time of a row before `to`, or `to` itself, up to which a straight line from
-   `from` describes the contact. Rows between may deviate from the line by these shares of their
-   value: `within` for speed and radius, twice `within` for the load (pressure is proportional to
+   `from` describes the contact. Rows in between may deviate from the line by these shares of their
+   values: `within` for speed and radius, twice `within` for the load (pressure is proportional to
    its square root), and ten times `within` for the gap plus `film` (m). */
 double ehl_history_straight(const ehl_history *h, double from, double to, double within,
                             double film);
 
-/* How much of a history is missed between the instants of a film. */
+/* The part of a history that is missed between the instants of a film. */
 typedef struct ehl_sampling {
     double missed, load;    /* missed: integral over time of the load's deviation from straight
                                lines between instants; load: integral of the load, N s/m */
@@ -73,7 +73,8 @@ typedef struct ehl_sampling {
 /* Adds the time between two neighbouring instants. */
 void ehl_history_sample(const ehl_history *h, double from, double to, ehl_sampling *sum);
 
-/* Returns the missed share of the load, or of the largest Hertz pressure if that is larger. */
+/* Returns the missed share of the load, or the missed share of the largest Hertz pressure if this
+   share is larger. */
 double ehl_sampling_missed(const ehl_sampling *s);
 
 /* Returns the number of rows with a time not above `time`. */
@@ -81,7 +82,8 @@ size_t ehl_history_rows_before(const ehl_history *h, double time);
 
 /* Statistics of the lowest film of each engagement. */
 typedef struct ehl_lowest {
-    double number, count;    /* number of the current engagement, and count of all so far */
+    double number, count;    /* number of the current engagement, and number of engagements so
+                                far */
     double here;             /* lowest film of the current engagement, m */
     double sum, least, most; /* statistics of the engagements before it */
 } ehl_lowest;
@@ -89,8 +91,7 @@ typedef struct ehl_lowest {
 /* Adds the next film of a history, in order of time. */
 void ehl_lowest_add(ehl_lowest *l, double engagement, double h_min);
 
-/* Return the mean of the lowest films, and the difference between the largest and the smallest of
-   them. */
+/* Return the mean of the lowest films, and the largest minus the smallest of these lowest films. */
 double ehl_lowest_mean(const ehl_lowest *l);
 double ehl_lowest_spread(const ehl_lowest *l);
 

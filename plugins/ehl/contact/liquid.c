@@ -22,7 +22,7 @@ void ehl_law_report(const ff_host *host, ehl_law_answer worst)
 {
     if (worst == EHL_LAW_CONTINUED)
         host->quality(host->ctx, "law_range", 1, 0, FF_RANGE,
-                      "an oil law was extrapolated outside its range");
+                      "1 if an oil law was extrapolated outside its range");
 }
 
 static int are_numbers(size_t n, const double *ln_eta, const double *h, double u_s)
@@ -180,7 +180,7 @@ ff_status ehl_fluid_evaluate(const ehl_laws *laws, size_t n, const double *p, co
     if (laws->rheology)
         return worse(status, laws->rheology->flow(laws->rheology->self, n, p, NULL, q->ln_eta, h,
                                                   sliding, q->psi, q->psi_p, q->psi_l, q->psi_h));
-    for (size_t i = 0; i < n; i++) { /* becomes 0 where eta overflows */
+    for (size_t i = 0; i < n; i++) { /* psi becomes 0 where eta overflows */
         q->psi[i] = exp(-q->ln_eta[i]);
         q->psi_l[i] = -q->psi[i];
         q->psi_h[i] = q->psi_p[i] = 0;
@@ -195,7 +195,7 @@ ff_status ehl_fluid_shear(const ehl_laws *laws, size_t n, const double *p, const
     if (laws->rheology)
         return worse(status,
                      laws->rheology->shear(laws->rheology->self, n, p, T, ln_eta, h, sliding, tau));
-    for (size_t i = 0; i < n; i++) /* bounded, so that the sum stays finite */
+    for (size_t i = 0; i < n; i++) /* tau is bounded, so that the sum stays finite */
         tau[i] = exp(fmin(ln_eta[i], 230)) * sliding / h[i];
     return status;
 }
@@ -207,8 +207,9 @@ double ehl_fluidity_integral(double step, double left, double right)
     return step * exp(-left) * mean;
 }
 
-/* Bound on the steps of the integration. Each is a twentieth in ln(eta), up to a rise of 40.
-   Without the bound it would never end for a law whose values do not agree with its slopes. */
+/* Bound on the number of integration steps. In each step ln(eta) rises by a twentieth, up to a
+   total of 40. For a law whose slopes do not agree with its values, the integration would otherwise
+   never end. */
 enum { MOST_STEPS = 100000 };
 
 static void blame_slope(numerics_answers *answers, const char *wire, const char *value,
@@ -223,7 +224,7 @@ static void blame_slope(numerics_answers *answers, const char *wire, const char 
              1e9 * slope, unit, 1e-9 * p);
 }
 
-/* Returns false after too many steps, and records that as a fault of the law. */
+/* Returns false after too many steps, and records a fault of the law. */
 static bool is_bounded(const ehl_laws *laws, size_t steps, double p, double slope)
 {
     if (steps < MOST_STEPS)
@@ -236,9 +237,9 @@ static bool is_bounded(const ehl_laws *laws, size_t steps, double p, double slop
 typedef ff_status over_pressure(const void *self, size_t n, const double *p, const double *T,
                                 double *value, double *by_p, double *by_T);
 
-/* Returns a pressure up to `highest` at which the stated slope differs by a factor of ten or more
-   from that of the values, and sets that slope. Returns 0 if there is none. Differences too small
-   to affect a film are ignored. */
+/* Returns a pressure up to `highest` at which the slope given by the law differs by a factor of ten
+   or more from the slope of its values, and sets *slope to the given slope. Returns 0 if there is
+   none. Differences too small to affect a film are ignored. */
 static double find_false_slope(over_pressure *eval, const void *self, double highest, double *slope)
 {
     enum { PLACES = 64 };
@@ -269,7 +270,7 @@ void ehl_laws_hold_slopes(const ehl_laws *laws, double highest)
         blame_slope(laws->answers, "density", "rho", slope, "kg/m3", p);
 }
 
-/* The integral of eta0/eta, with whole steps and with half steps. */
+/* The integral of eta0/eta, with whole steps (coarse) and with half steps (fine). */
 typedef struct fluidity {
     double p, slope; /* end of the integration so far, Pa, and the slope of ln(eta) there, 1/Pa */
     double rise;     /* rise of ln(eta) up to there */
@@ -278,8 +279,8 @@ typedef struct fluidity {
 
 enum { BLOCK = 8 }; /* steps per evaluation of the law */
 
-/* Adds a block of equal steps. Each is a twentieth in ln(eta) by the slope at the start of the
-   block. */
+/* Adds a block of equal steps. A step is a rise of ln(eta) by a twentieth, estimated from the slope
+   at the start of the block. */
 static void integrate_block(fluidity *sum, const ff_viscosity *v, double ln_eta0, double highest)
 {
     double at[2 * BLOCK], ln_eta[2 * BLOCK], slopes[2 * BLOCK];
@@ -301,9 +302,9 @@ static void integrate_block(fluidity *sum, const ff_viscosity *v, double ln_eta0
     sum->slope = slopes[2 * BLOCK - 1];
 }
 
-/* Integrates eta0/eta for alpha*. Steps are exact where ln(eta) is linear. The error of the half
-   steps, a third of the difference between whole and half steps, is subtracted. Beyond a rise of 40
-   less than 1e-17 remains. */
+/* Integrates eta0/eta for alpha*. A step is exact where ln(eta) is linear. The error of the half
+   steps, a third of the difference between whole and half steps, is subtracted. After a rise of
+   ln(eta) by 40, less than 1e-17 of the integral remains. */
 ehl_film_coefficient ehl_alpha_star(const ehl_laws *laws)
 {
     const ff_viscosity *v = laws->viscosity;

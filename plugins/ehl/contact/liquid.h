@@ -29,8 +29,8 @@ typedef struct ehl_rheology_at {
     numerics_answers *answers;
 } ehl_rheology_at;
 
-/* The laws of a stage at one temperature, if an oil is wired. They are checked against the contract
-   of a law. */
+/* The laws of a stage, at one temperature if an oil is wired. Their results are checked against the
+   rules for laws. */
 typedef struct ehl_isothermal {
     ehl_laws wired;
     numerics_viscosity_at viscosity;
@@ -41,9 +41,9 @@ typedef struct ehl_isothermal {
 
 enum { EHL_OIL_ROWS = 3 };
 
-/* Sets the laws to the temperature in the oil's rows, if given, and checks them against the oil's
-   viscosity and density. The first call stores the wired laws. Failures are recorded in
-   at->answers; the stage calls numerics_answers_end at its end. */
+/* Sets the laws to the temperature in the input rows of the oil, if given, and compares the laws
+   with the viscosity and density of the oil. The first call stores the wired laws. Failures are
+   recorded in at->answers; the stage calls numerics_answers_end at its end. */
 ff_status ehl_laws_at(ehl_isothermal *at, const ff_host *host, const ff_array *oil, ehl_laws *laws);
 
 /* Changes the temperature of laws set by ehl_laws_at. */
@@ -65,21 +65,21 @@ typedef struct ehl_liquid {
 
 enum { EHL_LIQUID_ARRAYS = 8 };
 
-/* Wraps the law in `to` with a check of its contract. `to` is valid as long as *at. `wired`
-   contains the law as rheology_ambient and, if the law provides it, as rheology. `T` is as in
+/* Wraps the law in `to` with a check of the rules for laws. `to` is valid as long as *at. `wired`
+   contains the law as rheology_ambient and, if the law provides it, as rheology. For `T` see
    ehl_rheology_at. */
 void ehl_rheology_make(ehl_rheology_at *at, const ehl_laws *wired, const double *T, ehl_laws *to);
 
 /* Returns whether one of the laws has failed, so that no film is possible. */
 int ehl_laws_failed(const ehl_laws *laws);
 
-/* Called after a film was not found: records the first law whose values do not agree with its
+/* Called after a film was not found. Records the first law whose values do not agree with its
    slopes at pressures up to `highest`. */
 void ehl_laws_hold_slopes(const ehl_laws *laws, double highest);
 
 ff_status ehl_fluid_oil(const ehl_laws *laws, ehl_oil *oil);
 
-/* How well the laws were defined for a film. */
+/* Whether the laws were used within their range (GOOD) or extrapolated (CONTINUED). */
 typedef enum ehl_law_answer { EHL_LAW_GOOD, EHL_LAW_CONTINUED } ehl_law_answer;
 
 void ehl_law_note(ehl_law_answer *worst, ff_status status);
@@ -95,14 +95,14 @@ ff_status ehl_fluid_evaluate(const ehl_laws *laws, size_t n, const double *p, co
 ff_status ehl_fluid_shear(const ehl_laws *laws, size_t n, const double *p, const double *T,
                           const double *h, double sliding, double *ln_eta, double *tau);
 
-/* Returns the contribution of one step to int eta0/eta dp, in which ln(eta/eta0) goes from `left`
-   to `right`. It is exact if ln(eta) is linear. */
+/* Returns the contribution to int eta0/eta dp of a pressure step in which ln(eta/eta0) changes from
+   `left` to `right`. The result is exact if ln(eta) is linear. */
 double ehl_fluidity_integral(double step, double left, double right);
 
 /* Film-forming pressure-viscosity coefficient, alpha* = 1/int_0^inf eta0/eta dp (Blok 1963). */
 typedef struct ehl_film_coefficient {
     double value; /* 1/Pa; 0 if the viscosity does not increase by a factor exp(40) */
-    double error; /* relative error of its quadrature */
+    double error; /* relative error due to the quadrature */
 } ehl_film_coefficient;
 
 ehl_film_coefficient ehl_alpha_star(const ehl_laws *laws);

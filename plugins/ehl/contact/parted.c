@@ -13,8 +13,8 @@ int ehl_is_parted(const ehl_history *h)
     return !(h->load_max > 0);
 }
 
-/* What an output is of flanks that are apart. Those without a rule of their own are pressures,
- * losses, errors and counts, which are 0. */
+/* Rules for the outputs of separated flanks. NOTHING applies to pressures, losses, errors and
+   counts, which are 0. */
 enum { NOTHING, GAP, UNKNOWN, LAMBDA, TEMPERATURE, TIME, ROLL, ENGAGEMENT };
 
 static const unsigned char of_solvers[EHL_OUTPUTS] = {
@@ -55,7 +55,8 @@ static const unsigned char of_estimates[EHL_ESTIMATE_OUTPUTS] = {
     [EHL_ESTIMATE_BULK_TEMPERATURE] = TEMPERATURE,
 };
 
-/* Returns the value of an output at a row of flanks that are apart; NaN: it has no value. */
+/* Returns the value of an output of separated flanks at a row, or NaN if the output has no
+   value. */
 static double value_of(int rule, const ehl_history *h, size_t row, double roughness,
                        double temperature)
 {
@@ -89,7 +90,7 @@ static size_t nearest_row(const ehl_history *h)
 }
 
 /* Allocates the array of an output. A contact without load has no width, so a field has a single
-   place, x = 0. */
+   point, x = 0. */
 static double *claim(const ff_host *host, uint32_t row, const char *dims, const ehl_history *h,
                      size_t *rows)
 {

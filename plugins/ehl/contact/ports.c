@@ -46,7 +46,7 @@
     [EHL_IN_ENGAGEMENT] =                                                                          \
         {.name = "contact.engagement",                                                             \
          .unit = "1",                                                                              \
-         .doc = "number of the engagement of each time; another engagement begins " another,       \
+         .doc = "number of the engagement at each time; each engagement begins " another,          \
          .dims = "t",                                                                              \
          .flags = FF_OPTIONAL},                                                                    \
     [EHL_IN_VISCOSITY] = {.name = "viscosity",                                                     \
@@ -92,14 +92,14 @@
 #define ASPERITIES_ROW                                                                             \
     {                                                                                              \
         .name = "surface.asperities", .unit = "",                                                  \
-        .doc = "pressure of asperities that are given by their statistics", .dims = "",            \
+        .doc = "asperity pressure of flanks described by statistics", .dims = "",                  \
         .service = FF_ASPERITY_ID, .flags = FF_OPTIONAL                                            \
     }
 #define BULK_ROW(thermal)                                                                          \
     {                                                                                              \
         .name = "bulk.bulk_temperature", .unit = "K",                                              \
-        .doc = "temperature of the teeth from the loss of this film, for thermal: " thermal        \
-               ", in place of the parameter bulk_temperature",                                     \
+        .doc = "temperature of the teeth that follows from the loss of this film, for "            \
+               "thermal: " thermal ", instead of the parameter bulk_temperature",                  \
         .dims = "", .flags = FF_OPTIONAL | FF_FEEDBACK, .from = "losses"                           \
     }
 
@@ -108,7 +108,8 @@ const ff_port ehl_inputs[EHL_INPUTS] = {
     [EHL_IN_POSITION] = {.name = "surface.position",
                          .unit = "m",
                          .doc =
-                             "arc coordinate s, in equal steps from 0; no surface: smooth flanks",
+                             "arc coordinate s along the flank, in equal steps from 0; not wired: "
+                             "smooth flanks",
                          .dims = "arc",
                          .flags = FF_OPTIONAL},
     [EHL_IN_HEIGHT_1] = {.name = "surface.height_1",
@@ -134,7 +135,7 @@ const ff_port ehl_inputs[EHL_INPUTS] = {
     [EHL_IN_PERIOD] = {.name = "surface.period",
                        .unit = "m",
                        .doc = "length after which the record repeats; 0: flanks are flat outside "
-                              "of it",
+                              "the record",
                        .dims = "",
                        .flags = FF_OPTIONAL},
     [EHL_IN_ORIGIN] = {.name = "surface.origin",
@@ -159,16 +160,16 @@ const ff_port ehl_inputs[EHL_INPUTS] = {
     [EHL_IN_ASPERITIES] = ASPERITIES_ROW,
     [EHL_IN_CUTOFF] = {.name = "surface.cutoff",
                        .unit = "m",
-                       .doc = "longest waves in the roughness of the flanks; 0: those of the "
-                              "contact",
+                       .doc = "wavelength of the longest waves in the roughness of the flanks; 0: "
+                              "length of the contact",
                        .dims = "",
                        .flags = FF_OPTIONAL},
     [EHL_IN_BULK] = BULK_ROW("full"),
     [EHL_IN_DISCRETISATION] = {.name = "discretisation",
                                .unit = "",
-                               .doc = "discretisation of another stage; it computes the film of "
-                                      "each instant in place of this model's own solver; smooth "
-                                      "flanks only",
+                               .doc = "discretisation of another stage, which computes the film at "
+                                      "each instant instead of this model's solver; smooth flanks "
+                                      "only",
                                .dims = "",
                                .service = FF_FILM_ID,
                                .flags = FF_OPTIONAL},
@@ -193,12 +194,12 @@ const ff_port ehl_inputs[EHL_INPUTS] = {
                        .max = INFINITY},                                                           \
     [k##_LOAD_PER_WIDTH] = {.name = "load_per_width",                                              \
                             .unit = "N/m",                                                         \
-                            .doc = "load per width that the film and its asperities carry",        \
+                            .doc = "load per width that film and asperities carry",                \
                             .dims = "t"},                                                          \
     [k##_BULK_TEMPERATURE] = {.name = "bulk_temperature",                                          \
                               .unit = "K",                                                         \
                               .doc = "temperature of the teeth before they meet and of the oil "   \
-                                     "that enters; needs a stage of the oil",                      \
+                                     "that enters; needs an oil stage",                            \
                               .dims = "",                                                          \
                               NUMERICS_BULK_QUANTITY},                                             \
     [k##_H_MIN_LOWEST] = {.name = "h_min_lowest",                                                  \
@@ -213,7 +214,7 @@ const ff_port ehl_inputs[EHL_INPUTS] = {
                              .dims = ""},                                                          \
     [k##_P_MAX_HIGHEST] = {.name = "p_max_highest",                                                \
                            .unit = "Pa",                                                           \
-                           .doc = "highest pressure of all times",                                 \
+                           .doc = "highest p_max of all times",                                    \
                            .dims = "",                                                             \
                            .max = INFINITY},                                                       \
     [k##_LAMBDA_RATIO_LOWEST] = {.name = "lambda_ratio_lowest",                                    \
@@ -241,8 +242,8 @@ const ff_port ehl_inputs[EHL_INPUTS] = {
     [k##_ALPHA_STAR] = {                                                                           \
         .name = "alpha_star",                                                                      \
         .unit = "1/Pa",                                                                            \
-        .doc = "film-forming pressure coefficient of the law with its oil, 1/int eta0/eta dp; 0: " \
-               "the viscosity does not increase with pressure",                                    \
+        .doc = "film-forming pressure coefficient alpha* of the viscosity law at the oil "         \
+               "temperature, 1/int eta0/eta dp; 0: the viscosity does not increase with pressure", \
         .dims = ""}
 
 const ff_port ehl_outputs[EHL_OUTPUTS] = {
@@ -253,7 +254,7 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
                   .dims = "t"},
     [EHL_H_MIN] = {.name = "h_min",
                    .unit = "m",
-                   .doc = "least film thickness (parabola through the lowest nodes)",
+                   .doc = "minimum film thickness (minimum of a parabola through the lowest nodes)",
                    .dims = "t",
                    .max = INFINITY},
     [EHL_P_MAX] =
@@ -301,29 +302,30 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
     [EHL_LOAD_ERROR] =
         {.name = "load_error",
          .unit = "1",
-         .doc = "|integral of p - load| over the largest load; without load the force of the "
-                "film, up to 1 % while it lands",
+         .doc = "|integral of p - load| over the largest load; without load the force of the film, "
+                "up to 1 % while flanks meet again",
          .dims = "t"},
     [EHL_LOAD_AHEAD] =
         {.name = "load_ahead",
          .unit = "N/m",
          .doc = "share of the load carried by the oil in front of the domain, if a short inlet "
-                "begins with the pressure of a longer one",
+                "begins with the pressure of a longer inlet",
          .dims = "t"},
     [EHL_MASS_ERROR] = {.name = "mass_error",
                         .unit = "1",
-                        .doc = "mass balance: inflow - outflow - storage between the place of the "
-                               "highest pressure and any other place, over the flow there",
+                        .doc = "mass balance: largest value of inflow - outflow - storage between "
+                               "the point of highest pressure and any other point, over the flow "
+                               "at the point of highest pressure",
                         .dims = "t"},
     [EHL_H_MIN_ERROR] =
         {.name = "h_min_error",
          .unit = "m",
-         .doc = "estimate of the error of h_min: 1.5 times what the cells make of it and the "
-                "truncation "
-                "of the time steps that the film gathers. The former comes from the transport of "
-                "errors "
-                "(ehl/finite-volume without heat or rest of the oil), else from a film on half the "
-                "cells and steps; above 2 % from the last passage on twice the cells",
+         .doc =
+             "estimated error of h_min: 1.5 times the error due to the cells, plus the truncation "
+             "of the time steps that the film accumulates. The error due to the cells follows "
+             "from the transport of errors (ehl/finite-volume without heat or rest of the oil), "
+             "otherwise from a film on half the cells and steps; above 2 % from the last passage "
+             "on twice the cells",
          .dims = "t",
          .max = INFINITY},
     [EHL_H_CENTRAL_ERROR] = {.name = "h_central_error",
@@ -335,16 +337,15 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
         {.name = "p_max_error",
          .unit = "Pa",
          .doc = "estimated error of p_max between smooth flanks: the part of the pressure spike "
-                "that the cells may cut off (with 100 instants or more, and if it is above 5 %, "
-                "from the film on more cells), plus the pressure that corresponds to the film's "
-                "error due to the time steps",
+                "that the cells may cut off, plus the pressure that corresponds to the film's "
+                "error due to the time steps. With 100 instants or more, a part above 5 % is "
+                "computed from the film on more cells",
          .dims = "t",
          .max = INFINITY},
     [EHL_ONE_WAY_GAP_ERROR] = {.name = "one_way_gap_error",
                                .unit = "m",
-                               .doc = "without load: how much further than contact.gap the force "
-                                      "of the film keeps the flanks apart; the dynamics does not "
-                                      "include this",
+                               .doc = "without load: separation that the force of the film adds to "
+                                      "contact.gap, and that the dynamics does not include",
                                .dims = "t"},
     [EHL_ASPERITY_LOAD_SHARE] = {.name = "asperity_load_share",
                                  .unit = "1",
@@ -389,25 +390,24 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
     [EHL_FLASH_TEMPERATURE] =
         {.name = "flash_temperature",
          .unit = "K",
-         .doc = "highest rise of a flank's temperature over its bulk temperature, under the "
-                "film; needs thermal: full",
+         .doc = "highest rise of the temperature of a flank under the film over its bulk "
+                "temperature; needs thermal: full",
          .dims = "t",
          .flags = FF_DIFFERENCE,
          .max = INFINITY},
     [EHL_SEPARATION] =
         {.name = "separation",
          .unit = "m",
-         .doc = "thickness of the film as a spring in series with the teeth: how much further "
-                "apart it keeps the bodies than their gap and a dry contact under the same "
-                "force; near h_central under load, 0 without pressure",
+         .doc = "film thickness that acts in series with the teeth: distance of the bodies minus "
+                "their distance in a dry contact under the same force, or minus their gap; near "
+                "h_central under load, 0 without pressure",
          .dims = "t"},
-    [EHL_X] =
-        {.name = "x",
-         .unit = "m",
-         .doc =
-             "position along the surface, 0 at the line of contact; with rough flanks the fields "
-             "are those of the nearest nodes, at most half a cell away",
-         .dims = "x"},
+    [EHL_X] = {.name = "x",
+               .unit = "m",
+               .doc =
+                   "position along the surface, 0 at the line of contact; between rough flanks the "
+                   "fields are given at the nearest nodes, at most half a cell away",
+               .dims = "x"},
     [EHL_FILM] =
         {.name = "film", .unit = "m", .doc = "film thickness h", .dims = "t x", .max = INFINITY},
     [EHL_PRESSURE] = {.name = "pressure", .unit = "Pa", .doc = "film pressure p", .dims = "t x"},
@@ -424,7 +424,8 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
     [EHL_PLASTIC_DEPTH] = {.name = "plastic_depth",
                            .unit = "m",
                            .doc = "plastic part of the gap of rough flanks where p equals "
-                                  "asperity_hardness, at that instant: no dent remains on a flank",
+                                  "asperity_hardness, at the same instant: no dent remains on a "
+                                  "flank",
                            .dims = "t x"},
     [EHL_ROUGHNESS] = {.name = "roughness",
                        .unit = "m",
@@ -436,8 +437,8 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
                          .dims = "t x"},
     [EHL_RQ_LEFT_OUT] = {.name = "rq_left_out",
                          .unit = "m",
-                         .doc = "root mean square height, of both flanks together, of the waves "
-                                "that roughness_cutoff removes",
+                         .doc = "root mean square height of the waves that roughness_cutoff "
+                                "removes, of both flanks together",
                          .dims = "",
                          .max = INFINITY},
     [EHL_NEWTON_STEPS] = {.name = "newton_steps",
@@ -450,7 +451,7 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
                           .dims = ""},
     [EHL_STEPS_CUT] = {.name = "steps_cut",
                        .unit = "1",
-                       .doc = "number of time steps that had to be cut",
+                       .doc = "number of time steps that had to be shortened",
                        .dims = ""},
     [EHL_FILM_AT_LANDING] =
         {.name = "film_at_landing",
@@ -460,7 +461,7 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
          .max = INFINITY},
     [EHL_FILM_AT_LANDING_ERROR] = {.name = "film_at_landing_error",
                                    .unit = "m",
-                                   .doc = "h_min_error there",
+                                   .doc = "h_min_error at the landings",
                                    .dims = "landing",
                                    .max = INFINITY},
     [EHL_P_MAX_AT_LANDING] = {.name = "p_max_at_landing",
@@ -471,7 +472,7 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
                               .max = INFINITY},
     [EHL_P_MAX_AT_LANDING_ERROR] = {.name = "p_max_at_landing_error",
                                     .unit = "Pa",
-                                    .doc = "p_max_error there",
+                                    .doc = "p_max_error at p_max_at_landing",
                                     .dims = "landing",
                                     .max = INFINITY},
 };
@@ -481,12 +482,13 @@ const ff_port ehl_estimate_inputs[EHL_ESTIMATE_INPUTS] = {
     [EHL_ESTIMATE_IN_RQ_1] =
         {.name = "surface.rq_1",
          .unit = "m",
-         .doc = "roughness of flank 1; the film stays smooth, but the choice of the model uses it",
+         .doc = "heights of flank 1; this model ignores them, but the choice of the film model "
+                "uses them",
          .dims = "",
          .flags = FF_OPTIONAL},
     [EHL_ESTIMATE_IN_RQ_2] = {.name = "surface.rq_2",
                               .unit = "m",
-                              .doc = "roughness of flank 2; used like heights_1",
+                              .doc = "heights of flank 2, used as those of flank 1",
                               .dims = "",
                               .flags = FF_OPTIONAL},
     [EHL_ESTIMATE_IN_ROUGHNESS] =
@@ -552,8 +554,8 @@ const ff_port ehl_estimate_outputs[EHL_ESTIMATE_OUTPUTS] = {
     [EHL_ESTIMATE_H_MIN_ERROR] =
         {.name = "h_min_error",
          .unit = "m",
-         .doc = "scatter of h_min compared with full steady solutions; as large as h_min outside "
-                "the range of the model",
+         .doc = "error of h_min: its scatter compared with full steady solutions; outside the "
+                "range of the model, h_min itself",
          .dims = "t",
          .max = INFINITY},
     [EHL_ESTIMATE_LAMBDA_RATIO] =
@@ -577,8 +579,8 @@ const ff_port ehl_estimate_outputs[EHL_ESTIMATE_OUTPUTS] = {
     [EHL_ESTIMATE_FILM] =
         {.name = "film",
          .unit = "m",
-         .doc = "film thickness: as estimated in the contact, and outside it with the gap of the "
-                "dry contact added; without the constriction at the exit",
+         .doc = "film thickness: the estimated thickness in the contact, plus the gap of the dry "
+                "contact outside it; without the constriction at the exit",
          .dims = "t x",
          .max = INFINITY},
     [EHL_ESTIMATE_PRESSURE] = {.name = "pressure",

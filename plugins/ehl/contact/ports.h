@@ -9,8 +9,8 @@
 
 #include <flankfilm/plugin.h>
 
-/* Inputs: first those of every model, up to the rows of the oil, then those of the models that
-   solve for the pressure. */
+/* Inputs of the models that solve for the pressure. The rows up to those of the oil are the inputs
+   of every model. */
 enum {
     EHL_IN_TIME,
     EHL_IN_RADIUS,
@@ -38,7 +38,7 @@ enum {
     EHL_IN_HEAT, /* first of three rows: thermal data of the gears */
     EHL_IN_HARDNESS = EHL_IN_HEAT + NUMERICS_HEAT_INPUTS,
     EHL_IN_SHEAR_RATE,
-    EHL_IN_ASPERITIES, /* for flanks with a statistical roughness */
+    EHL_IN_ASPERITIES, /* asperity pressure of statistical flanks */
     EHL_IN_CUTOFF,
     EHL_IN_BULK,
     EHL_IN_DISCRETISATION, /* for ehl/finite-volume only */
@@ -162,7 +162,8 @@ extern const ff_port ehl_outputs[EHL_OUTPUTS];
 extern const ff_port ehl_estimate_inputs[EHL_ESTIMATE_INPUTS];
 extern const ff_port ehl_estimate_outputs[EHL_ESTIMATE_OUTPUTS];
 
-/* Reads and checks the contact. Loads below `light_load` are replaced by it; NaN: no such bound. */
+/* Reads and checks the contact. Loads below `light_load` are replaced by `light_load`; NaN: no
+   lower bound. */
 ff_status ehl_read_history(const ff_host *host, const ff_array *in, double light_load,
                            ehl_history *h);
 

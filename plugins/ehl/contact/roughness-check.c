@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The solver computes heights as differences of the integral of the height, and the travel of a
-   flank from sums over the rows of the history (surface.c). Here the samples in a cell are added
-   one by one, and the travel is summed from the first row on. */
+   flank from sums over the rows of the history (surface.c). In this file the samples in a cell are
+   added one by one, and the travel is summed from the first row. */
 #include "roughness-check.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Sums and extremes with four numbers in one SIMD vector. Compilers must keep the order of an array
-   and would take its numbers one by one. */
+/* Sums and extremes with four numbers in one SIMD vector. Compilers must keep the order of
+   additions, so for a plain loop they would add the numbers one by one. */
 #ifndef EHL_SIMD_REDUCTIONS_H
 #define EHL_SIMD_REDUCTIONS_H
 
@@ -10,7 +10,7 @@ enum { EHL_LANES = 4 };
 typedef double ehl_lanes __attribute__((vector_size(EHL_LANES * sizeof(double))));
 typedef int64_t ehl_lanes_bits __attribute__((vector_size(EHL_LANES * sizeof(double))));
 
-/* The vector is passed by pointer: passed by value it has another ABI without AVX. */
+/* The vector is passed by pointer, since vectors passed by value have another ABI without AVX. */
 FF_SIMD_INLINE double ehl_lanes_sum(const ehl_lanes *values)
 {
     return (*values)[0] + (*values)[1] + ((*values)[2] + (*values)[3]);

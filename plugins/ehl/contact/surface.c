@@ -19,7 +19,8 @@ static ff_status check(const ehl_roughness *r, const double *position, const ff_
         if (!(spacing > 0) ||
             !(fabs(position[i] - (double)i * spacing) <= 1e-6 * spacing * (double)r->count))
             return ff_failf(host, FF_INVALID, "surface.position",
-                            "the positions must rise from 0 in equal steps; point %zu is at %g m",
+                            "the positions must increase from 0 in equal steps; point %zu is at %g "
+                            "m",
                             i, position[i]);
     for (int g = 0; g < 2; g++)
         for (size_t i = 0; i < r->count; i++)
@@ -33,7 +34,7 @@ static ff_status check(const ehl_roughness *r, const double *position, const ff_
                         "it is %g m",
                         whole, r->period);
     if (!(fabs(r->origin) < 1e6))
-        return ff_failf(host, FF_INVALID, "surface.origin", "the origin is not a usable length");
+        return ff_failf(host, FF_INVALID, "surface.origin", "the origin is not a finite length");
     return FF_OK;
 }
 
@@ -42,8 +43,8 @@ static void integrate(ehl_roughness *r)
     const ehl_history *h = r->history;
     for (int g = 0; g < 2; g++) {
         const double *z = r->height[g], *u = g ? h->speed_2 : h->speed_1;
-        for (size_t i = 0; i < r->count; i++) /* the record repeats: its first point follows the
-                                                 last one */
+        for (size_t i = 0; i < r->count; i++) /* the first point follows the last point, since the
+                                                 record repeats */
             r->sum[g][i + 1] =
                 r->sum[g][i] + r->spacing * (z[i] + z[i + 1 < r->count ? i + 1 : 0]) / 2;
         for (size_t i = 1; i < h->count; i++)
@@ -103,8 +104,8 @@ static double rms(size_t n, const double *z)
     return sqrt(square);
 }
 
-/* Copies both flanks. A record with flat ends gets `beyond` points of height 0 on either side, into
-   which the filter spreads heights near the ends. */
+/* Copies both flanks. A record with flat ends is extended by `beyond` points of height 0 on either
+   side, since the filter spreads heights near the ends beyond them. */
 static ff_status make_smooth(ehl_roughness *r, size_t beyond)
 {
     size_t n = r->count + 2 * beyond, each = n + 1;
@@ -129,9 +130,9 @@ ff_status ehl_roughness_cut(ehl_roughness *r, double cutoff, const ff_host *host
     double square = 0, whole = 0;
     if (beyond > most)
         return ff_failf(host, FF_INVALID, "surface.position",
-                        "the points of the surface are %.3g um apart, too close to remove waves "
-                        "of %.3g um: roughness_cutoff must be at most %.3g um, or the spacing of "
-                        "the surface larger",
+                        "the points of the surface are %.3g um apart, too close to remove waves of "
+                        "%.3g um: reduce roughness_cutoff to at most %.3g um, or increase the "
+                        "spacing of the surface",
                         1e6 * r->spacing, 1e6 * cutoff, 1e6 * most * r->spacing);
     for (size_t g = 0; g < 2; g++)
         whole += pow(rms(r->count, r->height[g]), 2);
@@ -222,7 +223,8 @@ double ehl_roughness_rq(const ehl_roughness *r)
     return hypot(r->rq[0], r->rq[1]);
 }
 
-/* Integrates u_i from the first time. Exact for speeds that are linear between rows. */
+/* Returns the integral of u_i from the first time, exact for speeds that are linear between
+   rows. */
 static double travelled(const ehl_roughness *r, int g, double time)
 {
     const ehl_history *h = r->history;
@@ -240,8 +242,8 @@ double ehl_roughness_travel(const ehl_roughness *r, double time)
            (time < r->history->time[0] ? -1 : 1);
 }
 
-/* Integrates the height of the record itself from 0 to `place` (in spacings). The height is linear
-   between samples. */
+/* Returns the integral of the heights of the record from 0 to `place` (in spacings). The height is
+   linear between samples. */
 static inline double integral(const ehl_roughness *r, int g, double place)
 {
     const double *z = r->height[g], *sum = r->sum[g];
@@ -277,8 +279,8 @@ static void add_flank(const ehl_roughness *r, int g, double s, double width, siz
     }
 }
 
-/* Returns the fraction of the height, 1 to 0, that is applied at the distance `beyond` from the
-   start of the transition, which is level at both ends. */
+/* Returns the factor on the height, from 1 to 0, at the distance `beyond` from the start of the
+   transition. The slope of the factor is 0 at both ends of the transition. */
 static double run_in(const ehl_roughness *r, double beyond)
 {
     double share = fmin(fmax(1 - beyond / r->ramp, 0), 1);
@@ -317,7 +319,7 @@ ff_status ehl_combined_roughness(const ff_host *host, const ff_array *gear, cons
     for (int i = 0; i < 2; i++)
         if (!(gear->data[i] >= 0 && isfinite(gear->data[i])))
             return ff_failf(host, FF_INVALID, "gear.roughness",
-                            "the roughness of gear %d is not a usable length", i + 1);
+                            "the roughness of gear %d must be finite and not negative", i + 1);
     *rq = hypot(gear->data[0], gear->data[1]);
     return FF_OK;
 }
@@ -339,8 +341,8 @@ ff_status ehl_read_hardness(const ff_host *host, const ff_array *gears, double o
     for (size_t i = 0; gears->data && i < gears->shape[0]; i++) {
         if (!(gears->data[i] > 0))
             return ff_failf(host, FF_INVALID, "gear.hardness",
-                            "the hardness of gear %zu is not known, but rough flanks need it; "
-                            "give the gear its hardness, or the name of its material",
+                            "the hardness of gear %zu is not known, but rough flanks need it; give "
+                            "hardness to the gear stage, or name the material",
                             i + 1);
         *hardness = fmin(*hardness, gears->data[i]);
     }
@@ -350,15 +352,15 @@ ff_status ehl_read_hardness(const ff_host *host, const ff_array *gears, double o
 void ehl_lambda_carried(const ff_host *host, double lowest)
 {
     host->quality(host->ctx, "lambda", lowest, 0, FF_GOOD,
-                  "lowest film over the roughness of the flanks; their asperities carry a share "
-                  "of the load");
+                  "lowest film thickness over the roughness of the flanks; their asperities carry "
+                  "a share of the load");
 }
 
 void ehl_lambda_report(const ff_host *host, double lowest)
 {
     host->quality(host->ctx, "lambda", lowest, EHL_MIXED_BELOW,
                   lowest < EHL_MIXED_BELOW ? FF_RANGE : FF_GOOD,
-                  "lowest film over the roughness of the flanks, which this smooth film "
-                  "neglects; below 3 asperities touch, and their share of the friction is "
-                  "missing: add surface/statistical, or another stage of the kind surface");
+                  "lowest film thickness over the roughness of the flanks; below 3 asperities "
+                  "touch, but this smooth film neglects them and their friction: add "
+                  "surface/statistical, or another stage of the kind surface");
 }

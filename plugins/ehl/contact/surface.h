@@ -10,23 +10,24 @@
 
 #include <flankfilm/plugin.h>
 
-/* Number of cells per shortest wave of the flanks; that wave keeps half of its amplitude. */
+/* Number of cells per shortest wave of the flanks; the filter reduces the amplitude of this wave to
+   a half. */
 #define EHL_CELLS_PER_WAVE 16.
 
 typedef struct ehl_roughness {
     size_t count; /* number of samples; 0: smooth */
     double spacing, period, origin, rq[2];
     const double *height[2];
-    double cutoff;           /* m, shorter waves are removed; 0: none */
-    double given, left_out;  /* m, root mean square height of both flanks: as given, and of the
-                                removed  part */
+    double cutoff; /* m, shorter waves are removed; 0: none */
+    double given,
+        left_out; /* root mean square height of both flanks as given, and of the removed waves, m */
     double *sum[2];          /* integral of the height up to each sample */
     double *travel[2];       /* integral of u_i up to each row of the history */
     double curvature;        /* root mean square curvature of the gap between the flanks, 1/m */
     double *memory, *smooth; /* `smooth`: heights without the removed waves */
     const ehl_history *history;
-    /* m. In the first row of the history the flanks are rough up to x = `front` and smooth from
-       `front` + `ramp` on. This transition moves with the oil. With ramp 0 they are rough
+    /* m. In the first row of the history the flanks are rough up to x = `front` and smooth beyond
+       `front` + `ramp`. This transition moves with the oil. If ramp is 0, the flanks are rough
        everywhere. */
     double ramp, front;
 } ehl_roughness;
@@ -55,8 +56,8 @@ double ehl_roughness_wavelength(const ehl_roughness *r);
 /* Returns the length over which an asperity draws oil into a film of that thickness. */
 double ehl_roughness_inlet(const ehl_roughness *r, double film);
 
-/* Returns the share of both flanks' variance in waves longer than `length`, from the harmonics of
-   the record. */
+/* Returns the share of waves longer than `length` in the variance of both flanks, from the
+   harmonics of the record. */
 double ehl_roughness_longer(const ehl_roughness *r, double length);
 
 /* Returns the share of the flanks' travel in which the heights at x = 0 are beyond a record that
@@ -81,11 +82,11 @@ double ehl_roughness_rq(const ehl_roughness *r);
 ff_status ehl_combined_roughness(const ff_host *host, const ff_array *gear, const ff_array *rq_1,
                                  const ff_array *rq_2, double *rq);
 
-/* Returns FF_UNSUPPORTED if this output is requested without a roughness. */
+/* Returns FF_UNSUPPORTED if this output is requested but no roughness is known. */
 ff_status ehl_lambda_check(const ff_host *host, uint64_t wanted, uint32_t output, const char *name,
                            double rq);
 
-/* Reads the hardness of the softer gear, or takes `otherwise` if no gear is wired. A gear without
+/* Reads the hardness of the softer gear, or uses `otherwise` if no gear is wired. A gear without
    hardness is refused. */
 ff_status ehl_read_hardness(const ff_host *host, const ff_array *gears, double otherwise,
                             double *hardness);

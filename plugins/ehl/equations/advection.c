@@ -5,16 +5,16 @@
 #include <math.h>
 #include <string.h>
 
-/* Smallest distance that the oil moves in a step, in cells. The cells do not resolve what shorter
-   steps would gain. */
+/* Smallest distance that the oil moves in a step, in cells. The cells are too coarse for shorter
+   steps to improve the result. */
 static const double SHORTEST_ADVECTION = 0.25;
 
-/* Share of the load below which the error of the asperities' load is judged relative to this
-   share. */
+/* If the asperities carry less than this share of the load, the error of their load is compared
+   with this share. */
 static const double LITTLE = 0.01;
 
-/* Returns the node `cells` upstream of node i, from which its oil comes. Oil from outside the
-   domain is that of the first node. */
+/* Returns the node `cells` cells upstream of node i, from which the oil at node i comes. For oil
+   from outside the domain, returns the first node. */
 static size_t upstream_node(size_t i, size_t cells)
 {
     return i > cells ? i - cells : 0;
@@ -39,7 +39,7 @@ void ehl_advect_values(const ehl_march *m, const ehl_state *s, size_t each, cons
 }
 
 /* Moves the masses of the last two films with the oil. The nodes move with the oil, and are shifted
-   back by a whole cell whenever they have moved by one. A film that is only transported therefore
+   back by one cell whenever they have moved by one cell. A film that is only transported therefore
    stays unchanged in any number of steps, and the change of mass along the path of the oil replaces
    the wedge. */
 void ehl_advect_mass(ehl_march *m, const double **one, const double **two)
@@ -51,7 +51,7 @@ void ehl_advect_mass(ehl_march *m, const double **one, const double **two)
     *two = m->deflection;
 }
 
-/* Sets the trial film from the last one, shifted with the nodes. The pressure of the roughness
+/* Sets the trial film from the last film, shifted with the nodes. The pressure of the roughness
    moves at about the mean speed. Pressure and thickness are extrapolated from the last step. h00 is
    chosen so that the pressure-weighted mean of the extrapolated thickness is kept. */
 void ehl_advect_film(ehl_march *m, const ehl_instant *at)

@@ -21,8 +21,8 @@ size_t ehl_upstream_node(const ehl_march *m, const ehl_state *s, size_t i);
 void ehl_advect_mass(ehl_march *m, const double **one, const double **two);
 
 /* Rough flanks: returns the largest distance that the oil may move in a step, in cells. It is one
-   cell, or several if the cells are finer than the shortest waves need. If asperities carry load it
-   is half the inlet of an asperity. */
+   cell, or several if the cells are finer than the shortest waves need. If asperities carry load,
+   the distance is half the inlet length of an asperity. */
 double ehl_largest_advection(const ehl_march *m);
 
 #endif

@@ -8,8 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Returns the derivative with respect to h of the mass that cell i loses, for oil that is only
-   transported. */
+/* Returns the derivative with respect to h of the mass that cell i loses, for oil that moves with
+   the flanks, without pressure flow. */
 static double carried(const ehl_reynolds *r, const ehl_step *step, const ehl_film *film, size_t i)
 {
     double near, far, u = step->follows ? 0 : step->entrainment;
@@ -17,7 +17,7 @@ static double carried(const ehl_reynolds *r, const ehl_step *step, const ehl_fil
     return r->liquid.rho[i] * (u * near + r->dx * step->rate);
 }
 
-/* Does the same as ehl_contact_choose if the nodes move with the oil, so that nothing is
+/* Does the same as ehl_contact_choose for nodes that move with the oil, so that no oil is
    transported between cells; `by_h` is dx times the rate. */
 FF_SIMD
 static int64_t choose_moving(size_t n, double contact, double by_h, const double *restrict h,
@@ -153,7 +153,10 @@ double ehl_yield_load(const ehl_reynolds *r, const ehl_film *film)
 
 int ehl_yield_balance(const ehl_reynolds *r, ehl_film *film, double load, double *change)
 {
-    enum { ROUNDS = 8 }; /* repeated, since the remaining load may raise further nodes to H */
+    enum {
+        ROUNDS = 8
+    }; /* rounds are needed, since the remaining load may raise further nodes to
+          H */
     size_t n = r->nodes;
     for (size_t i = 0; i < n; i++)
         change[i] = -film->p[i];

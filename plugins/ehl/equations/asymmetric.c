@@ -3,14 +3,14 @@
 #include "reynolds.h"
 
 /* Returns whether the flow at a face is of second order. The first order is used downstream of a
-   cavitated node, where the film begins sharply. The order must not depend on the state of the
-   nodes i and i + 1, which share a face there: a node could then be neither full nor cavitated. */
+   cavitated node, where the film begins sharply. The order must not depend on the states of nodes i
+   and i + 1 next to the face; otherwise a node could be neither full nor cavitated. */
 static int is_second_order(const ehl_reynolds *r, const ehl_film *film, size_t i)
 {
     return r->wedge == 2 && !(i > 0 && ehl_is_cavitated(r, film, i - 1));
 }
 
-/* q(i) = here Q(i) + next Q(i+1) */
+/* Weights of the flow at a face: q(i) = here Q(i) + next Q(i+1). */
 typedef struct face {
     double here, next;
 } face;
@@ -21,10 +21,10 @@ static face face_weights(const ehl_reynolds *r, const ehl_film *film, size_t i)
     return second ? (face){1.5, -0.5} : (face){1, 0};
 }
 
-/* Returns the fraction of the mass between the midpoints around node i that belongs to its own
-   volume; the rest belongs to the next one. If a node may be cavitated, all of its mass belongs to
-   its own volume. Otherwise, in short steps, the trapezoidal rule would require a negative mass in
-   one volume to balance an excess in the next. */
+/* Returns the fraction of the mass between the midpoints on both sides of node i that belongs to
+   the volume of node i; the rest belongs to the next volume. If nodes may be cavitated, the
+   fraction is 1: in short steps the trapezoidal rule would require a negative mass in one volume to
+   balance an excess in the next volume. */
 static double own_part(const ehl_reynolds *r)
 {
     return r->wedge == 2 && !r->conserving ? 0.5 : 1;

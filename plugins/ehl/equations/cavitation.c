@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Largest change of the pressure in a Newton step, relative to the largest pressure: for smooth and
+/* Largest change of the pressure in a Newton step, relative to the largest pressure, for smooth and
    for rough flanks. */
 static const double PRESSURE_CHANGE = 0.3, ROUGH_PRESSURE_CHANGE = 0.1;
 
@@ -23,8 +23,8 @@ static const double SMALL_LOAD_ERROR = 0.05;
 static const double LEAST_SCALE = 1e-6;
 
 /* FULL and FILLING are states of a node while the film grows. A node that was filled QUICK_FILLINGS
-   times in one solution is no longer filled together with its neighbour. After MOST_FILLINGS
-   (ROUGH_FILLINGS with rough flanks) it is not filled again. */
+   times in one solution is no longer filled in the same step as its neighbour. A node that was
+   filled MOST_FILLINGS times (ROUGH_FILLINGS with rough flanks) is not filled again. */
 enum { FULL = 1, FILLING = 2, QUICK_FILLINGS = 2, MOST_FILLINGS = 8, ROUGH_FILLINGS = 24 };
 
 ff_status ehl_cavitation_create(ehl_cavitation *w, size_t nodes)
@@ -93,9 +93,9 @@ int ehl_cavitation_grow_film(ehl_cavitation *w, const ehl_reynolds *r, ehl_film 
 int ehl_cavitation_fill(ehl_cavitation *w, const ehl_reynolds *r, ehl_film *film, int steps)
 {
     int most =
-        /* with rough flanks a step that reaches the limit fails and is cut */
+        /* with rough flanks a time step that reaches the limit fails and is shortened */
         r->rough ? ROUGH_FILLINGS : MOST_FILLINGS;
-    int filled = 0, beside = 0; /* beside: the node upstream has just been filled */
+    int filled = 0, beside = 0; /* beside: whether the node upstream has just been filled */
     for (size_t i = 1; i + 1 < r->nodes; i++) {
         int over =
             !film->full[i] && !(steps && w->cut[i]) && film->content[i] > r->oil.density * r->h[i];
@@ -112,7 +112,7 @@ int ehl_cavitation_fill(ehl_cavitation *w, const ehl_reynolds *r, ehl_film *film
     return filled;
 }
 
-/* Returns 1 if there is pressure at a node where neither asperities nor oil carry load any more. */
+/* Returns 1 if there is still pressure at a node where neither asperities nor oil carry load. */
 static int is_left_over(const ehl_reynolds *r, const ehl_film *film, size_t i)
 {
     return r->statistical.law && !film->full[i] && !(r->p_a[i] > 0) && fabs(film->p[i]) > 0;
@@ -120,8 +120,8 @@ static int is_left_over(const ehl_reynolds *r, const ehl_film *film, size_t i)
 
 /* Returns whether the film ends between its last node and the next one. The pressure is
    proportional to the square of the distance from the film's end. If the end is one cell downstream
-   of the last node, the pressure there is a quarter of that one cell upstream. If the end is
-   farther away, the ratio is larger. */
+   of the last node, the pressure at the last node is a quarter of the pressure one cell upstream.
+   If the end is farther away, this ratio is larger. */
 static int ends_in_node(const ehl_reynolds *r, const ehl_film *film)
 {
     const double quarter = 0.25;
@@ -186,7 +186,8 @@ double ehl_step_share(const ehl_grid *g, const ehl_reynolds *r, const ehl_film *
     double most = PRESSURE_CHANGE * fmax(g->pressure, ehl_pressure_scale(g, film, r->nodes)),
            fall = 1;
     double share = dp > most ? most / dp : 1;
-    if (r->rough) /* a film that becomes too thin comes into contact and needs no limit */
+    if (r->rough) /* between rough flanks no limit is needed, since a film that becomes too thin
+                     comes into contact */
         return dp > ROUGH_PRESSURE_CHANGE * most / PRESSURE_CHANGE
                    ? ROUGH_PRESSURE_CHANGE * most / (PRESSURE_CHANGE * dp)
                    : 1;

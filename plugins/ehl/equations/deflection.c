@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Returns the integral of ln|s| ds. */
+/* Returns the antiderivative of ln|s|, which is 0 at s = 0. */
 static double log_integral(double s)
 {
     return s > 0 ? s * log(s) - s : s < 0 ? s * log(-s) - s : 0;
@@ -54,7 +54,8 @@ struct ehl_fft {
     size_t nodes, length;
     fftw_plan forward, backward;
     double *line, *spectrum; /* spectrum of the kernel: real, because the kernel is even */
-    double *bent;            /* output of the transform; the zeros at the end of `line` are kept */
+    double *bent;            /* output of the inverse transform; `line` is not used for it, since
+                                the zeros at its end are kept */
     fftw_complex *image;
 };
 
@@ -95,7 +96,7 @@ ehl_fft *ehl_fft_create(size_t nodes, const double *d)
     return f;
 }
 
-/* Multiplies complex numbers, stored as pairs, by real ones. */
+/* Multiplies complex numbers, stored as pairs, by real factors. */
 FF_SIMD
 static void multiply_pairs(size_t count, const double *restrict factor, double *restrict pairs)
 {

@@ -18,8 +18,8 @@ void ehl_kernel_direct(size_t nodes, const double *d, const double *p, double *v
 /* Adds to v what the pressure p of node k alone deflects. */
 void ehl_deflect_by(size_t nodes, size_t k, double p, const double *d, double *v);
 
-/* Computes the same as a circular convolution of length 2 (nodes - 1), which suffices because the
- * pressure is zero at both ends. NULL: out of memory. */
+/* Computes this deflection as a circular convolution of length 2 (nodes - 1), which suffices
+   because the pressure is zero at both ends. ehl_fft_create returns NULL if out of memory. */
 typedef struct ehl_fft ehl_fft;
 ehl_fft *ehl_fft_create(size_t nodes, const double *d);
 void ehl_fft_apply(ehl_fft *f, const double *p, double *v);

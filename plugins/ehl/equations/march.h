@@ -8,8 +8,8 @@
 #include "solver.h"
 
 enum { EHL_EULER = 0, EHL_BDF2 = 1, EHL_STATES = 3 };
-/* Asperities are nearly in contact, and slow the thinning of the film, below this multiple of the
-   contact film. */
+/* If the film is thinner than this multiple of the contact film, asperities are nearly in contact
+   and slow the thinning of the film. */
 enum { EHL_NEAR_CONTACT = 2 };
 /* Force of the film during contact loss, over the largest load, that the dynamics may neglect. */
 #define EHL_LOST_FORCE 0.01
@@ -46,24 +46,27 @@ typedef struct ehl_march {
     double *memory, *past, *change, *deflection, *heights;
     double *local; /* truncation error of the last step over rho h; 0 outside the contact */
     double *accumulated_error; /* sum of `local`, transported with the film */
-    double distance_of_jump;   /* distance that the film must still move until a jump of the load
-                                  has left it, m */
+    double distance_of_jump;   /* distance that the film must still move until oil that was in the
+                                  contact at a jump of the load has left, m */
     unsigned char *flags_memory;
     ehl_step step;         /* the last accepted step */
     ehl_instant at;        /* instant of that step */
-    int mirrored;          /* 1: the nodes are numbered against x, since the oil always moves
-                              along the nodes */
+    int mirrored;          /* 1: the nodes are numbered against x, so that the oil moves towards
+                              increasing node numbers */
     int contact_lost;      /* 1: contact was lost at that instant */
-    double moved;          /* `moved` at the current instant */
-    double last_good_step; /* last step length that rough flanks allowed, s */
-    int good_steps;        /* number of such steps since */
-    double exactness;      /* factor on the usual tolerances of the solver and of the iteration
-                            * between film and temperature */
+    double moved;          /* number of cells by which the nodes have moved with the oil at the
+                              current instant */
+    double last_good_step; /* last step length that succeeded with rough flanks, s */
+    int good_steps;        /* number of steps of this length since then */
+    double exactness;      /* factor on the default tolerances of the solver and of the iteration
+                              between film and temperature */
     double steps_cut, steps_refused; /* steps_refused: steps that were repeated because of
                                       * their truncation error */
-    double pressureless_steps;       /* steps in which the film was carried on without pressure */
+    double pressureless_steps;       /* number of steps in which the film moved with the flanks
+                                        without pressure */
     double worst_truncation, worst_truncation_at; /* largest `local`, and its time */
-    double distance, renewed; /* way of the film, m; time when this way reached 2 a, s */
+    double distance, renewed; /* distance that the film has moved, m, and time at which this
+                                 distance reached 2 a, s */
     int start_unloaded;       /* 1: the history begins without load */
     char why[256];            /* reason of a failure */
 } ehl_march;
@@ -81,8 +84,8 @@ double ehl_thinnest(ehl_march *m, double radius, const ehl_film *film);
    then prescribes the gap (contact-loss.c). */
 int ehl_contact_is_lost(const ehl_march *m, const ehl_instant *at);
 
-/* Returns the time in which the film passes through the widest contact of the history at that
-   speed, s, at most the duration of the history. */
+/* Returns the time in which oil passes through the widest contact of the history at this speed, s;
+   at most the duration of the history. */
 double ehl_march_passage(const ehl_march *m, double speed);
 
 /* Returns 1 if the newest film carries at least 2 % of the largest load. Below that the grid is too

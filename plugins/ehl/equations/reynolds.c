@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Takes the next array from the block. */
+/* Returns the next array of the block of memory. */
 static double *next_array(double **next, size_t nodes)
 {
     double *array = *next;
@@ -91,7 +91,8 @@ void ehl_reynolds_gap(ehl_reynolds *r, double radius, const ehl_film *film)
         r->h[i] -= r->rough[i];
     for (size_t i = 0; film->plastic && i < r->nodes; i++)
         r->h[i] += film->plastic[i];
-    size_t end = r->nodes - 1; /* the domain ends where asperities do not reach the other flank */
+    size_t end = r->nodes - 1; /* the domain ends where asperities do not reach the other flank, so
+                                  p_a is 0 at its ends */
     r->h[0] = fmax(r->h[0], r->contact);
     r->h[end] = fmax(r->h[end], r->contact);
 }
@@ -153,7 +154,7 @@ void ehl_reynolds_mass(ehl_reynolds *r, const ehl_film *film)
     masses(r, film, count);
 }
 
-/* Applies the factors of the heated film. They do not depend on p and h here. */
+/* Applies the factors of the heated film, which are treated as independent of p and h. */
 static void ease_flow(ehl_reynolds *r, size_t count)
 {
     const ehl_liquid *q = &r->liquid;
@@ -179,7 +180,8 @@ static void mobility(ehl_reynolds *r, size_t count)
     FF_SIMD_LOOP
     for (size_t i = 0; i < count; i++) {
         double h = thick[i], square = h * h / 12;
-        double open = gap[i] > floor ? 1 : 0; /* the floor does not depend on h */
+        double open = gap[i] > floor ? 1 : 0; /* where the floor applies, the mobility does not
+                                                 depend on h */
         f[i] = rho[i] * h * square * psi[i];
         f_p[i] =
             h * square * (rho_p[i] * psi[i] + rho[i] * psi_l[i] * ln_eta_p[i] + rho[i] * psi_p[i]);
@@ -208,13 +210,13 @@ static void face_mobilities(ehl_reynolds *r)
     }
 }
 
-/* Rough flanks: mobility of a face, h^3 times rho psi/12. The mean of rho psi is logarithmic: this
-   is the mean over the pressures between both nodes if psi decreases exponentially with p. The flow
-   then increases with the difference of pressure, however large. The mean of h^3 is M^(1/3)
-   N^(2/3). M = 2/(h^-3 + h'^-3) is that of two channels in series, and N = 2 (h h')^2/(h + h') that
-   of a gap that widens linearly. Next to a wide gap the mean is 2 h^3 (h'/h)^(2/3). That is within
-   8 % of a gap that opens like x^(3/2) upstream of an elastic contact, so that the flow out of
-   inlets is correct even if the cells do not resolve them. */
+/* Mobility of a face between rough flanks, h^3 times rho psi/12. The logarithmic mean of rho psi is
+   used: it is the mean over the pressures between both nodes if psi decreases exponentially with p.
+   The flow then increases with any pressure difference, even a large one. The mean of h^3 is
+   M^(1/3) N^(2/3). M = 2/(h^-3 + h'^-3) holds for two channels in series, and N = 2 (h h')^2/(h +
+   h') for a gap that widens linearly. Next to a wide gap the mean is 2 h^3 (h'/h)^(2/3), within 8 %
+   of the mean for a gap that opens in proportion to x^(3/2) upstream of an elastic contact. The
+   flow out of inlets is therefore correct even if the cells do not resolve the inlets. */
 FF_SIMD
 static void rough_face_mobilities(ehl_reynolds *r)
 {
@@ -228,8 +230,8 @@ static void rough_face_mobilities(ehl_reynolds *r)
         double ea = f[i] / a, eb = f[i + 1] / b;
         ea = ea > 1e-200 ? ea : 1e-200;
         eb = eb > 1e-200 ? eb : 1e-200;
-        /* if both are nearly equal the difference would suffer from cancellation, and a series
-           replaces it */
+        /* if both are nearly equal, the difference would suffer from cancellation, so a series is
+           used */
         double t = ff_log(ea / eb), size = fabs(t), grown = 1 + t * t / 24;
         double alike = eb * (1 + t / 2 * (1 + t / 3 * (1 + t / 4 * (1 + t / 5 * (1 + t / 6)))));
         double root = alike / grown, alike_a = root * (grown / 2 + t / 12) / ea;
@@ -380,7 +382,7 @@ static void cavitated_column(ehl_reynolds *r, size_t i, size_t s, double c, doub
     r->by_h[s][i] -= c * mass_by_h;
 }
 
-/* Adds the terms of faces with an abrupt change of the gap, and of the side flow. */
+/* Adds the derivatives of faces with an abrupt change of the gap, and of the side flow. */
 FF_SIMD
 static void add_pinched_flow(ehl_reynolds *r, const ehl_film *film)
 {
@@ -402,8 +404,8 @@ static void add_pinched_flow(ehl_reynolds *r, const ehl_film *film)
     }
 }
 
-/* Adds to the columns of the wedge the mass that the flanks transport beyond u_r rho h. Where the
-   nodes move with the oil, the mass through a face is the mean of both nodes. */
+/* Adds the mass that the flanks transport in addition to u_r rho h to the columns of the wedge. If
+   the nodes move with the oil, the mass through a face is the mean of both nodes. */
 static void add_carried(ehl_reynolds *r, const ehl_step *step, const ehl_film *film)
 {
     for (size_t i = 1; i < r->last; i++) {
@@ -425,8 +427,8 @@ static void add_carried(ehl_reynolds *r, const ehl_step *step, const ehl_film *f
     }
 }
 
-/* Fills rows from ... to - 1, which share the transport stencil c. `back` is the distance of its
-   first node upstream. In row 1, where there is no such node, it is 1. */
+/* Fills rows from ... to - 1, which share the transport stencil c. `back` is the number of nodes by
+   which the stencil extends upstream; in row 1, with only one node upstream, it is 1. */
 FF_SIMD
 static void slopes_of_rows(ehl_reynolds *r, const ehl_film *film, const double c[3], size_t back,
                            size_t from, size_t to)
@@ -469,10 +471,11 @@ static void cavitated_columns(ehl_reynolds *r, const ehl_step *step, const ehl_f
             cavitated_column(r, i, s, c[s], r->liquid.rho[i + s - 2]);
 }
 
-/* Returns the end of the rows, starting at `from`, that share its transport stencil. */
+/* Returns the end of the run of rows, starting at `from`, that share the transport stencil of row
+   `from`. */
 static size_t end_of_alike(const ehl_reynolds *r, const ehl_film *film, size_t from)
 {
-    enum { OWN = 3 }; /* the rows before it have individual stencils */
+    enum { OWN = 3 }; /* rows before OWN have individual stencils */
     size_t to = from + 1;
     if (from < OWN)
         return to;

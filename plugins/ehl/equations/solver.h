@@ -18,7 +18,8 @@ enum {
 
 typedef struct ehl_counters {
     double newton, krylov, convolutions, factorisations;
-    double undecided; /* films whose boundary is at a node that can be neither full nor cavitated */
+    double undecided; /* number of films whose boundary is at a node that can be neither full nor
+                         cavitated */
 } ehl_counters;
 
 typedef struct ehl_solver {
@@ -26,7 +27,7 @@ typedef struct ehl_solver {
     ehl_reynolds *reynolds;
     const double *kernel;   /* from ehl_kernel_fill, one value per node distance */
     double modulus;         /* E', Pa */
-    double tolerance;       /* relative error of the film that the solution may leave */
+    double tolerance;       /* allowed relative error of the film that remains in the solution */
     int no_film;            /* whether the discretisation of another stage returned an invalid
                                film: values that are not finite, or a pressure at the ends */
     int gave_up;            /* whether the discretisation of another stage failed too often */

@@ -14,7 +14,7 @@
 #include <flankfilm/laws.h>
 
 typedef struct ehl_statistical {
-    const ff_asperity *law; /* NULL: no such flanks */
+    const ff_asperity *law; /* NULL: no statistical asperities */
     double scale;           /* factor on p_a: E' of the contact over E' of the law */
     double share;           /* share of p_a that is applied; below 1 only during a continuation */
     double hardness;        /* Pa; 0: elastic */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Writes the table of the heated channel (channel.h) as a header. The ehl models interpolate in
-   this table. */
+/* A program of the build that writes the table of the heated channel (channel.h) as a header. The
+   ehl models interpolate in this table. */
 #include "channel.h"
 
 #include <math.h>
@@ -9,8 +9,8 @@
 
 int main(void)
 {
-    const double coldest =
-        1e-6; /* replaces F = 0, where R = b/(12 sqrt(F)) is not defined; R - 1 is 4e-7 there */
+    const double coldest = 1e-6; /* used instead of F = 0, at which R = b/(12 sqrt(F)) is not
+                                    defined; R - 1 is 4e-7 at this F */
     ehl_channel first = {.b = 0};
     puts("/* ln R over ln(1 + F), rows, and ln(1 + S), written by channel-table.c. */");
     printf("static const double ln_R[%d][%d] = {\n", EHL_HEAT_TABLE, EHL_HEAT_TABLE);

@@ -50,8 +50,8 @@ static void sweep(const ehl_channel *c, columns *d)
             d->by[k][i] -= upper[i] * d->by[k][i + 1];
 }
 
-/* The integrals of flow and speed, and their derivatives along each column. Those with respect to a
-   and b include the explicit dependence on a and b. */
+/* The integrals of flow and speed, and their derivatives along each column. The derivatives with
+   respect to a and b include the explicit dependence on a and b. */
 typedef struct integrals {
     double flow, flow_by[3], speed, speed_by[3];
 } integrals;
@@ -78,7 +78,8 @@ static integrals integrate(const ehl_channel *c, const columns *d)
 double ehl_channel_solve(ehl_channel *c, double F, double S)
 {
     enum { LIMIT = 40 };
-    const double within = 1e-8; /* bound on the last Newton step; round-off is 1e-9 at F = 1e-6 */
+    const double within = 1e-8; /* bound on the last Newton step; at F = 1e-6 the step cannot be
+                                   smaller than about 1e-9, because of round-off */
     const double flow = sqrt(F), speed = sqrt(S);
     if (!(c->b > 0)) {
         c->b = 12 * flow;

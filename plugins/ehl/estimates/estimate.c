@@ -11,7 +11,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Loads below this share of the largest one are replaced by it for the film (estimate.h). */
+/* For the film, loads below this share of the largest load are replaced by this share
+   (estimate.h). */
 static const double light = 0.01;
 
 static const uint64_t fields =
@@ -54,7 +55,7 @@ ff_status ehl_estimate_ready(void *self)
         {1, "cells", field_rows, NULL, NULL},
         {1, "inlet", field_rows, NULL, NULL},
         {1, "outlet", field_rows, NULL, NULL},
-        {e->rough, "gear.roughness", "", "surface", "the surface has a roughness of its own"},
+        {e->rough, "gear.roughness", "", "surface", "the surface has its own roughness"},
     };
     ff_serve(e->host, rows, sizeof rows / sizeof rows[0]);
     return FF_OK;
@@ -144,8 +145,8 @@ static ff_status read_heat(ehl_estimate *e, const ff_array *in)
     e->local = (ehl_local){.laws = &e->laws};
     if (bulk->data && e->thermal != EHL_THERMAL_LOCAL)
         return ff_failf(e->host, FF_INVALID, "bulk",
-                        "the teeth are warmer than the oil, which this film model does not "
-                        "include: bulk needs thermal: local");
+                        "the teeth are warmer than the oil, which this film model includes only "
+                        "with thermal: local: set thermal: local, or leave bulk out");
     if (e->thermal == EHL_THERMAL_NONE)
         return FF_OK;
     if (e->thermal == EHL_THERMAL_LOCAL && in[EHL_IN_OIL].data) {
@@ -276,7 +277,7 @@ static uint64_t of_friction(void)
 }
 
 /* Returns u_r int h dp/dx dx, which is 2 u_r times the rolling force. The force over E' R is 1.4 (U
-   W)^(1/2) under light loads and 1.45 U^(3/4) under heavy ones, with U = 2 eta0 u_r/(E' R), W =
+   W)^(1/2) under light loads and 1.45 U^(3/4) under heavy loads, with U = 2 eta0 u_r/(E' R), W =
    w/(E' R), M = W U^-1/2. Both are joined as in Biboulet & Houpert (2010, Proc. IMechE J 224),
    (7.15). */
 static double rolling_loss(const ehl_estimate *e, size_t k)
@@ -401,26 +402,28 @@ static void report(const ehl_estimate *e, double lowest, double least_lambda)
                              &e->oil);
     if (light_count > 0)
         host->quality(host->ctx, "light_instants", light_count, 0, FF_RANGE,
-                      "number of instants with less than 1 % of the largest load, or none: the "
-                      "film of 1 % is used there, plus the gap while contact is lost");
+                      "number of instants with less than 1 % of the largest load: their film is "
+                      "that of 1 %, plus the gap while contact is lost");
     if (e->local.bulk > 0)
         host->quality(host->ctx, "contact_heating", e->worst_rise, 0, FF_GOOD,
-                      "largest temperature rise of the oil in the contact over the teeth, K, due "
-                      "to its friction; 0: friction was not requested");
+                      "largest temperature rise of the oil in the contact over the teeth due to "
+                      "friction, K; 0: friction was not requested");
     if (e->outside > 0)
         host->quality(host->ctx, "asperity_range", e->outside, 0, FF_RANGE,
                       e->share == EHL_MASJEDI_KHONSARI
-                          ? "number of instants with sigma/R above 5e-5, outside the range of "
+                          ? "number of instants with sigma/R above 5e-5, outside the range of the "
                             "films to which the share was fitted"
-                          : "number of instants whose mean planes cross, or are closer than "
-                            "their table: the load on asperities is extrapolated");
+                          : "number of instants at which the mean planes cross, or are closer than "
+                            "the table of the asperity pressure: the load on asperities is "
+                            "extrapolated");
     if (e->roughness > 0 && e->asperities)
         ehl_lambda_carried(host, least_lambda);
     else if (e->roughness > 0)
         ehl_lambda_report(host, least_lambda);
     if (lowest < 1e-9)
         host->quality(host->ctx, "continuum", lowest, 1e-9, FF_RANGE,
-                      "outside continuum: the film is thinner than 1 nm, a few molecules");
+                      "the film is thinner than 1 nm, a few molecules, so continuum mechanics does "
+                      "not hold");
     ehl_law_report(host, e->answered);
 }
 
@@ -438,7 +441,7 @@ static ff_status evaluate(ehl_estimate *e, uint64_t wanted, const ff_array *in)
     if (status == FF_OK && wants(&r, EHL_ESTIMATE_BULK_TEMPERATURE) && !(e->laws.temperature > 0))
         status = ff_failf(e->host, FF_UNSUPPORTED,
                           ehl_estimate_outputs[EHL_ESTIMATE_BULK_TEMPERATURE].name,
-                          "this output needs a stage of the oil, which has a temperature");
+                          "this output needs an oil stage, which gives the temperature");
     if (status == FF_OK && ehl_is_parted(&e->history))
         return ehl_put_parted(e->host, 1, wanted, &e->history, e->roughness, e->laws.temperature);
     if (status == FF_OK)

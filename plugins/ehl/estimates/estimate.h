@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Common part of the models that estimate the film without solving for the pressure: parameters,
-   times, and results on the Hertzian contact. Each model adds only its formula for the film. */
+   instants, and results for the Hertzian contact. Each model adds only its formula for the film. */
 #ifndef EHL_ESTIMATE_H
 #define EHL_ESTIMATE_H
 
@@ -16,8 +16,8 @@
 /* Parameter rows of every such model. */
 #define EHL_ESTIMATE_PARAMS                                                                        \
     FF_COUNT("cells", ehl_estimate, cells, 0, "512", NULL, 4, 65536, 0, 0,                         \
-             "number of cells from inlet to outlet for the fields film and pressure; they affect " \
-             "nothing else"),                                                                      \
+             "number of cells from inlet to outlet for the fields film and pressure; other "       \
+             "outputs do not depend on it"),                                                       \
         FF_QUANTITY_OR("auto", "inlet", "1", ehl_estimate, inlet, FF_MIN_OPEN, "auto", NULL, 0,    \
                        1e6, 0, 0,                                                                  \
                        "start of the fields in front of the contact, in largest Hertz "            \
@@ -30,40 +30,40 @@
                     "number of equal time steps of the results; auto: the times of the contact"),  \
         FF_QUANTITY_OR("none", "light_load", "N/m", ehl_estimate, light_load, FF_MIN_OPEN, "none", \
                        NULL, 0, 1e9, 0, 0,                                                         \
-                       "least load per width: smaller loads are replaced by it; none: loads "      \
-                       "below 1 % of the largest have the film of 1 %, plus the gap while "        \
-                       "contact is lost"),                                                         \
+                       "smallest load per width, which replaces smaller loads; none: loads below " \
+                       "1 % of the largest load have the film of 1 %, plus the gap while contact " \
+                       "is lost"),                                                                 \
         FF_ONE_OF("none|inlet|local", "thermal", ehl_estimate, thermal, 0, "none",                 \
                   "heat of shear in the film. none: the film has the temperature of the oil. "     \
-                  "inlet: thinner oil in the inlet, as if only conduction removed the heat. "      \
-                  "local: the film of inlet at the temperature of the teeth, and friction at the " \
-                  "single temperature to which it heats the oil in the contact. inlet and local "  \
-                  "need an oil with its conductivity"),                                            \
+                  "inlet: heat thins the oil in the inlet, as if only conduction removed the "     \
+                  "heat. local: as inlet, with the film at the temperature of the teeth, and the " \
+                  "friction is computed at one temperature, to which it heats the oil in the "     \
+                  "contact. inlet and local need an oil with a conductivity"),                     \
         FF_QUANTITY_OR("auto", "bulk_temperature", "degC", ehl_estimate, bulk_temperature, 0,      \
                        "auto", NULL, -150, 1000, 0, 0,                                             \
-                       "thermal: local: temperature of the teeth; auto: that of the oil, which "   \
-                       "is a lower bound"),                                                        \
+                       "for thermal: local, temperature of the teeth; auto: that of the oil, "     \
+                       "which is a lower bound"),                                                  \
         NUMERICS_HEAT_PARAMS("thermal: local", ehl_estimate),                                      \
         FF_ONE_OF("greenwood-tripp|masjedi-khonsari|clarke", "share", ehl_estimate, share, 0,      \
                   "greenwood-tripp",                                                               \
-                  "statistical flanks: how the share of the load on asperities is computed. "      \
-                  "greenwood-tripp: their load at the film that the oil forms under the rest of "  \
-                  "the load; masjedi-khonsari: a fit to films of that model; clarke: 1 - "         \
-                  "erf(lambda). The results differ by a factor, which shows how well the share "   \
-                  "is known"),                                                                     \
+                  "for statistical flanks, method for the share of the load on asperities. "       \
+                  "greenwood-tripp: load of the asperities at the film that the oil forms under "  \
+                  "the rest of the load; masjedi-khonsari: fit to films computed with this "       \
+                  "asperity model; clarke: 1 - erf(lambda). The difference between the methods "   \
+                  "shows how accurately the share is known"),                                      \
         FF_QUANTITY("boundary_friction", "1", ehl_estimate, boundary_friction, 0,                  \
                     EHL_BOUNDARY_FRICTION, NULL, 0, 2, 0.05, 0.2,                                  \
                     "friction coefficient of the asperities in contact"),                          \
         FF_QUANTITY_UNLESS("gear.hardness", "asperity_hardness", "GPa", ehl_estimate,              \
                            asperity_hardness, 0, "7 GPa", NULL, 0, 1e3, 0, 0,                      \
-                           "statistical flanks: highest pressure of asperities, if no gear gives " \
-                           "its hardness; 0: elastic at every pressure"),                          \
+                           "for statistical flanks, highest pressure of asperities if no gear "    \
+                           "gives its hardness; 0: elastic at every pressure"),                    \
         EHL_HEATING_PARAMS(ehl_estimate)
 
 extern const ff_model ehl_film_formula_model; /* ehl/film-formula */
 
-/* One instant of the results. Loads below 1 % of the largest are replaced by 1 % for the film,
-   which would otherwise grow without bound. The pressure uses the actual load. */
+/* One instant of the results. For the film, loads below 1 % of the largest load are replaced by 1
+   %, since the film would otherwise grow without bound. The pressure uses the actual load. */
 typedef struct ehl_moment {
     ehl_instant at;  /* at.load is the load used for the film */
     double load;     /* actual load */
@@ -86,7 +86,7 @@ struct ehl_estimate {
     /* Computes the films of the instants, in their order, after one call of `begin`. */
     ff_status (*begin)(ehl_estimate *e);
     void (*film)(ehl_estimate *e, size_t k, ehl_estimate_film *film);
-    /* Computes h at n places with |x| <= a, for the instant whose film was computed last. */
+    /* Computes h at n points with |x| <= a, for the instant whose film was computed last. */
     void (*profile)(const ehl_estimate *e, size_t k, size_t n, const double *x, double *h);
     void (*report)(const ehl_estimate *e); /* writes the model's quality lines */
     void (*end)(ehl_estimate *e);
@@ -116,7 +116,7 @@ struct ehl_estimate {
     ehl_grid grid;
     size_t count;
     ehl_moment *moment;
-    double roughness; /* roughness of both flanks; 0: not known */
+    double roughness; /* combined roughness of both flanks, m; 0: not known */
     ehl_law_answer answered;
 };
 

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Computes the film by a formula for steady contacts, at each instant as if the contact were
-   steady. */
+/* Computes the film at each instant by a formula for steady contacts. */
 #include "formula.h"
 
 #include "estimate.h"
@@ -21,9 +20,9 @@ static double law(power_law c, ehl_contact_numbers n)
     return c.factor * pow(n.G, c.G) * pow(n.U, c.U) * pow(n.W, c.W);
 }
 
-/* Formulas. Smallest film: Dowson & Higginson 1977, Elasto-hydrodynamic Lubrication, from Dowson
-   1968, Proc. IMechE 182 3A. Central film: Dowson & Toyoda 1978, Proc. 5th Leeds-Lyon Symp. Both:
-   Pan & Hamrock 1989, J. Tribol. 111. */
+/* The formulas. Minimum film: Dowson & Higginson 1977, Elasto-hydrodynamic Lubrication, from Dowson
+   1968, Proc. IMechE 182 3A. Central film: Dowson & Toyoda 1978, Proc. 5th Leeds-Lyon Symp. Minimum
+   and central film: Pan & Hamrock 1989, J. Tribol. 111. */
 static const power_law dowson_higginson = {2.65, 0.54, 0.7, -0.13};
 static const power_law dowson_toyoda = {3.06, 0.56, 0.69, -0.10};
 static const power_law pan_hamrock_least = {1.714, 0.568, 0.694, -0.128};
@@ -63,8 +62,9 @@ typedef struct film_formula {
     ehl_inlet *inlet; /* heated inlet; NULL: thermal is none */
 } film_formula;
 
-/* Range of the full solutions that give the scatter (with Roelands' law and compression, with
-   Barus' law without), and the scatter of h_min and h_central. */
+/* Range of the full solutions from which the scatter was determined (with Roelands' law and
+   compressibility, or with Barus' law without compressibility), and the scatter of h_min and
+   h_central. */
 typedef struct range {
     double M_low, M_high, L_low, L_high, least, central;
 } range;
@@ -200,20 +200,20 @@ static void report(const ehl_estimate *e)
                         "is valid");
     const range *r = &ranges[f->formula];
     host->quality(host->ctx, "h_min_scatter", r->least, 0, FF_GOOD,
-                  "largest relative difference of h_min from full solutions in that range");
+                  "largest relative difference of h_min from full solutions within this range");
     host->quality(host->ctx, "h_central_scatter", r->central, 0, FF_GOOD,
                   f->formula == EHL_MOES
-                      ? "largest relative difference of h_central from full solutions in that "
-                        "range; with L > 0 it is 0.08, or 0.16 if the viscosity does not "
-                        "increase and M is below 10"
-                      : "largest relative difference of h_central from full solutions in that "
+                      ? "largest relative difference of h_central from full solutions within this "
+                        "range: 0.08 with L > 0, 0.16 if the viscosity does not increase with "
+                        "pressure and M is below 10"
+                      : "largest relative difference of h_central from full solutions within this "
                         "range");
     double change = unsteadiness(e);
     host->quality(host->ctx, "unsteadiness", change, 0.2, change > 0.2 ? FF_RANGE : FF_GOOD,
                   "largest change of ln(load) in one passage 2 a/u; above 0.2 the real film lags "
                   "behind the formula: use ehl/inlet-analysis or ehl/finite-volume");
     host->quality(host->ctx, "status", 0, 0, FF_GOOD,
-                  "the formula for a steady film is used at every instant; nothing is solved");
+                  "the formula for a steady film is used at every instant; no equation is solved");
 }
 
 static void end(ehl_estimate *e)
@@ -245,13 +245,13 @@ static const ff_param params[] = {
     FF_ONE_OF(
         "moes|dowson-higginson|dowson-toyoda|pan-hamrock", "formula", film_formula, formula, 0,
         "moes",
-        "moes: all regimes; the others: heavily loaded contacts, elastic and piezoviscous. If a "
-        "formula does not give both h_min and h_central, the other one comes from another "
-        "formula of its authors or from a ratio"),
+        "film formula. moes: all regimes; the other formulas: heavily loaded contacts, elastic and "
+        "piezoviscous. If a formula gives only one of h_min and h_central, the other follows from "
+        "another formula of its authors or from a ratio"),
     FF_ONE_OF("asymptotic|ambient", "pressure_coefficient", film_formula, pressure_coefficient, 0,
               "asymptotic",
-              "alpha in the formula: asymptotic (1/int eta0/eta dp, which compares different "
-              "laws best) or ambient (slope of ln(eta) at p = 0)"),
+              "pressure coefficient in the formula. asymptotic: alpha* = 1/int eta0/eta dp, for "
+              "which different laws agree best; ambient: slope of ln(eta) at p = 0"),
 };
 
 const ff_model ehl_film_formula_model = {
@@ -260,8 +260,8 @@ const ff_model ehl_film_formula_model = {
     .abi_minor = 3,
     .id = "ehl/film-formula",
     .version = "1.0.0",
-    .summary = "film thickness of a smooth line contact from a formula for steady films, at "
-               "every instant; takes hardly any time, and neglects transients",
+    .summary = "film thickness of a smooth line contact from a formula for steady films, at every "
+               "instant; very fast, but neglects transients",
     .reference = "Moes 2000, Lubrication and Beyond, University of Twente; Dowson & Higginson "
                  "1977, Elasto-hydrodynamic Lubrication; Dowson & Toyoda 1978, Proc. 5th "
                  "Leeds-Lyon Symp., 60-65; Pan & Hamrock 1989, J. Tribol. 111, 246-251",

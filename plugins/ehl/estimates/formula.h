@@ -10,7 +10,8 @@ typedef struct ehl_contact_numbers {
 
 enum { EHL_MOES, EHL_DOWSON_HIGGINSON, EHL_DOWSON_TOYODA, EHL_PAN_HAMROCK };
 
-/* h_min/R and h_central/R; 0: the formula does not give it. Moes gives the flow film rho h/rho0. */
+/* h_min/R and h_central/R; 0: not given by the formula. Moes' formula gives rho h/rho0 instead of
+   h. */
 typedef struct ehl_film_numbers {
     double least, central;
 } ehl_film_numbers;

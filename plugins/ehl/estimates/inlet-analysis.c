@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Film from an analysis of the inlet alone. Pressure flow is negligible inside the contact, so the
    oil that enters moves through it at the rolling speed: d(rho h)/dt + u d(rho h)/dx = 0, with rho
-   h = m at x = -a. m is that of a steady inlet (inlet.h) in the frame of the moving boundary x =
-   -a, where the oil arrives with about u + da/dt. */
+   h = m at x = -a. m is the mass of a steady inlet (inlet.h) in the frame of the moving boundary x
+   = -a, at which the oil arrives with a speed of about u + da/dt. */
 #include "estimate.h"
 #include "inlet.h"
 #include "references.h"
@@ -14,8 +14,8 @@
 
 enum { DENSITIES = 65, PIECES = 8, SAMPLES = 16 };
 
-/* Speed of the inlet boundary as a share of da/dt. It is below 1 because the inlet itself becomes
-   shorter as the load grows. This constant and the next one are fitted to transient solutions. */
+/* Speed of the inlet boundary as a share of da/dt. The share is below 1 because the inlet becomes
+   shorter as the load grows. BOUNDARY_SHARE and EXIT_EXPONENT are fitted to transient solutions. */
 static const double BOUNDARY_SHARE = 0.85;
 
 /* Exponent of the exit constriction. The constriction depends on the film that would enter at the
@@ -25,7 +25,7 @@ static const double EXIT_EXPONENT = 0.3;
 /* Smallest speed of the oil relative to the boundary, as a share of the first speed. */
 static const double LEAST_SPEED = 1e-3;
 
-/* Oil that is now at x = place + travel, and its rho h. */
+/* A mark of the oil that is now at x = place + travel, with its rho h. */
 typedef struct mark {
     double place, mass;
 } mark;
@@ -34,9 +34,9 @@ typedef struct inlet_analysis {
     ehl_estimate e;
     ehl_inlet inlet;
     double density[DENSITIES], density_step; /* table over pressure */
-    double *speed;  /* speed of the oil relative to the inlet boundary, m/s; 0: the boundary moves
-                       away from the oil */
-    double *factor; /* ln(rho h of the inlet) - law() */
+    double *speed;  /* speed at which the oil approaches the inlet boundary, m/s; 0: the boundary
+                       moves away from the oil */
+    double *factor; /* logarithm of rho h of the steady inlet, minus law() */
     mark *mark;     /* marks, from the oil that entered first to the last */
     size_t marks;
     double steady;         /* rho h of the steady inlet at the latest instant */
@@ -117,9 +117,9 @@ static double solve(inlet_analysis *c, size_t k, double guess)
     return log(mass) - power;
 }
 
-/* Fills the factors of the instants between two. The factor varies slowly. It is solved at some
-   instants and interpolated linearly between them. An interval is halved until the interpolation
-   agrees at its middle. */
+/* Fills the factors of the instants between two instants. The factor varies slowly, so it is solved
+   at some instants and interpolated linearly between them. An interval is halved until the
+   interpolation agrees with the solution in its middle. */
 static void fill_between(inlet_analysis *c, size_t first, size_t last)
 {
     const double close = 2e-3;
@@ -180,7 +180,7 @@ static ff_status begin(ehl_estimate *e)
     return FF_OK;
 }
 
-/* Returns rho h at x; outside the marks it is that of the nearest mark. */
+/* Returns rho h at x; outside the range of the marks, rho h of the nearest mark. */
 static double mass_at(const inlet_analysis *c, double x)
 {
     double place = x - c->travel;
@@ -204,9 +204,9 @@ static void push(inlet_analysis *c, double x, double mass)
     c->mark[c->marks++] = (mark){x - c->travel, mass};
 }
 
-/* Returns the film that enters. It changes from the film that entered last to that of the steady
-   inlet while the oil stored in the inlet is replaced. A boundary that jumps by more than its inlet
-   traps at most the oil that the gap there contained. */
+/* Returns the film that enters. It changes gradually from the film that entered last to the film of
+   the steady inlet, while the oil stored in the inlet is replaced. If the boundary jumps by more
+   than the length of the inlet, it traps at most the oil that was in the gap. */
 static double entering(inlet_analysis *c, size_t k, double mass)
 {
     const ehl_moment *m = &c->e.moment[k], *b = m - 1;
@@ -313,20 +313,21 @@ static void report(const ehl_estimate *e)
                   "with full solutions within 10 %");
     host->quality(host->ctx, "inlet_residual", c->worst_off, 1e-4,
                   c->worst_off > 1e-4 ? FF_DOUBTFUL : FF_GOOD,
-                  "relative difference of the reduced pressure at the edge from its required "
-                  "value");
+                  "relative difference of the reduced pressure at the inlet boundary from its "
+                  "required value");
     host->quality(
         host->ctx, "edge_speed", hastiest, 0.4, hastiest > 0.4 ? FF_RANGE : FF_GOOD,
-        "largest speed of the inlet's edge, 0.85 da/dt, over u; above 0.4 the error of the film "
-        "exceeds 10 % for one passage, at 0.7 it is 20 %");
+        "largest speed of the inlet boundary, 0.85 da/dt, over u; above 0.4 the error of the film "
+        "exceeds 10 % during one passage of the contact, at 0.7 it is 20 %");
     if (e->count > 1)
         host->quality(host->ctx, "step_per_passage", longest, 0.1,
                       longest > 0.1 ? FF_DOUBTFUL : FF_GOOD,
                       "longest time step over the passage 2 a/u; above 0.1 use more steps");
     if (c->jumped > 0)
         host->quality(host->ctx, "edge_jumps", c->jumped, 0, FF_DOUBTFUL,
-                      "number of steps in which the edge of the contact jumps over its inlet, as "
-                      "at a sudden load: the film trapped there is a rough estimate");
+                      "number of steps in which the inlet boundary moves by more than the length "
+                      "of the inlet, as under a sudden load: the film trapped then is a rough "
+                      "estimate");
     snprintf(text, sizeof text,
              "the inlet was solved at %.0f of %zu instants and interpolated "
              "at the others",

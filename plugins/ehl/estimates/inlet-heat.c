@@ -43,7 +43,7 @@ double ehl_heat_ratio(double F, double S)
     return exp(sum);
 }
 
-/* Returns whether the oil is Newtonian to 1 % at all n places, so that tau = eta u_s/h. */
+/* Returns whether the oil is Newtonian within 1 % at all n points, so that tau = eta u_s/h. */
 static int is_newtonian(size_t n, const double *ln_eta, const double *psi)
 {
     const double thinned = 1.01;
@@ -53,8 +53,8 @@ static int is_newtonian(size_t n, const double *ln_eta, const double *psi)
     return plain;
 }
 
-/* Checks that the laws depend on temperature. A law that gives the same viscosity at T and T + 10 K
-   would give a film without any effect of heat. */
+/* Checks that the laws depend on temperature. With a law that gives the same viscosity at T and T +
+   10 K, heat would have no effect on the film. */
 static void hold_temperature(const ff_host *host, const ehl_laws *laws)
 {
     const double T[] = {laws->temperature, laws->temperature + 10}, p[] = {0, 0};
@@ -73,20 +73,19 @@ ff_status ehl_heat_conductivity(const ff_host *host, const ff_liquid *liquid, co
     *conductivity = NAN;
     if (!liquid || !(T > 0))
         return ff_failf(host, FF_INVALID, "thermal",
-                        "a heated film needs the oil over temperature: add a stage of "
-                        "lubricant/grade or lubricant/measured, and wire it (oil)");
+                        "a heated film needs the oil as a function of temperature: add a stage "
+                        "with lubricant/grade or lubricant/measured, and wire it as oil");
     liquid->eval(liquid->self, FF_LIQUID_LN_ETA0, 1, &T, &ln_eta, &slope);
     if (!isfinite(slope))
         return ff_failf(host, FF_INVALID, "thermal",
-                        "the oil gives no change of its viscosity with temperature: a heated "
-                        "film needs its viscosity at two temperatures or more, in the stage of "
-                        "the oil; or use thermal: none");
+                        "the viscosity of the oil is known at one temperature only: give it at two "
+                        "temperatures or more in the oil stage, or use thermal: none");
     ff_status status =
         liquid->eval(liquid->self, FF_LIQUID_CONDUCTIVITY, 1, &T, conductivity, NULL);
     if (status < 0 || !(*conductivity > 0 && isfinite(*conductivity)))
         return ff_failf(host, FF_INVALID, "thermal",
-                        "the oil gives no conductivity at %g degC: give conductivity, or its "
-                        "base, to the stage of the oil",
+                        "the conductivity of the oil is not known at %g degC: give conductivity or "
+                        "base to the oil stage",
                         T - 273.15);
     hold_temperature(host, laws);
     return FF_OK;

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdio.h>
 
-/* c and b of inlet.h, fitted to full solutions with M 5 to 200 and L 0 to 10. */
+/* The constants c and b of inlet.h, fitted to full solutions with M 5 to 200 and L 0 to 10. */
 static const double BOUNDARY_DEPTH = 0.72, BOUNDARY_LN_ETA = 2.75;
 
 /* The integral over pressure ends at this rise of ln(eta) over its value at ambient pressure. */
@@ -71,8 +71,8 @@ static place at_pressure(const ehl_inlet *n, double p)
     return (place){row, rows - (double)row};
 }
 
-/* Finds the row with that q. q increases along the inlet, so the search continues from the last
-   row. */
+/* Finds the position of q in the table. q increases along the inlet, so the search continues from
+   the last row. */
 static place at_reduced(const ehl_inlet *n, double q, size_t row)
 {
     while (row < EHL_INLET_TABLE - 2 && n->q[row + 1] <= q)
@@ -160,8 +160,8 @@ double ehl_inlet_mass(const ehl_inlet *n, const ehl_instant *at, double speed, d
     const double within = 1e-5; /* relative error of q at x = -a; that of the film is about the
                                    same */
     place boundary;
-    /* q at x = -a varies about like h^-11/8, and its required value at most like h^1/3, so there is
-       one root. The secant method finds it within a bracket of known films. */
+    /* q at x = -a is roughly proportional to h^-11/8, and its required value rises with at most
+       h^1/3, so there is one root. The secant method finds it within a bracket of known films. */
     double low = -HUGE_VAL, high = HUGE_VAL, x = log(guess), slope = -1.7;
     double now = mismatch(n, at, speed, modulus, exp(x), &boundary);
     for (int k = 0; k < LIMIT && fabs(now) > within; k++) {
@@ -175,8 +175,8 @@ double ehl_inlet_mass(const ehl_inlet *n, const ehl_instant *at, double speed, d
         slope = fmin(fmax((now - last) / (x - from), -4), -0.2);
     }
     *off = now;
-    /* As a tends to 0, the film becomes that of a rigid cylinder, H = 3/M (Martin 1916). Both are
-       joined as by Moes. */
+    /* As a tends to 0, the film becomes that of a rigid cylinder, H = 3/M (Martin 1916). Both films
+       are combined as in Moes' formula. */
     double rigid = 6 * n->oil.viscosity * speed * at->radius / at->load;
     return n->oil.density *
            pow(pow(interpolate_column(n->rho, boundary) / n->oil.density * exp(x), 7. / 3) +
@@ -189,8 +189,8 @@ double ehl_exit_ratio(double alpha, double p_hertz)
     return 0.725 + 0.07 / (1 + alpha * p_hertz);
 }
 
-static const double usual_slope = 0.03; /* 1/K: typical of gear oils, 0.045 at 40 C and 0.02 at
-                                           100 C */
+static const double usual_slope = 0.03; /* -d ln eta/dT of gear oils, 1/K: 0.045 at 40 degC, 0.02 at
+                                           100 degC */
 static const double most_lost = 0.1;
 
 /* Returns the factor of Gupta, Cheng, Zhu, Forster and Schrand 1992, a fit to thermal solutions. */
@@ -228,8 +228,8 @@ void ehl_inlet_heating_report(const ff_host *host, const ehl_inlet_heating *heat
         double Q = oil->viscosity * slope * at.entrainment * at.entrainment / heating->conductivity;
         double S = fabs(at.sliding) / at.entrainment;
         if (p_hertz <= p_worst && Q <= Q_worst && S <= S_worst)
-            continue; /* the share is certainly smaller than at another instant, since it
-                         increases with each of these numbers */
+            continue; /* the share increases with each of these numbers, so it is smaller here than
+                         at another instant */
         double here = 1 - ehl_gupta_factor(p_hertz, h->modulus, Q, S);
         if (here > lost) {
             lost = here;
@@ -242,21 +242,23 @@ void ehl_inlet_heating_report(const ff_host *host, const ehl_inlet_heating *heat
              "largest share of the film that shear heating in the inlet would remove by Gupta's "
              "formula, %s (-d ln eta/dT %.3g 1/K, oil %.3g W/(m K))",
              heated ? "for comparison with the effect computed here"
-                    : "which is not included in the results",
+                    : "not included in the results",
              slope, heating->conductivity);
     host->quality(host->ctx, "inlet_heating", lost, most_lost,
                   heated || lost <= most_lost ? FF_GOOD : FF_DOUBTFUL, text);
 }
 
-/* Returns the share of the film that is lost without a load carried upstream, from the part of the
-   reduced pressure q = int eta0/eta dp that is missing at the edge of the contact (inlet.h); q is
-   about proportional to film^-1.7. In thickened oil all of the missing pressure is missing at the
-   edge, since q only adds up. In oil that has not thickened the elastic flanks yield over `length`,
-   and the loss at the edge is proportional to the root of `length` over the distance. */
+/* Returns the share of the film that is lost because a part of the reduced pressure q = int
+   eta0/eta dp is missing at the edge of the contact (inlet.h), without the effect of the load
+   carried upstream; q is about proportional to film^-1.7. In thickened oil the whole missing q is
+   missing at the edge, since q is a sum along the inlet. In oil that has not thickened, the elastic
+   flanks deflect over `length`, and the loss at the edge is proportional to the square root of
+   `length` over the distance. */
 static double share_by_pressure(const ehl_oil *oil, double p_hertz, double a, double length,
                                 double distance, double lost_pressure, double *thickened)
 {
-    const double depth = 0.72, most = 2.75; /* of the edge, as in inlet.c */
+    const double depth = 0.72, most = 2.75; /* depth and ln(eta) of the edge, as for
+                                               ehl_inlet_mass */
     double y = depth * depth * length / a, alpha = oil->alpha;
     double p = p_hertz * sqrt(2 * y / (1 + 2 * y));
     p /= 1 + alpha * p / most;
@@ -266,12 +268,10 @@ static double share_by_pressure(const ehl_oil *oil, double p_hertz, double a, do
     return (*thickened + (1 - *thickened) * through) * lost_pressure / (1.7 * q);
 }
 
-/*
- * The contact carries the load that the oil upstream of the domain does not carry. The film of a
- * rigid cylinder is proportional to 1/w, that of an elastic one to w^-1/5, and to w^-1/10 if the
- * oil thickens (Moes 2000). The rigid part of the film is 4.9 eta u R/w (Martin 1916), joined as by
- * Moes.
- */
+/* The contact carries the load that the oil upstream of the domain does not carry. The film of a
+   rigid cylinder is proportional to 1/w, that of an elastic cylinder to w^-1/5, and to w^-1/10 if
+   the oil thickens (Moes 2000). The rigid part of the film is 4.9 eta u R/w (Martin 1916), combined
+   as in Moes' formula. */
 double ehl_starvation(const ehl_oil *oil, const ehl_instant *at, double modulus, double h,
                       double end)
 {
@@ -287,14 +287,14 @@ double ehl_starvation(const ehl_oil *oil, const ehl_instant *at, double modulus,
     double share = fmin(1, pow(rigid, 7. / 3));
     double elastic = pressed + (0.2 - 0.1 * thickened) * unloaded;
     double missing = share * unloaded + (1 - share) * elastic;
-    return missing / (1 + missing); /* result: relative to the film of the infinite inlet;
-                                       missing: relative to the remaining film */
+    return missing / (1 + missing); /* `missing` is relative to the remaining film, the result to
+                                       the film of the infinite inlet */
 }
 
 /* Returns the share of the starvation that remains for a domain with the pressure `fed` at its
-   inlet end. Squeezed flanks drive int dh/dt dx through the inlet, in addition to the flow u (h -
-   h_e) of a steady film. A closing speed proportional to x^2 (`spreading`) has a third of the
-   effect. */
+   inlet end. Squeezing drives the flow int dh/dt dx through the inlet, in addition to the flow u (h
+   - h_e) of a steady film. A closing speed proportional to x^2 (`spreading`) has a third of the
+   effect of a uniform one. */
 double ehl_unfed(const ehl_oil *oil, const ehl_instant *at, double modulus, double h, double end,
                  double fed, double closing, double spreading)
 {
@@ -307,8 +307,8 @@ double ehl_unfed(const ehl_oil *oil, const ehl_instant *at, double modulus, doub
     return fmin(1, fabs(1 - fed / l.pressure) + squeezed / (fabs(at->entrainment) * opened));
 }
 
-/* Returns the largest share of the film that is lost in a domain from x = -end on, averaged over a
-   passage of the contact. The steady films of every `stride`-th loaded instant are used. */
+/* Returns the largest share of the film that is lost if the domain begins at x = -end, averaged
+   over a passage of the contact. The steady films of every `stride`-th loaded instant are used. */
 static double most_starved(const ehl_history *h, const ehl_oil *oil, double end, size_t stride)
 {
     double worst = 0, mean = 0;
@@ -339,8 +339,8 @@ double ehl_inlet_supplied(const ehl_history *h, const ehl_oil *oil)
         if (at.load >= EHL_LIGHT_LOAD * h->load_max)
             end = fmax(end, a + 4 * s);
     }
-    /* the share is inversely proportional to the square of the distance from the contact, and
-       decreases more slowly near it */
+    /* the share is inversely proportional to the square of the distance from the contact, except
+       near the contact, where it decreases more slowly */
     for (int k = 0; k < LIMIT && (missing = most_starved(h, oil, end, 1)) > most; k++)
         end = widest + (end - widest) * fmin(2, fmax(1.02, sqrt(missing / most)));
     return end;
@@ -368,8 +368,8 @@ static double most_by_cells(const ehl_history *h, const ehl_oil *oil, size_t str
     return worst;
 }
 
-/* Returns the smallest length of an inlet, m. Loads that are too small are replaced by the smallest
-   load that counts. */
+/* Returns the smallest length of an inlet, m. Smaller loads are replaced by EHL_LIGHT_LOAD times
+   the largest load. */
 static double shortest_inlet(const ehl_history *h, const ehl_oil *oil)
 {
     double end = 0;
@@ -382,19 +382,17 @@ static double shortest_inlet(const ehl_history *h, const ehl_oil *oil)
     return end;
 }
 
-/* The longest inlet is kept if the error due to its cells is below this share of the film. The
-   domain then does not depend on the number of cells, and the error is proportional to the square
-   of their width. */
+/* The longest inlet is used if the error due to its cells is below this share of the film, so that
+   the domain does not depend on the number of cells and the error is proportional to the square of
+   their width. */
 static const double ENOUGH = 0.02;
 
 double ehl_inlet_balanced(const ehl_history *h, const ehl_oil *oil, size_t cells, double outlet,
                           double longest)
 {
     enum { ROWS = 256, ROUNDS = 20 };
-    const double close = 0.01; /* tolerance of the length, relative; it hardly affects the film's
-                                  errors */
-    const double most = 0.05;  /* largest loss accepted at instants that have too few cells for
-                                  any length */
+    const double close = 0.01; /* relative tolerance of the length; it hardly affects the film */
+    const double most = 0.05;  /* largest loss accepted if there are too few cells for any length */
     size_t stride = h->count > ROWS ? h->count / ROWS : 1;
     double one = most_by_cells(h, oil, stride), end = longest, change = 1;
     double widest = (longest + outlet) / (double)cells;
@@ -403,10 +401,10 @@ double ehl_inlet_balanced(const ehl_history *h, const ehl_oil *oil, size_t cells
     for (int k = 0; k < ROUNDS && fabs(change) > close; k++) {
         double dx = (end + outlet) / (double)cells, off = fmin(one * dx * dx, most);
         double ratio = off > 0 ? most_starved(h, oil, end, stride) / off : 1;
-        if (!(ratio > 0)) /* no inlet causes starvation: use the shortest */
+        if (!(ratio > 0)) /* no inlet length causes starvation: the shortest is used */
             return fmin(longest, shortest_inlet(h, oil));
         /* the starvation decreases at least with the square of the length, and the error due to the
-           cells increases with it */
+           cells increases with its square */
         double next = fmin(longest, end * sqrt(sqrt(ratio)));
         change = next / end - 1;
         end = next;

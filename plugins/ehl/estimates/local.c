@@ -36,7 +36,7 @@ static double root_of(double (*f)(scene *, double), scene *s, double a, double b
 }
 
 /* Returns the share of the load on asperities, at most 1, if the distance of the mean planes is
-   `apart`. It is negative if they cross. */
+   `apart`, which is negative if the planes cross. */
 static double carried_at(scene *s, double apart)
 {
     const ff_asperity *law = s->l->asperities;
@@ -48,12 +48,12 @@ static double carried_at(scene *s, double apart)
     return fmin(p_a / mean, 1);
 }
 
-/* Returns the mean gap of mean planes at the distance H sigma, times (1 - s)^0.13, minus c->h. It
-   is 0 if the gap equals the film h (1 - s)^-0.13 that the oil forms under its share 1 - s of the
-   load (Johnson, Greenwood & Poon 1972, with the exponent of the load in Dowson & Higginson's
-   film). The mean gap of Gaussian heights, cut off where they would cross, is sigma (H Phi(H) +
-   phi(H)) (Patir & Cheng 1978), and H sigma above 3 sigma. Flanks without oil come as close as
-   their asperities allow. */
+/* Returns the mean gap of flanks whose mean planes have the distance H sigma, times (1 - s)^0.13,
+   minus c->h, with the share s of the load on asperities. The result is 0 if the gap equals the
+   film h (1 - s)^-0.13 that the oil forms under its share 1 - s of the load (Johnson, Greenwood &
+   Poon 1972, with the exponent of the load in Dowson & Higginson's film). The mean gap of Gaussian
+   heights, cut off where they would cross, is sigma (H Phi(H) + phi(H)) (Patir & Cheng 1978), and H
+   sigma above 3 sigma. Flanks without an oil film approach until the asperities carry the load. */
 static double unbalanced(scene *s, double H)
 {
     const double sigma = s->l->asperities->sigma;
@@ -62,14 +62,14 @@ static double unbalanced(scene *s, double H)
     return gap * pow(1 - carried_at(s, H * sigma), 0.13) - s->c->h;
 }
 
-/* Masjedi & Khonsari 2012, J. Tribol. 134, 011503, for line contacts. */
+/* Returns the share by Masjedi & Khonsari 2012, J. Tribol. 134, 011503, for line contacts. */
 static double masjedi_khonsari(const ehl_local *l, const ehl_local_contact *c, ff_status *closure)
 {
     const double roughest = 5e-5; /* largest sigma/R of their films */
     double size = l->modulus * c->radius, s = l->asperities->sigma / c->radius;
     *closure = s > roughest ? FF_DOMAIN : FF_OK;
     double U = l->viscosity * c->entrainment / size, W = c->load / size, G = l->alpha * l->modulus;
-    /* without a hardness the value of case-hardened steel is used, 7 GPa of 230 GPa */
+    /* without a hardness, the value of case-hardened steel is used, 7 GPa over 230 GPa */
     double V = l->hardness > 0 ? l->hardness / l->modulus : 0.03;
     double ln = 6.015 * log(s) + 1.168 * log(V) + 0.485 * log(W) - 3.741 * log(U) - 2.898 * log(G);
     double log_term = ln > 600 ? log(4470) + ln : log1p(4470 * exp(ln));
@@ -88,7 +88,7 @@ static double share_of(const ehl_local *l, const ehl_local_contact *c, ff_status
         return masjedi_khonsari(l, c, closure);
     if (l->share == EHL_CLARKE) /* Clarke et al. 2015, Tribol. Int. 90 */
         return erfc(c->h / l->asperities->sigma);
-    /* at `far` times sigma asperities are not in contact */
+    /* at a distance of `far` times sigma asperities are not in contact */
     const double far = 8, sigma = l->asperities->sigma;
     double H = root_of(unbalanced, &s, -far, c->h / sigma + far, 1e-9);
     double share = carried_at(&s, H * sigma);
@@ -96,8 +96,8 @@ static double share_of(const ehl_local *l, const ehl_local_contact *c, ff_status
     return share;
 }
 
-/* Computes the friction at one temperature from the oil's share of p. NaN: the temperature of the
-   laws. */
+/* Computes the friction at the temperature T from the oil's share of p. If T is NaN, uses the
+   temperature of the laws. */
 static void rub(scene *s, double T)
 {
     const ehl_laws *laws = s->l->laws;

@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Friction of one instant of a film with given thickness. The oil has a single temperature, to
- * which its own friction heats it, and asperities carry a share of the load.
- * The oil is warmer than the teeth by the mean flash temperature of two half-spaces under the
- * contact (Jaeger 1942, in the form of ISO/TS 6336-20) plus the mean rise across the film:
- *   T_f = T_bulk + 0.752 tau u_s sqrt(2a)/(B_1 sqrt(u_1) + B_2 sqrt(u_2)) + h tau_f u_s/(8 k),
- * Here tau is the mean stress over 2a of the whole friction, tau_f that of the oil, and B = sqrt(k
- * rho c) of the flanks. T_f minus the right-hand side increases with T_f, so there is one root.
- */
+/* Friction of one instant of a film with given thickness. The oil has a single temperature, to
+   which its own friction heats it, and asperities carry a share of the load. The oil is warmer than
+   the teeth by the mean flash temperature of two half-spaces under the contact (Jaeger 1942, in the
+   form of ISO/TS 6336-20) plus the mean rise across the film: T_f = T_bulk + 0.752 tau u_s
+   sqrt(2a)/(B_1 sqrt(u_1) + B_2 sqrt(u_2)) + h tau_f u_s/(8 k), Here tau is the mean shear stress
+   over 2a of the whole friction, tau_f that of the oil, and B = sqrt(k rho c) is taken for each
+   flank. T_f minus the right-hand side increases with T_f, so there is one root. */
 #ifndef EHL_LOCAL_H
 #define EHL_LOCAL_H
 
@@ -24,8 +22,8 @@ typedef struct ehl_local {
     double bulk;         /* temperature of the teeth, K; 0: the oil stays at the temperature of
                             the laws */
     double contact[2];   /* B of both flanks, J/(m2 K s^0.5) */
-    double conductivity; /* conductivity of the oil, W/(m K), */
-    ehl_conductivity_rise conducts; /* and its increase with the mean pressure */
+    double conductivity; /* conductivity of the oil at ambient pressure, W/(m K) */
+    ehl_conductivity_rise conducts; /* increase of the conductivity with the mean pressure */
     const ff_asperity *asperities;  /* NULL: smooth flanks */
     int32_t share;
     double boundary_friction, hardness; /* hardness in Pa; 0: elastic summits */
@@ -48,11 +46,11 @@ typedef struct ehl_local_friction {
 
 enum { EHL_LOCAL_POINTS = 32 };
 
-/* Returns x/a of the places over which the friction is summed. They divide the angle whose cosine
-   is x/a into equal parts, so that Hertz's pressure is integrated exactly. */
+/* Returns x/a of the points over which the friction is summed. These points divide the angle whose
+   cosine is x/a into equal parts, so that Hertz's pressure is integrated exactly. */
 double ehl_local_place(int part);
 
-/* Computes the friction. `h` is the film at these places; NULL: the film of c everywhere. */
+/* Computes the friction. `h` is the film at these points; if NULL, the film is c->h everywhere. */
 ehl_local_friction ehl_local_evaluate(const ehl_local *l, const ehl_local_contact *c,
                                       const double *h);
 

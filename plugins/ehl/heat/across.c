@@ -48,8 +48,8 @@ static void place(ehl_across *a)
 }
 
 /* Sets the stiffness of a spectral vanishing viscosity (Tadmor 1989; Maday, Ould Kaber & Tadmor
-   1993). It resists only the slopes of modes above sqrt(count), which a resolved temperature does
-   not contain. */
+   1993). This artificial conduction acts only on modes above sqrt(count), which a resolved
+   temperature does not contain. */
 static void damp_highest(ehl_across *a)
 {
     size_t n = a->count, last = n - 2, first = (size_t)sqrt((double)n);

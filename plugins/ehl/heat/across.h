@@ -15,17 +15,15 @@ typedef double ehl_across_matrix[EHL_ACROSS_MOST][EHL_ACROSS_MOST];
 typedef struct ehl_across {
     size_t count;
     double z[EHL_ACROSS_MOST];
-    double weight[EHL_ACROSS_MOST]; /* weights of the integral; exact up to the degree 2 count -
-                                       3 */
-    /* d/dz; row l, column k: derivative at node k of the polynomial that is 1 at node l and 0 at
-       the others */
+    double weight[EHL_ACROSS_MOST]; /* weights of the integral; exact for polynomials up to the
+                                       degree 2 count - 3 */
     /* d/dz; row l, column k: derivative at node k of the polynomial that is 1 at node l and 0 at
        the others */
     ehl_across_matrix slope;
     ehl_across_matrix integral;                    /* integral from 0 to node k */
     ehl_across_matrix stiffness;                   /* int (dv/dz) (dT/dz) dz */
     ehl_across_matrix damping;                     /* stiffness of the highest modes only */
-    double fine[EHL_ACROSS_FINE][EHL_ACROSS_MOST]; /* values at equidistant places */
+    double fine[EHL_ACROSS_FINE][EHL_ACROSS_MOST]; /* values at equidistant points */
     double swing; /* largest of these values for polynomials between -1 and 1 at the nodes */
 } ehl_across;
 

@@ -10,11 +10,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* FIELDS: number of arrays with a value for each node and each place across. OWN: number of arrays
-   with one value per node. */
+/* FIELDS: number of arrays with a value for each node and each point across the film. OWN: number
+   of arrays with one value per node. */
 enum { FIELDS = 19, OWN = 10 };
 
-/* Numbers in e->memory. */
+/* Returns the number of values in e->memory. */
 static size_t room_of(size_t nodes, size_t across)
 {
     return (FIELDS + 3 + across) * nodes * across + (OWN + 2) * nodes + EHL_LANES;
@@ -67,13 +67,12 @@ static void note(ehl_energy *e, ff_status status)
     e->law_status = numerics_worse(e->law_status, status);
 }
 
-/*
- * Sets the curvature of n values with respect to their first-order change, from two evaluations of
- * the laws. The earlier one gave `from` and slopes, which predict `line` at the place where the new
- * one gives `given`. If the first-order change is below `least`, it contains too little
- * information, as at the first evaluation, and the curvature is kept. The curvature is limited to
- * `most`: up to a change of 1/most the parabola then adds at most half of the first-order change.
- */
+/* Sets the curvature of n values with respect to their first-order change, from two evaluations of
+   the laws. The earlier evaluation gave `from` and slopes, which predict `line` for the arguments
+   at which the new evaluation gives `given`. If the first-order change is below `least`, as at the
+   first evaluation, it contains too little information, and the curvature is kept. The curvature is
+   limited to `most`: up to a change of 1/most, the parabola then adds at most half of the
+   first-order change. */
 FF_SIMD
 static void bend_by(size_t n, const double *restrict from, const double *restrict line,
                     const double *restrict given, double least, double most, double *restrict bend)
@@ -97,7 +96,7 @@ static void follow(size_t n, const double *restrict p, const double *restrict T,
         value[j] = given[j] + (by_p[j] * (p[j] - from_p[j]) + by_T[j] * (T[j] - from_T[j]));
 }
 
-/* Extrapolates in the same way, along a parabola with the curvature `bend`. */
+/* Extrapolates from the last evaluation along a parabola with the curvature `bend`. */
 FF_SIMD
 static void follow_bent(size_t n, const double *restrict p, const double *restrict T,
                         const double *restrict from_p, const double *restrict from_T,
@@ -128,7 +127,7 @@ static void call_laws_at(ehl_energy *e, size_t from, size_t end, const double *T
     memcpy(e->called_T + at, T + at, count * sizeof *T);
 }
 
-/* Sets all places across to the value of their node, for each of `nodes` values. */
+/* Copies the value of each of `nodes` nodes to all n points across the film. */
 FF_SIMD_INLINE void spread_to(size_t nodes, size_t n, const double *restrict values,
                               double *restrict to)
 {
@@ -137,7 +136,7 @@ FF_SIMD_INLINE void spread_to(size_t nodes, size_t n, const double *restrict val
             to[i * n + k] = values[i];
 }
 
-/* Marks the nodes at which ln(eta), extrapolated linearly, has changed by more than the reach. A
+/* Marks the nodes at which ln(eta), extrapolated linearly, has changed by more than `reach`. A
    parabola is not suitable for this test, since it may return to its start. */
 FF_SIMD_INLINE void mark_beyond(size_t nodes, size_t n, const double *restrict now,
                                 const double *restrict called, double reach,
@@ -172,15 +171,15 @@ static void find_beyond(ehl_energy *e, size_t nodes)
 }
 
 /* Returns whether the laws must be evaluated at node i: if the film is steady, if ln(eta) has
-   changed by more than the reach, or if they were not evaluated there before. */
+   changed by more than e->reach, or if the laws were not evaluated at the node before. */
 static int is_due(const ehl_energy *e, const ehl_energy_film *film, size_t i)
 {
     return !(film->rate > 0) || e->there[i] || !(e->called_T[i * e->across.count] > 0);
 }
 
-/* Sets viscosity and density at all places. Where ln(eta) has changed by less than the reach since
-   the last evaluation of the laws, they are extrapolated from that evaluation: the density
-   linearly, ln(eta) along a parabola. */
+/* Sets viscosity and density at all points. Where ln(eta) has changed by less than e->reach since
+   the last evaluation of the laws, viscosity and density are extrapolated from that evaluation: the
+   density linearly, ln(eta) along a parabola. */
 static void call_laws(ehl_energy *e, const ehl_energy_film *film, const double *T)
 {
     size_t across = e->across.count, all = film->count * across;
@@ -244,8 +243,8 @@ FF_SIMD_INLINE means means_of(const ehl_energy *e, size_t i, size_t n)
     return (means){ehl_lanes_sum(&rate), ehl_lanes_sum(&ease), ehl_lanes_sum(&tilt)};
 }
 
-/* Returns the Newton step of tau_m towards the mean shear rate `target`. The method is applied to
-   asinh of the rate, since rates grow exponentially with the stress. */
+/* Returns the Newton step of tau_m towards the mean shear rate `target`. Newton's method is applied
+   to asinh of the rate, since rates grow exponentially with the stress. */
 static double stress_step(means m, double target, double scale)
 {
     const double close = 0.1;
@@ -257,7 +256,7 @@ static double stress_step(means m, double target, double scale)
     return (asinh(target / unit) - asinh(m.gamma / unit)) * hypot(unit, m.gamma) / m.slope;
 }
 
-/* Sets tau_m to the stress of a film that has everywhere the viscosity of its middle. */
+/* Sets tau_m to the stress of a film that has the viscosity of its middle everywhere. */
 static void guess_stress(ehl_energy *e, const ehl_energy_film *film)
 {
     const ff_rheology_3 *law = e->laws.rheology;
@@ -272,9 +271,9 @@ static void guess_stress(ehl_energy *e, const ehl_energy_film *film)
     e->guessed = 1;
 }
 
-/* Corrects the stress at node i by a Newton step. The right stress shears the film at the
-   difference of the flanks' speeds. Returns 1 if the stress was within `enough` of that already, or
-   if there is no such stress. */
+/* Corrects the stress at node i by a Newton step, so that the film is sheared at the difference of
+   the flanks' speeds. Returns 1 if the stress was already within `enough` of the solution, or if
+   there is no solution. */
 FF_SIMD_INLINE int take_stress(ehl_energy *e, const ehl_energy_film *film, double enough, size_t i,
                                size_t n)
 {
@@ -292,8 +291,8 @@ FF_SIMD_INLINE int take_stress(ehl_energy *e, const ehl_energy_film *film, doubl
 }
 
 /* Predicts the stress at node i from the changes of ln(eta), gap and speeds since the last flow,
-   with the derivatives of that flow. A prediction that changes the stress by more than half is
-   dropped. */
+   with the derivatives of that flow. A prediction that changes the stress by more than half of its
+   value is not used. */
 FF_SIMD_INLINE void expect_stress(ehl_energy *e, const ehl_energy_film *film, size_t i, size_t n)
 {
     const double *now = e->ln_eta + i * n, *before = e->before + i * n,
@@ -334,8 +333,8 @@ static void expect_stress_at(ehl_energy *e, const ehl_energy_film *film, size_t 
 static void find_stress(ehl_energy *e, const ehl_energy_film *film, const double *T)
 {
     enum { MOST = 30 };
-    /* flow_across corrects the remaining error to first order, which leaves half its square: a
-       hundredth of the error that the reach allows */
+    /* flow_across corrects the remaining error to first order and leaves half of its square: a
+       hundredth of the error that e->reach allows */
     const double enough = film->rate > 0 ? e->reach / 10 : 1e-3;
     size_t left = film->count;
     memset(e->there, 0, left);
@@ -352,9 +351,9 @@ static void find_stress(ehl_energy *e, const ehl_energy_film *film, const double
     }
 }
 
-/* Sets the part of each tau_m beyond the limiting stress. The limiting stress is the stress that
-   the law gives for a liquid that is nearly solid. If the Eyring stress is auto, the rates of
-   rheology/2 have no limit: it then affects the traction and its heat, but not the flow. */
+/* Sets the part of each tau_m beyond the limiting stress, which is the stress that the law gives
+   for a nearly solid liquid. If the Eyring stress is auto, the shear rates of rheology/2 have no
+   limit; the limiting stress then affects the traction and its heat, but not the flow. */
 static void find_excess(ehl_energy *e, const ehl_energy_film *film, const double *T)
 {
     const ff_rheology_3 *law = e->laws.rheology;
@@ -401,11 +400,9 @@ static double gradient(const ehl_energy_film *film, size_t i)
     return (film->p[next] - film->p[before]) / ((double)(next - before) * film->dx);
 }
 
-/*
- * Returns the change of the pressure gradient that gives the known mass flow. In a thick inlet two
- * large flows nearly cancel, and a change of the viscosity alone would cause a spurious flow. Where
- * the flow hardly depends on the gradient, the gradient is kept.
- */
+/* Returns the change of the pressure gradient that gives the known mass flow. In a thick inlet two
+   large flows nearly cancel, and a change of the viscosity alone would cause a spurious flow. If
+   the flow hardly depends on the gradient, the gradient is not changed. */
 static double correction(const ehl_energy_film *film, double flow, double mobility, double p_x,
                          double carried, size_t i)
 {

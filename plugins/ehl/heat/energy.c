@@ -6,13 +6,14 @@
 #include <math.h>
 #include <string.h>
 
-/* A sweep over the columns, with the transfer of the flanks' temperature modes from node to
-   node. */
+/* A sweep over the columns, with the coefficients that advance the temperature modes of the flanks
+   from node to node. */
 typedef struct sweep {
     ehl_energy *e;
     const ehl_energy_film *film;
     const ehl_temperature *t;
-    ehl_passage passage[2], rest[2]; /* rest: at the last node, if there is no next node */
+    ehl_passage passage[2], rest[2]; /* rest: coefficients at the last node, which has no next
+                                        node */
 } sweep;
 
 /* Computes the transverse mass flow rho (w - z h_x u - z h_t), kg/(m2 s), at the nodes. It follows
@@ -36,13 +37,13 @@ FF_SIMD_INLINE void transverse_flow(const sweep *s, size_t i, size_t n, double *
 
 /* Computes the transverse transport. Where conduction does not smooth the transported temperature,
    as in a thick inlet, the polynomial across the film would oscillate, and no film would be found.
-   Its highest modes therefore get a conductance as large as the largest transport. It decreases
-   with the third power of the number of nodes. Resolved temperatures do not contain these modes, so
-   that the error still decreases faster than any power. */
+   Its highest modes therefore get an artificial conductance as large as the largest transport; the
+   conductance decreases with the third power of the number of nodes. Resolved temperatures do not
+   contain these modes, so the error still decreases faster than any power. */
 FF_SIMD_INLINE void transverse_transport(const sweep *s, size_t i, size_t n, ehl_column *c)
 {
-    const double enough = 8.6; /* number of nodes; with 4 instead, no film is found at 20 m/s
-                                  with 8 nodes */
+    const double enough = 8.6; /* number of nodes up to which the conductance is not reduced; with
+                                  4, no film is found at 20 m/s with 8 nodes */
     const ehl_energy *e = s->e;
     double at[EHL_ACROSS_MOST], most = 0, few = enough / (double)n;
     transverse_flow(s, i, n, at);
@@ -54,8 +55,8 @@ FF_SIMD_INLINE void transverse_transport(const sweep *s, size_t i, size_t n, ehl
 }
 
 /* Transport from one side of a column: (now T(i) - near T - far T_far)/dx, where T and T_far are
-   the temperatures of the next two columns on that side. It is of second order except near the
-   ends. */
+   the temperatures of the next two columns on that side. The scheme is of second order except near
+   the ends. */
 typedef struct side {
     double now, near, far;
     const double *T, *T_far;
@@ -82,7 +83,7 @@ FF_SIMD_INLINE double conductance_of(const sweep *s, size_t i)
            s->film->h[i];
 }
 
-/* Returns 1 over the mean derivative of the shear rate with respect to the stress, or 0 if that
+/* Returns 1 over the mean derivative of the shear rate with respect to the stress, or 0 if this
    mean is 0. */
 FF_SIMD_INLINE double per_mean_slope(const ehl_energy *e, size_t i, size_t n)
 {
@@ -92,7 +93,7 @@ FF_SIMD_INLINE double per_mean_slope(const ehl_energy *e, size_t i, size_t n)
     return mean > 1e-290 ? 1 / mean : 0;
 }
 
-/* Sets `off` to the residuals of the equations of a column, without the heat flux into the
+/* Sets `off` to the residuals of the equations of a column without the heat flux into the
    flanks. */
 FF_SIMD_INLINE void find_rest(const sweep *s, size_t i, size_t n, double *off)
 {
@@ -201,9 +202,9 @@ FF_SIMD_INLINE void renew(const sweep *s, size_t i, size_t n)
 }
 
 /* Returns whether the equations of a column are close to those whose inverse is stored. Entries of
-   the slope matrix are at most n^2/2. Conduction is most of the diagonal of a thin film, but it
-   does not resist a change that is uniform across the film; only `level` does. The sum of the
-   changes is therefore limited to a tenth of `keep`. */
+   the slope matrix are at most n^2/2. In a thin film, conduction is most of the diagonal, but only
+   `level` resists a change that is uniform across the film. The sum of the changes is therefore
+   limited to a tenth of `keep`. */
 FF_SIMD_INLINE int is_inverted(const sweep *s, size_t i, size_t n)
 {
     const ehl_column *c = &s->e->column[i];
@@ -287,8 +288,8 @@ static const ehl_passage *passage_to(const sweep *s, size_t g, size_t i)
     return is_backward(s, g) && i + 1 >= s->e->nodes ? &s->rest[g] : &s->passage[g];
 }
 
-/* Computes the modes of flank g at node i without the heat flux there. Returns the flank
-   temperature that follows from them. */
+/* Computes the modes of flank g at node i without the heat flux at this node. Returns the flank
+   temperature that follows from these modes. */
 static double flank_at(const sweep *s, size_t g, size_t i)
 {
     const ehl_energy *e = s->e;
@@ -333,8 +334,8 @@ FF_SIMD_INLINE void change_temperatures(sweep *s, size_t i, size_t n, const doub
     e->change = change;
 }
 
-/* Solves for the temperatures of a column. On the way back (`returns`), the temperature of the
-   flanks without the flux at the node is that of the last sweep. */
+/* Solves for the temperatures of a column. In the backward sweep (`returns`), the temperature of
+   the flanks without the flux at the node is taken from the last forward sweep. */
 FF_SIMD_INLINE void solve_across(sweep *s, size_t i, size_t n, int returns)
 {
     ehl_energy *e = s->e;
@@ -365,7 +366,7 @@ static void solve_column(sweep *s, size_t i, int returns)
         solve_across(s, i, s->e->across.count, returns);
 }
 
-/* Transports the oil where there is no film; it keeps its temperature. */
+/* Transports the oil with unchanged temperature where there is no film. */
 static void carry_column(sweep *s, size_t i)
 {
     const ehl_energy *e = s->e;
@@ -403,8 +404,8 @@ static int is_film(const sweep *s, size_t i)
     return i < s->film->count && s->film->full[i];
 }
 
-/* Columns with reverse flow are first solved in the direction against the entrainment, since the
-   temperature of that oil comes from downstream. */
+/* Columns with reverse flow are first solved in the direction against the entrainment, since their
+   oil comes from downstream. */
 void ehl_energy_sweep(ehl_energy *e, const ehl_energy_film *film, const ehl_temperature *t)
 {
     sweep s = {.e = e, .film = film, .t = t};

@@ -1,21 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Temperature and flow across a film with given pressure and gap:
- *   rho c (dT/dt + u dT/dx + w dT/dz) = k d2T/dz2 - (T/rho)(d rho/dT)(dp/dt + u dp/dx) + tau du/dz
- *   tau = tau_m + (z - h/2) dp/dx,  u = u_1 at z = 0 and u_2 at z = h,  |tau_m| <= limiting stress
- *   du/dz = rate(tau_s) + (d rate/d tau)(tau_s) (tau - tau_s),  int rate(tau_s) dz = u_2 - u_1
- * The conductivity k depends on p. Across the film the equations are solved in weak form in zeta =
- * z/h, at the nodes of across.h, so that the heat flux into the flanks is the natural boundary
- * condition. Along x they use second-order upwind differences. w follows from the balance of mass.
- * The rates are evaluated at tau_s, like the mobility of the isothermal film: if the film has one
- * temperature, the flow is the same. Oil that enters has the temperature T_in, and so have flanks
- * before they enter the contact. Where there is no film, the oil moves without change and without
- * heat flow.
- * The nodes of rough flanks move with the mean speed of the flanks. Then u is the speed relative to
- * the nodes, changes in time are those along the path of the nodes, and the equations are the same;
- * oil and flanks enter from both sides. Where asperities are in contact, their friction heats the
- * oil between them. That oil and both flanks have nearly the same temperature.
- */
+/* Temperature and flow across a film with given pressure and gap: rho c (dT/dt + u dT/dx + w dT/dz)
+   = k d2T/dz2 - (T/rho)(d rho/dT)(dp/dt + u dp/dx) + tau du/dz tau = tau_m + (z - h/2) dp/dx, u =
+   u_1 at z = 0 and u_2 at z = h, |tau_m| <= limiting stress du/dz = rate(tau_s) + (d rate/d
+   tau)(tau_s) (tau - tau_s), int rate(tau_s) dz = u_2 - u_1 The conductivity k depends on p. Across
+   the film the equations are solved in weak form in zeta = z/h, at the nodes of across.h, so that
+   the heat flux into the flanks is the natural boundary condition. Along x they use second-order
+   upwind differences. w follows from the balance of mass. The rates are linearised about tau_s, as
+   for the mobility of the isothermal film, so that a film with one temperature has the same flow.
+   Oil that enters, and flanks before they enter the contact, have the temperature T_in. Where there
+   is no film, the oil moves without change of temperature and without heat flow. The nodes of rough
+   flanks move with the mean speed of the flanks. For these, u is the speed relative to the nodes
+   and changes in time are taken along the path of the nodes; the equations are the same, and oil
+   and flanks enter from both sides. Where asperities are in contact, their friction heats the oil
+   between them. That oil and both flanks have nearly the same temperature. */
 #ifndef EHL_ENERGY_H
 #define EHL_ENERGY_H
 
@@ -40,7 +37,8 @@ typedef struct ehl_energy_film {
                                       touch; NULL: nowhere */
     const double *weight;          /* weight of a change at a node; NULL: 1 */
     const double *past;            /* dT/dt = rate T + past; NULL: steady */
-    const double *past_modes[2];   /* the same for the temperature modes of both flanks */
+    const double *past_modes[2];   /* past contribution to the time derivative of the temperature
+                                      modes of both flanks */
 } ehl_energy_film;
 
 /* Returns 1 if asperities are in contact at node i and carry p. */
@@ -51,19 +49,19 @@ static inline int ehl_energy_touches(const ehl_energy_film *film, size_t i)
 
 /* The unknowns of one instant. */
 typedef struct ehl_temperature {
-    double *T;        /* K, for each node and each place across */
+    double *T;        /* K, for each node and each point across the film */
     double *modes[2]; /* modes of the flanks, for each node */
 } ehl_temperature;
 
 /* Coefficients of the equations of one column of nodes. */
 typedef struct ehl_column {
     double damped;                /* conductance of the highest modes across the film, W/(m2 K) */
-    double lift[EHL_ACROSS_MOST]; /* transverse transport, multiplied by the slope at the node */
+    double lift[EHL_ACROSS_MOST]; /* transverse transport, as a factor of the slope at the point */
     /* transport along the nodes, from the previous and from the next column */
     double on[EHL_ACROSS_MOST], back[EHL_ACROSS_MOST];
-    double own[EHL_ACROSS_MOST];      /* storage, transport and compression, multiplied by the
-                                         temperature here */
-    double source[EHL_ACROSS_MOST];   /* heat produced, and storage by earlier instants */
+    double own[EHL_ACROSS_MOST];      /* storage, transport and compression, as a factor of the
+                                         temperature at the point */
+    double source[EHL_ACROSS_MOST];   /* heat produced, and storage terms from earlier instants */
     double level[EHL_ACROSS_MOST];    /* resistance to a temperature change that is uniform
                                          across the film, without tau_m */
     double diagonal[EHL_ACROSS_MOST]; /* level, plus the resistance to temperature differences
@@ -79,7 +77,7 @@ typedef struct ehl_energy {
     ehl_conductivity_rise conducts; /* increase of the conductivity with p */
     ehl_half_space flank[2];
     double *memory;
-    /* for each node and each place across */
+    /* for each node and each point across the film */
     double *p, *ln_eta, *rho, *tau, *gamma, *u, *through;
     double *gamma_tau, *gamma_eta; /* derivatives of the shear rate with respect to tau and to
                                       ln(eta) */
@@ -88,24 +86,22 @@ typedef struct ehl_energy {
                          the nodes */
     double *inverse;  /* inverse of the equations of each node, nodes x across^2 */
     double *inverted; /* coefficients at the last inversion: diagonal, lift, level */
-    double keep;      /* an inverse is kept up to this change of its coefficients, relative to
-                         the diagonal */
+    double keep;      /* an inverse is reused if its coefficients have changed by less than this,
+                         relative to the diagonal */
     double *called_p, *called_T; /* arguments of the last evaluation of the laws; T = 0: not yet
                                     evaluated */
-    /* results of that evaluation */
+    /* results of the last evaluation */
     double *called_ln_eta, *ln_eta_p, *ln_eta_T, *called_rho, *rho_p, *rho_T;
     double *bend;   /* curvature of ln(eta) with respect to its first-order change since the last
                        evaluation */
     double *before; /* ln(eta) of the last flow */
     /* one value per node */
-    int guessed;            /* whether tau_m has been computed before; 0: it must be guessed
-                               first */
+    int guessed;            /* 1: tau_m has been computed before; 0: tau_m must be guessed first */
     double *tau_m;          /* tau_s, Pa: the stress without dp/dx, whose rates give the flow */
-    double *excess;         /* part of tau_m beyond the limiting stress, by which tau is smaller,
-                               Pa */
+    double *excess;         /* part of tau_m beyond the limiting stress, Pa; it is subtracted from
+                               tau */
     double *p_x;            /* pressure gradient of the flow, Pa/m */
-    double *mobility;       /* -d(mass flow)/d(dp/dx), kg s/m2 m; it is the mobility f of the
-                               linearised flow */
+    double *mobility;       /* mobility f of the linearised flow: -d(mass flow)/d(dp/dx) */
     double *mass;           /* rho h, kg/m2 */
     double *carried;        /* mass flow without dp/dx, over the entrainment, kg/m2 */
     double *flux[2];        /* heat flux into the flanks, W/m2 */
@@ -113,8 +109,7 @@ typedef struct ehl_energy {
     unsigned char *there;   /* 1: tau_m has been found */
     double highest, lowest; /* bounds of the temperatures with which the laws are evaluated, K */
     double reach;           /* change of ln(eta) up to which the laws are extrapolated */
-    double damping;         /* conductance of the highest modes across the film, over the usual
-                               value */
+    double damping;         /* factor on the conductance of the highest modes across the film */
     double share;           /* share of the change of each temperature that a sweep takes */
     double change;          /* largest change of ln(eta) in the last sweep, weighted */
     ff_status law_status;
@@ -123,7 +118,7 @@ typedef struct ehl_energy {
 ff_status ehl_energy_create(ehl_energy *e, size_t nodes, size_t across);
 void ehl_energy_destroy(ehl_energy *e);
 
-/* Removes everything stored about other films. */
+/* Removes all data stored about earlier films. */
 void ehl_energy_restart(ehl_energy *e);
 
 /* Computes all members of e at these temperatures except the fluxes: the laws and the flow across
@@ -132,12 +127,12 @@ void ehl_energy_flow(ehl_energy *e, const ehl_energy_film *film, const double *T
 
 /* Performs one sweep of Newton's method for the temperatures. Within each column the dissipation is
    linearised, including tau_m; all other terms are linear. A sweep takes `share` of the change, and
-   reuses inverses whose equations have changed by less than `keep`. The flow must be that of the
-   current temperatures. */
+   reuses inverses whose equations have changed by less than `keep`. The flow must have been
+   computed for the current temperatures. */
 void ehl_energy_sweep(ehl_energy *e, const ehl_energy_film *film, const ehl_temperature *t);
 
-/* Heat per width of the film, W/m, from the equations that are solved. Its sum is the remaining
-   imbalance of the solution. */
+/* Heat per width of the film, W/m, from the equations that are solved. The sum of all members is
+   the remaining imbalance of the solution. */
 typedef struct ehl_energy_sums {
     double shear, compression, asperities, stored, carried, flank[2];
 } ehl_energy_sums;

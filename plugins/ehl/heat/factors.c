@@ -5,15 +5,15 @@
 
 #include <math.h>
 
-/* Returns the factors stored in a state: of mobility, density and transported mass. */
+/* Returns the factors stored in a state: factors on mobility, density and transported mass. */
 double *ehl_thermal_factors(const ehl_thermal *t, double *heat)
 {
     return heat + t->width - EHL_THERMAL_FACTORS * t->energy.nodes;
 }
 
-/* Sets the weights of changes along a steady film. A relative error of the viscosity changes the
-   pressure there by the same share, and the film by at most alpha times that change of pressure.
-   The weight is therefore small where pressure begins: vortices of oil that flows back and forth
+/* Sets the weights of changes along a steady film. A relative error of the viscosity at a node
+   changes the pressure there by the same share, and the film by at most alpha times this change of
+   pressure. The weight is therefore small where the pressure begins to rise: vortices of the oil
    there need thousands of sweeps to converge to the last digits, which do not affect the film.
    Behind the contact the weight does not decrease. */
 void ehl_thermal_weigh(const ehl_thermal *t, const ehl_reynolds *r, const ehl_film *film)
@@ -25,10 +25,10 @@ void ehl_thermal_weigh(const ehl_thermal *t, const ehl_reynolds *r, const ehl_fi
     }
 }
 
-/* Sets the factors after the nodes that pressure can reach. The oil next to the void there keeps
-   its density while it moves with u_r. If its density changed at once, the void would gain more
-   mass than its opening gap holds, and would fill. The transported mass is that of the last
-   node. */
+/* Sets the factors downstream of the nodes that pressure can reach. The oil next to the void keeps
+   its density there while it moves with u_r. If its density changed at once, the void would gain
+   more mass than its growing gap can contain, and would fill. The factor of the transported mass is
+   that of the last node. */
 static void leave_behind(const ehl_thermal *t, const ehl_energy_film *f, size_t n, double *next)
 {
     const double *past = f->past ? t->past + t->width - (EHL_THERMAL_FACTORS - 1) * n : NULL;
@@ -73,10 +73,10 @@ double ehl_thermal_find_factors(ehl_thermal *t, const ehl_reynolds *r, const ehl
     return most;
 }
 
-/* Accelerates the factors of a steady film with those of earlier rounds (Anderson). If a thin layer
-   takes all the shear of the oil, the factors cause waves of a few cells in h, and these waves
-   cause such factors. Rounds without acceleration then diverge, however small a share of the change
-   they take. */
+/* Accelerates the factors of a steady film with those of earlier rounds (Anderson). If all the
+   shear of the oil is in a thin layer, the factors cause waves of a few cells in h, and these waves
+   amplify the factors. Rounds without acceleration then diverge, even if only a small share of the
+   change is applied. */
 void ehl_thermal_accelerate(ehl_thermal *t, size_t count, double *next)
 {
     size_t n = t->energy.nodes;

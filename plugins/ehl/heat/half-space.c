@@ -11,7 +11,8 @@ static const double pi = 3.14159265358979323846;
 /* Step of the trapezoidal rule. Its relative error is 2 |Gamma(1/2 + 2 pi i/STEP)|/sqrt(pi):
    3e-4. */
 static const double STEP = 1.05;
-/* How far the modes extend beyond both times. The ends are exact to the second moment. */
+/* Factors by which the range of the modes exceeds the shortest and the longest time. The sums
+   beyond both ends are exact to the second moment. */
 static const double FASTER = 12, SLOWER = 0.15;
 
 void ehl_half_space_create(ehl_half_space *f, double B, double shortest, double longest)
@@ -32,7 +33,7 @@ void ehl_half_space_create(ehl_half_space *f, double B, double shortest, double 
         f->weight[k + 1] = step * exp(y / 2) / sqrt(pi);
     }
     /* geometric sums: of e^(y/2) and e^(3y/2) over all slower modes, and of e^(-y/2) over all
-       faster ones */
+       faster modes */
     double ratio = exp(-step / 2), cubed = ratio * ratio * ratio;
     double slow = f->weight[1] * ratio / (1 - ratio);
     double decay = f->weight[1] * f->lambda[1] * cubed / (1 - cubed);

@@ -24,15 +24,15 @@ typedef struct ehl_half_space {
     size_t count;
     /* decay rates, 1/s, and weights of the kernel: s^(-1/2) = sum weight exp(-lambda s) */
     double lambda[EHL_MODES], weight[EHL_MODES];
-    double instant; /* total weight of the modes that are steady at once, s^(1/2) */
+    double instant; /* total weight of the modes that are always in their steady state, s^(1/2) */
     double scale;   /* 1/(sqrt(pi) B), m2 K s^(1/2)/J */
 } ehl_half_space;
 
 /* Makes a flank with B in J/(m2 K s^(1/2)), for times from `shortest` to `longest`, s. */
 void ehl_half_space_create(ehl_half_space *f, double B, double shortest, double longest);
 
-/* Coefficients of the modes from one node to the next: the new value is `keep` times the old one,
-   plus `before` and `here` times the sources at both nodes. */
+/* Coefficients of the modes from one node to the next: the value at the next node is `keep` times
+   the value at the node, plus `before` and `here` times the sources at both nodes. */
 typedef struct ehl_passage {
     double keep[EHL_MODES], before[EHL_MODES], here[EHL_MODES];
     double own; /* temperature at a node per heat flux at that node, K m2/W */
@@ -42,8 +42,9 @@ typedef struct ehl_passage {
    = rate phi + past. */
 void ehl_half_space_pass(const ehl_half_space *f, double u, double dx, double rate, ehl_passage *p);
 
-/* Sets the modes at a node without the effect of the flux there, from the modes and the flux at the
-   previous node and the `past` of both nodes; NULL: steady. Returns the resulting T - T_bulk. */
+/* Sets the modes at a node without the effect of the flux at this node, from the modes and the flux
+   at the previous node and the `past` of both nodes (NULL: steady). Returns the resulting T -
+   T_bulk. */
 double ehl_half_space_reach(const ehl_half_space *f, const ehl_passage *p,
                             const double *modes_before, double flux_before,
                             const double *past_before, const double *past, double *modes);

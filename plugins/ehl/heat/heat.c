@@ -8,13 +8,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Most solutions for the film of one instant. */
+/* Largest number of solutions for the film of one instant. */
 enum { MOST_ROUNDS = 30 };
 
 /* Film and heat have converged if the relative change of the pressure flow in the inlet is below
-   this. That change is at most the relative change of rho h at the highest pressure times 1 - R.
-   A steady film begins without heat and takes many rounds; a time step begins close to its
-   solution. */
+   this value. This change is at most 1 - R times the relative change of rho h at the highest
+   pressure. A steady film begins without heat and takes many rounds; a time step begins close to
+   its solution. */
 static const double settled = 1e-4, settled_steady = 1e-5;
 
 ff_status ehl_heat_create(ehl_heat *heat, size_t nodes, double conductivity)
@@ -59,7 +59,7 @@ static void set_between(double *ease, size_t from, size_t to, double left, doubl
         ease[i] = left + rise * (double)(i - from);
 }
 
-/* Computes `ease` = R^-s in the inlet. The exponent s is 1 and falls to 0 between BEGIN and END
+/* Computes `ease` = R^-s in the inlet. The exponent s decreases from 1 to 0 between BEGIN and END
    times -a, at the edge of the contact, so that there is no jump. Further downstream the flanks no
    longer have equal temperatures. r contains the gap of the film. */
 static void ease_inlet(ehl_heat *heat, const ehl_march *m, const ehl_step *step,
@@ -117,8 +117,8 @@ static double mass_at_peak(const ehl_reynolds *r, const ehl_film *film)
     return rho * fmax(r->h[peak], r->floor);
 }
 
-/* Computes the heat of the film, unless it has converged after the first round. Returns 1 if it
-   has. */
+/* Computes the heat of the film, unless it has converged after the first round. Returns 1 if it has
+   converged. */
 static int update(ehl_heat *heat, const ehl_march *m, const ehl_step *step, const ehl_film *film,
                   int first)
 {
@@ -159,11 +159,12 @@ void ehl_heat_report(const ehl_heat *heat, const ff_host *host)
     const double end = expm1((EHL_HEAT_TABLE - 1) * EHL_HEAT_STEP);
     char text[192];
     snprintf(text, sizeof text,
-             "smallest pressure gradient of the inlet over that without heat, with thermal: "
-             "inlet; %.3g solutions per instant",
+             "smallest pressure gradient in the inlet over that without heat, with thermal: inlet; "
+             "%.3g solutions per instant",
              heat->rounds / fmax(heat->solved, 1));
     host->quality(host->ctx, "inlet_heat", heat->least, 0, FF_GOOD, text);
     if (heat->most > end)
         host->quality(host->ctx, "inlet_heat_range", heat->most, end, FF_RANGE,
-                      "largest of F and S is outside the table of the heated channel");
+                      "largest value of F and S; above the limit it is outside the table of the "
+                      "heated channel");
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The heat of the film in a march. While the film of an instant is solved for, the effect of heat
-   on the flow is kept constant. It is then recomputed from that film, until film and heat no longer
-   change. */
+/* Implements thermal: inlet, the heat of the inlet in a march. While the film of an instant is
+   solved for, the effect of heat on the flow is constant. This effect is then recomputed from the
+   film, until film and heat no longer change. */
 #ifndef EHL_HEAT_H
 #define EHL_HEAT_H
 
@@ -12,8 +12,9 @@ typedef struct ehl_heat {
     double *ease;        /* at the nodes: fluidity psi over that of the laws at the oil's
                             temperature */
     double *memory, *room;
-    double middle;         /* kg/m2, rho h at the highest pressure of the film that gave `ease` */
-    double ratio;          /* smallest ratio R of that film upstream of the contact */
+    double middle;         /* rho h at the highest pressure of the film from which `ease` was
+                              computed, kg/m2 */
+    double ratio;          /* smallest ratio R of this film upstream of the contact */
     double least, most;    /* over all films: smallest ratio in the inlet, and largest F or S */
     double rounds, solved; /* numbers of solutions for a film, and of instants */
     ff_status law_status;

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Number of sweeps on the other nodes, starting from the temperatures of the film. */
+/* Number of sweeps with the other number of nodes, starting from the temperatures of the film. */
 enum { SWEEPS = 20 };
 
 /* A further instant is checked if its temperature rise exceeds that of the instants checked so far
@@ -17,8 +17,8 @@ enum { SWEEPS = 20 };
 static const double HOTTER = 1.1;
 
 /* Returns the relative error of the film, or of its friction, if the flow changes from `then` to
-   `now`. The film forms where exp(-alpha p) falls from 1 to 0 in the inlet (as in 13.6). An error
-   of the mobility at a node therefore has the weight of that node's part of this fall. The friction
+   `now`. The film forms where exp(-alpha p) decreases from 1 to 0 in the inlet (as in 13.6). The
+   weight of an error of the mobility at a node is therefore the decrease at this node. The friction
    arises in the oil downstream. */
 static double change_of_film(const ehl_energy *now, const ehl_energy *then,
                              const ehl_energy_film *f, double alpha)
@@ -41,7 +41,8 @@ static double change_of_film(const ehl_energy *now, const ehl_energy *then,
     return film + fmax(carried, drag);
 }
 
-/* Returns one and a half times the number of nodes, or three quarters of it if that is too many. */
+/* Returns one and a half times the number of nodes, or three quarters of the number if this is too
+   many. */
 static size_t other_nodes(size_t n)
 {
     return n + n / 2 <= EHL_ACROSS_MOST ? n + n / 2 : n - n / 4;

@@ -42,8 +42,7 @@ static double taken_by_flank(const ehl_thermal *t, size_t flank, const double *T
     return sum * B * sqrt(u * dx / pi);
 }
 
-/* Returns the heat that the oil transports past node i, relative to oil at the inlet
-   temperature. */
+/* Returns the heat flow of the oil at node i, relative to oil at the inlet temperature. */
 static double carried_past(const ehl_energy *e, const double *T, size_t i)
 {
     const ehl_across *a = &e->across;
@@ -109,14 +108,15 @@ void ehl_thermal_report(const ehl_thermal *t, const ff_host *host, const ehl_mar
 {
     const double enough = 0.05, limit = 10 * fmax(m->solver->tolerance, 1e-4), slow = 5;
     char text[200];
-    /* reported first, since it explains a film whose temperature is limited */
+    /* reported first, since it explains the other lines of a film whose temperature is limited */
     host->quality(host->ctx, "temperature_max", t->highest, t->energy.highest,
                   t->highest < t->energy.highest ? FF_GOOD : FF_BAD,
-                  "highest temperature of the film, K; it must be below the limit at which "
-                  "temperatures are cut");
+                  "highest temperature of the film, K; it must be below the limit to which "
+                  "temperatures are clipped");
     snprintf(text, sizeof text,
-             "heat of shear, compression and asperities minus the heat taken by the oil and both "
-             "flanks, relative, with thermal: full; %.3g solutions per instant",
+             "relative difference between the heat of shear, compression and asperities and the "
+             "heat taken by the oil and both flanks, with thermal: full; %.3g solutions per "
+             "instant",
              t->rounds / fmax(t->solved, 1));
     host->quality(host->ctx, "heat_balance", t->unbalanced, limit,
                   t->unbalanced <= limit  ? FF_GOOD
@@ -126,21 +126,21 @@ void ehl_thermal_report(const ehl_thermal *t, const ff_host *host, const ehl_mar
     if (!m->rough) {
         const double off = t->by_nodes;
         snprintf(text, sizeof text,
-                 "estimated error of the film and its friction due to the number of nodes "
-                 "across, at the hottest instant; thermal_nodes is %zu%s",
-                 t->energy.across.count, off <= enough ? "" : ": use more of them");
+                 "estimated relative error of the film and its friction due to the number of nodes "
+                 "across the film, at the hottest instant; thermal_nodes is %zu%s",
+                 t->energy.across.count, off <= enough ? "" : ": increase it");
         host->quality(host->ctx, "node_error", off, enough, off <= enough ? FF_GOOD : FF_DOUBTFUL,
                       text);
     }
     if (m->history->count == 1 && !m->rough)
         host->quality(host->ctx, "heat_of_flanks", t->elsewise, 0.02,
                       t->elsewise <= 0.02 ? FF_GOOD : FF_DOUBTFUL,
-                      "the same balance from independent sums: heat of the flanks from their "
-                      "temperature, of the oil from what leaves the film, of the shear from the "
-                      "forces");
+                      "balance of heat from independent sums: heat of the flanks from their "
+                      "temperature, of the oil from the oil that leaves the film, of the shear "
+                      "from the forces");
     host->quality(
         host->ctx, "flank_peclet", t->least_peclet, slow,
         t->least_peclet >= slow ? FF_GOOD : FF_RANGE,
-        "smallest u a rho c/k of the flanks: below the limit heat spreads along the flank, which "
-        "the model neglects");
+        "smallest Peclet number u a rho c/k of the flanks: below the limit heat spreads along the "
+        "flank, which the model neglects");
 }

@@ -11,15 +11,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Smallest factor that a prediction may give. The largest is the reciprocal. */
+/* Smallest factor that a prediction may give; the largest factor is its reciprocal. */
 static const double LEAST_FACTOR = 1e-3;
 
-/* Limits: rounds for the film of one instant; sweeps in a round of a time step, and in one of a
-   steady film; sweeps that always take the whole change; idle rounds, in which the factors have
-   converged but the temperatures have not. A sweep that stagnates alternates between two states,
-   and half of its change lies between them. Along the nodes of rough flanks the oil of one flank
+/* Largest numbers of rounds for the film of one instant (MOST_ROUNDS); of sweeps in a round of a
+   time step (MOST_PASSES) and of a steady film (STEADY_PASSES); of sweeps that always apply the
+   whole change (WHOLE_PASSES); and of rounds in which the factors have converged but the
+   temperatures have not (MOST_IDLE). A sweep that stagnates alternates between two states; half of
+   its change leads to a state between them. Along the nodes of rough flanks the oil of one flank
    flows against that of the other, so that in a thin film whole sweeps may diverge. After a round
-   that did not converge, all sweeps of the instant take half of the share that they took before. */
+   that did not converge, the share of the change that the sweeps of the instant apply is halved. */
 enum {
     MOST_ROUNDS = 80,
     MOST_PASSES = 8,
@@ -33,29 +34,30 @@ static const double SHARE_THAT_HESITATES = 0.5, LEAST_SWEEP = 0.125;
 static const double SLOW_SWEEP = 0.9;
 
 /* The factors have converged if they change the mass flow by less than this share; h changes by
-   about the same share. A steady film begins without heat, a time step close to its solution. A
-   tenth of the bound for rough films changes h_min of ten random ones by at most 1.6e-3, of eight
-   by less than 3e-4, and friction by less than 3.3e-4 of its largest value. */
+   about the same share. A steady film begins without heat, a time step close to its solution. With
+   a tenth of the bound for rough films, h_min of ten random rough films changes by at most 1.6e-3
+   (of eight by less than 3e-4), and friction by less than 3.3e-4 of its largest value. */
 static const double SETTLED = 1e-4, SETTLED_STEADY = 1e-5, SETTLED_ROUGH = 1e-3;
-/* Number of rounds of a steady film before its factors are accelerated (Anderson), and the share of
-   their change that an accelerated round mixes in. */
+/* Number of rounds of a steady film before its factors are accelerated (Anderson), and the mixing
+   factor of an accelerated round. */
 static const int PLAIN_ROUNDS = 12;
 static const double MIXED = 0.5;
-/* While changes do not shrink by this factor, a smaller share of them is taken, down to
+/* If the changes do not shrink by this factor, a smaller share of them is applied, down to
    LEAST_SHARE. */
 static const double SHRINKING = 0.95, LEAST_SHARE = 0.15;
-/* The temperatures have converged if a sweep changes ln(eta) by less than this. */
+/* The temperatures have converged if a sweep changes ln(eta) by less than this value. */
 static const double WARM = 1e-3, WARM_STEADY = 1e-6;
-/* The same for a steady film, relative to the last error of its factors. If the temperatures had
-   not converged, the rounds would accelerate factors of another film and would not converge. */
+/* For a steady film the bound on the change of ln(eta) is at most this share of the last error of
+   its factors. Otherwise the acceleration would use factors of another film, and the rounds would
+   not converge. */
 static const double LAGGING = 0.01;
 /* Change of ln(eta) up to which a time step extrapolates the laws. ln(eta) is extrapolated along a
    parabola. Half of the squared change times the curvature is a fifth of SETTLED for laws whose
-   slopes vary like ln(eta)/10. A twentieth of that remains if the curvature itself varies at that
-   rate. */
+   slopes vary like ln(eta)/10. If the curvature varies at the same rate, a twentieth of this error
+   remains. */
 static const double REACH = 0.02;
 /* Relative change of a column's equations up to which the first pass of a step reuses their
-   inverse. The remaining error is about this share of the pass's change, a tenth of WARM. */
+   inverse. The remaining error is about this share of the change in the pass, a tenth of WARM. */
 static const double KEPT = 0.1;
 
 /* Finds the fastest and the slowest flank of a history along the nodes. Returns FF_UNSUPPORTED if a
@@ -69,16 +71,15 @@ static ff_status speeds_of(const ff_host *host, const ehl_history *h, double *le
         double slow = fmin(fabs(u1), fabs(u2)), fast = fmax(fabs(u1), fabs(u2));
         if (u1 * u2 < 0)
             return ff_failf(host, FF_UNSUPPORTED, "thermal",
-                            "at time %.6g s the flanks move in opposite directions, %.4g and "
-                            "%.4g m/s (slide-roll ratio above 2): thermal: full needs flanks "
-                            "that both move in the direction of the oil; use thermal: inlet or "
-                            "none",
+                            "at time %.6g s the flanks move in opposite directions, %.4g and %.4g "
+                            "m/s (slide-roll ratio above 2): with thermal: full both flanks must "
+                            "move in the direction of the oil; use thermal: inlet or none",
                             h->time[i], u1, u2);
         if (h->count == 1 && !(slow > 0))
             return ff_failf(host, FF_UNSUPPORTED, "thermal",
-                            "a flank at rest (slide-roll ratio 2) that is sheared without end "
-                            "has no steady temperature: use thermal: full with a history in "
-                            "time, or thermal: inlet or none");
+                            "a flank at rest (slide-roll ratio 2) under constant shear has no "
+                            "steady temperature: use thermal: full with a history in time, or "
+                            "thermal: inlet or none");
         *least = fmin(*least, slow);
         *most = fmax(*most, fast);
     }
@@ -126,7 +127,7 @@ ff_status ehl_thermal_create(ehl_thermal *t, const ff_host *host, ehl_march *m,
     if (status != FF_OK)
         return status;
     double lasts = h->time[h->count - 1] - h->time[0] + length / most;
-    if (m->rough) /* plus the travel of the flanks into the contact (start.c) */
+    if (m->rough) /* plus the distance that rough flanks travel into the contact (start.c) */
         lasts += length / most;
     double longest = least * lasts > length ? length / least : lasts;
     for (size_t k = 0; k < 2; k++) {
@@ -203,8 +204,8 @@ static void go_on(size_t n, const double *restrict one, const double *restrict t
     }
 }
 
-/* Sets `past` to the contribution of n values of earlier states to the difference formula in
-   time. */
+/* Sets `past` to the contribution of two earlier states, of n values each, to the difference
+   formula in time. */
 FF_SIMD
 static void look_back(size_t n, const double *restrict one, const double *restrict two,
                       const double c[3], double *restrict past)
@@ -247,13 +248,13 @@ static void predict(ehl_march *m, double time, double c[3])
     if (m->smooth >= 2)
         ahead = (time - m->state[0].time) / (m->state[0].time - m->state[1].time);
     look_back(t->width, one, two, c, past);
-    if (m->rough) /* a flank that moves backwards gets its modes from the next node */
+    if (m->rough) /* the modes of a flank that moves backwards come from the next node */
         memcpy(now + temperatures, one + temperatures, (kept - temperatures) * sizeof *now);
     go_on(temperatures, one, two, ahead, t->energy.lowest, t->energy.highest, now);
     go_on(FACTORS * n, one + kept, two + kept, ahead, LEAST_FACTOR, 1 / LEAST_FACTOR, now + kept);
 }
 
-/* Sets p_t, along the path of the nodes if they move. It is 0 where asperities were or are in
+/* Sets p_t, along the path of the nodes if they move. p_t is 0 where asperities were or are in
    contact, since their pressure is not that of the oil. */
 static void pressure_in_time(const ehl_march *m, const ehl_film *film, const double c[3])
 {
@@ -309,7 +310,8 @@ static ehl_energy_film film_of(const ehl_march *m, const ehl_step *step, const e
         double carried = r->statistical.law ? r->p_a[i] : film->asperity[i] ? film->p[i] : 0;
         t->friction[i] = t->coefficient * carried * fabs(step->sliding);
     }
-    for (size_t i = 0; i < n; i++) { /* the faces are at the nodes, or between them */
+    for (size_t i = 0; i < n; i++) { /* the faces are at the nodes or between them, depending on the
+                                        discretisation */
         double before = r->flux[r->asymmetric || i < 1 ? i : i - 1];
         t->through[i] = i > 0 && i + 1 < n ? -(before + r->flux[i]) / 2 : 0;
     }
@@ -327,15 +329,15 @@ static ehl_energy_film film_of(const ehl_march *m, const ehl_step *step, const e
     return f;
 }
 
-/* Returns the share of the tolerances above for a film whose own `tolerance` is below the usual
- * one, or whose steps ask for less error. */
+/* Returns the factor on the tolerances above for a film whose `tolerance` is below the default, or
+   whose time steps need a smaller error. */
 static double tightness(const ehl_march *m)
 {
     const double usual = 1e-5, least = 1e-4;
     return fmax(fmin(m->solver->tolerance / usual, 1) * m->exactness, least);
 }
 
-/* Computes the temperatures of the film and its factors. Returns 1 if both had converged. */
+/* Computes the temperatures of the film and its factors. Returns 1 if both have converged. */
 static int update(ehl_march *m, const ehl_step *step, const ehl_film *film, const double c[3])
 {
     ehl_thermal *t = m->thermal;
@@ -352,7 +354,7 @@ static int update(ehl_march *m, const ehl_step *step, const ehl_film *film, cons
     int passes = 0;
     double before = HUGE_VAL;
     t->film = f;
-    if (!(c[0] > 0)) /* a steady film evaluates all laws again; failures on the way to it are not
+    if (!(c[0] > 0)) /* a steady film evaluates all laws again, so earlier failures of laws are not
                         recorded */
         t->energy.law_status = FF_OK;
     do {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Implements thermal: full, the temperatures across the film (energy.h) and their effect on the
    flow. While the film of an instant is solved for, its mobility, density and transported mass are
-   those of the laws at the oil's temperature times constant factors. The temperatures of that film
-   give the next factors, until film and factors no longer change. */
+   those of the laws at the oil's temperature times constant factors. The next factors follow from
+   the temperatures of this film; this is repeated until film and factors no longer change. */
 #ifndef EHL_THERMAL_H
 #define EHL_THERMAL_H
 
@@ -10,7 +10,8 @@
 #include "../solvers/anderson.h"
 #include "energy.h"
 
-/* Factors of the flow across a film, at each node: of mobility, density and transported mass. */
+/* Factors of the flow across a film, at each node: factors on mobility, density and transported
+   mass. */
 enum { EHL_THERMAL_FACTORS = 3 };
 /* Largest change of the factors in a round. A larger change is scaled down to it. */
 static const double EHL_LARGE_FACTOR = 0.3;
@@ -18,7 +19,7 @@ static const double EHL_LARGE_FACTOR = 0.3;
 /* Data of the flanks and the oil. */
 typedef struct ehl_thermal_data {
     size_t across;                      /* number of nodes across the film */
-    double conductivity, heat_capacity; /* of the oil */
+    double conductivity, heat_capacity; /* of the oil, W/(m K) and J/(kg K) */
     ehl_conductivity_rise conducts;     /* increase of the conductivity with p */
     double bulk;                        /* temperature of the flanks and of the oil that enters,
                                            K */
@@ -42,7 +43,7 @@ typedef struct ehl_thermal {
     double coefficient;           /* friction coefficient of asperities in contact */
     double *ease, *swell, *carry; /* factors of the film that is solved for (reynolds.h) */
     double rounds, solved;        /* numbers of solutions for a film, and of instants */
-    double off;                   /* error of the factors in the last round */
+    double off;                   /* change of the factors in the last round */
     double damping;               /* share of the change of the factors that is applied */
     double share;                 /* share of the change of the temperatures that a sweep applies */
     int idle;  /* number of rounds in which the factors had converged but the temperatures had
@@ -51,14 +52,14 @@ typedef struct ehl_thermal {
     ehl_anderson anderson; /* acceleration of the factors of a steady film */
     double *now, *change;  /* the factors, and their change, for the acceleration */
     int without;           /* 1: films are solved without heat */
-    int cold_fails;        /* 1: the steady film was not found without heat either */
+    int cold_fails;        /* 1: the steady film was not found even without heat */
     double diffusivity[2]; /* thermal diffusivity of the flanks, m2/s */
     double least_peclet;   /* smallest u a rho c/k of a flank over all loaded instants */
     double highest;        /* highest temperature, K */
-    double by_nodes;  /* relative error of the flow due to the number of nodes across, largest of
-                         those checked */
-    double looked_at; /* temperature rise of that instant, K */
-    double unbalanced, elsewise; /* imbalance of heat, largest of the checked instants: from the
+    double by_nodes;  /* largest relative error of the flow due to the number of nodes across, of
+                         the instants checked */
+    double looked_at; /* largest temperature rise of the instants checked, K */
+    double unbalanced, elsewise; /* largest imbalance of heat of the checked instants: from the
                                     equations, and from independent sums */
 } ehl_thermal;
 
@@ -68,7 +69,7 @@ ff_status ehl_thermal_create(ehl_thermal *t, const ff_host *host, ehl_march *m,
                              const ehl_thermal_data *data);
 void ehl_thermal_destroy(ehl_thermal *t);
 
-/* Removes the temperatures, because another engagement starts or a film is searched again. */
+/* Removes the temperatures, before another engagement starts or a film is computed again. */
 void ehl_thermal_restart(ehl_march *m);
 
 /* Solves for the film of `step` like solver->solve, including its temperatures. */
@@ -110,8 +111,8 @@ void ehl_thermal_accelerate(ehl_thermal *t, size_t count, double *next);
 void ehl_thermal_hold(ehl_march *m);
 
 /* For smooth flanks, estimates the error of the newest film due to the number of nodes across, if
-   it is hotter than the films checked before. `film` has its temperatures. The flow must be that of
-   the temperatures. */
+   it is hotter than the films checked before. `film` contains the temperatures, and the flow must
+   have been computed for them. */
 void ehl_thermal_look_at_nodes(ehl_thermal *t, const ehl_energy_film *f,
                                const ehl_temperature *film, double alpha, double highest);
 

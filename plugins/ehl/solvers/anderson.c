@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A change of g is dropped if its part that is linearly independent of the newer changes is below
-   this share of it. */
+/* A stored change of g is not used if the part of it that is linearly independent of the newer
+   changes is below this share. */
 static const double parallel = 1e-6;
 
 int ehl_anderson_create(ehl_anderson *m, size_t size)
@@ -66,8 +66,8 @@ static void remember(ehl_anderson *m, const double *y, const double *g)
     }
 }
 
-/* Orthogonalises by Gram-Schmidt, the newest change first and each twice. This gives R of dG = Q R.
-   Returns the number of independent columns. */
+/* Orthogonalises the changes dG of g by Gram-Schmidt, the newest change first and each change
+   twice. Sets r to R of dG = Q R. Returns the number of independent columns. */
 static size_t factorise(ehl_anderson *m, double r[EHL_ANDERSON_DEPTH][EHL_ANDERSON_DEPTH],
                         size_t used[EHL_ANDERSON_DEPTH])
 {

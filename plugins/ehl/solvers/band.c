@@ -24,8 +24,8 @@ _Static_assert(LOWER % 2 == 0, "pairs of columns");
 
 /* A block of the factors. A substitution computes LANES values at a time, those of the rows i ... i
    + LANES - 1. It first applies the columns of values already known, then the inverse of the
-   triangle between these rows. An entry of `below` belongs to the column i - LOWER + j, one of
-   `above` to the column i + LANES + j. */
+   triangle between these rows. below[j] belongs to the column i - LOWER + j, above[j] to the column
+   i + LANES + j. */
 typedef struct block {
     double below[LOWER][LANES], below_inverse[LANES - 1][LANES]; /* L, with ones on its diagonal */
     double above[UPPER][LANES], above_inverse[LANES][LANES];     /* U */
@@ -96,7 +96,7 @@ static void fill_row(double h0, double h1, double h2, double h3, const double *r
         row[k] = h0 * cut[k + 2] + h1 * cut[k + 1] + h2 * cut[k] + h3 * (cut - 1)[k];
 }
 
-/* Removes the kernel from the columns whose unknown causes no deflection. */
+/* Removes the kernel from the columns whose unknown is no pressure and causes no deflection. */
 FF_SIMD
 static void drop_columns(const double *restrict carries, double *restrict row)
 {
@@ -130,7 +130,7 @@ static void fill(ehl_band *b, const ehl_reynolds *r, const ehl_film *film, size_
         /* column k - LOWER from the diagonal is k - LOWER + 2 from the node i - 2 of the stencil */
         fill_row(r->by_h[0][i + 1], r->by_h[1][i + 1], r->by_h[2][i + 1], r->by_h[3][i + 1],
                  b->cut + REACH + 3 - LOWER, row);
-        /* these entries are zero, unless an earlier elimination overflowed */
+        /* these entries are not zero if an earlier elimination overflowed */
         memset(row + LOWER + 1 + UPPER, 0, (WIDTH - LOWER - 1 - UPPER) * sizeof *row);
         if (r->conserving)
             drop_columns(b->carries + i - LOWER, row);
@@ -139,7 +139,7 @@ static void fill(ehl_band *b, const ehl_reynolds *r, const ehl_film *film, size_
     }
 }
 
-/* Factorises row by row; the rows before `first` stay as they are. */
+/* Factorises row by row; the rows before `first` are not changed. */
 FF_SIMD
 static void eliminate(double *matrix, double *restrict inverse, size_t first, size_t rows)
 {
@@ -199,7 +199,7 @@ static void arrange(ehl_band *b, size_t first)
     }
 }
 
-/* Solves x = U^-1 L^-1 x in place; x is zero for PAD places on both sides. */
+/* Solves x = U^-1 L^-1 x in place; x must be zero for PAD entries on both sides. */
 FF_SIMD
 static void substitute(const block *restrict blocks, size_t count, double *x)
 {
@@ -297,7 +297,7 @@ void ehl_band_solve(ehl_band *b, const double *residual, double sum, double *dp,
     memcpy(x, residual + 1, b->rows * sizeof *x);
     substitute(b->blocks, count_blocks(b->rows), x);
     double total = carried(count_blocks(b->rows), b->carries, x);
-    double h00_change; /* change of h00 with the kernel's shift taken out */
+    double h00_change; /* change of h00 without the shift of the kernel */
     if (b->loaded) {
         h00_change = (total - sum) / b->border_sum;
         *dh00 = h00_change - b->shift * sum;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Preconditioner: the linearised balances with the elastic kernel cut off after a few nodes. The
-   band matrix is factorised without pivoting, and the load is a border of it. The kernel is shifted
-   by its value just after the cut, so that it ends in 0. For a given sum of pressures the shift
-   adds the same deflection to all nodes, which the border represents exactly. */
+   band matrix is factorised without pivoting; the balance of the load is a border of the matrix.
+   The kernel is shifted by its value just after the cut, so that it ends in 0. For a given sum of
+   pressures the shift changes the deflection of all nodes by the same amount, which the border
+   represents exactly. */
 #ifndef EHL_BAND_H
 #define EHL_BAND_H
 

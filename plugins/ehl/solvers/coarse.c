@@ -9,17 +9,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Corner k is node k stride. The pressure is unknown at the corners 1 ... count and zero at the
-   others. Block i holds the nodes nearest to corner i + 1. With its stencils it depends on the
-   corners i ... i + 2. A fourth corner has weight 0. */
+/* Corner k is the node k stride. The pressure is unknown at the corners 1 ... count and zero at the
+   others. Block i consists of the nodes nearest to corner i + 1. With its stencils it depends on
+   the corners i ... i + 2; the fourth of the NEAR corners only fills the SIMD vector and has weight
+   0. */
 enum { NEAR = 4 };
 
 struct ehl_coarse {
-    size_t stride, most; /* most: number of corners beyond which sums do not reach */
+    size_t stride, most; /* most: largest number of corners */
     size_t count;        /* number of unknown pressures; h00 is one more unknown */
     int solvable, loaded;
     double *memory;
-    double *way;  /* position between two corners, 0 ... 1 */
+    double *way;  /* position of a node between two corners, 0 ... 1 */
     double *bend; /* deflection at a distance of k - `most` corners from a pressure */
     double (*by_p)[NEAR], (*by_v)[NEAR]; /* derivatives of a block's balance with respect to the
                                             values at its corners */
@@ -28,7 +29,8 @@ struct ehl_coarse {
     size_t *pivot;
 };
 
-/* Returns the deflection `distance` nodes away from a pressure that falls to 0 within a stride. */
+/* Returns the deflection at a distance of `distance` nodes from a unit pressure that decreases
+   linearly to 0 within a stride. */
 static double bend_of(const double *kernel, size_t nodes, size_t stride, size_t distance)
 {
     double sum = 0;
@@ -223,7 +225,8 @@ static void deflect(ehl_coarse *c)
     }
 }
 
-/* Sums the residuals of the mass balances only. Other nodes have another equation, or none. */
+/* Sums the residuals of the mass balances over the blocks. Nodes with another equation, or with
+   none, are skipped. */
 static void restrict_to_blocks(ehl_coarse *c, const double *residual, const unsigned char *full,
                                size_t last)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Coarse grid for the long waves of the pressure, which the band matrix does not represent. It
-   balances the mass over blocks of nodes. Pressure and deflection are linear between corners; every
-   `stride`-th node is a corner. */
+/* Coarse grid for the long waves of the pressure, which the band matrix does not represent. Its
+   equations are the balances of mass over blocks of nodes. Pressure and deflection are linear
+   between corners; every `stride`-th node is a corner. */
 #ifndef EHL_COARSE_H
 #define EHL_COARSE_H
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Solves one instant by Newton's method with a dense Jacobian, written face by face, and LAPACK.
-   The deflection is a plain double sum. It is the slow and simple reference implementation with
-   which the fast solver is compared. */
+/* Solves one instant by Newton's method with a dense Jacobian, assembled face by face, and LAPACK.
+   The deflection is a plain double sum. This slow and simple solver is the reference with which the
+   fast solver is compared. */
 #include "../equations/cavitation.h"
 #include "../equations/deflection.h"
 #include "../equations/solver.h"

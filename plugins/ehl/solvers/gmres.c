@@ -12,15 +12,16 @@
 #include <string.h>
 
 /* The coarse grid has a corner at most every LEAST_STRIDE nodes, and at most MOST_CORNERS corners.
-   It is used if it has more than LEAST_CORNERS. */
+   It is used only if it has more than LEAST_CORNERS corners. */
 enum { LEAST_STRIDE = 16, LEAST_CORNERS = 16, MOST_CORNERS = 128 };
 
-/* Imbalance of flow that a linear solution may leave, relative to the imbalance before it and to
-   the flow through the contact. It is too large if both limits are exceeded. */
+/* Limits of the imbalance of flow after a linear solution, relative to the imbalance before
+   (MOST_IMBALANCE_LEFT) and to the flow through the contact (IMBALANCE_NOTICED). The imbalance is
+   too large if it exceeds both limits. */
 static const double MOST_IMBALANCE_LEFT = 0.3, IMBALANCE_NOTICED = 0.01;
 
-/* Imbalance that the answer to other right-hand sides may leave (ehl_linear_answer), relative to
- * theirs. */
+/* Replaces MOST_IMBALANCE_LEFT for ehl_linear_answer, whose right-hand side is not the residual of
+   a Newton step. */
 static const double ANSWER_IMBALANCE = 0.1;
 
 /* Least reduction of the residual of a linear system, relative to its first residual.
@@ -29,30 +30,30 @@ static const double ANSWER_IMBALANCE = 0.1;
    information about the film. */
 static const double LEAST_REDUCTION = 0.2, CAREFUL_REDUCTION = 0.05;
 
-/* Least reduction where statistical flanks touch: load that moves between oil and asperities
+/* Least reduction if statistical flanks touch: a transfer of load between oil and asperities
    changes the film but hardly the pressure. */
 static const double SHARED_REDUCTION = 1e-3;
 
-/* With rough flanks, a change of the pressure within the tolerance is solved to this share of the
-   tolerance. */
+/* With rough flanks, a linear solution whose change of the pressure is within the tolerance is
+   accurate to this share of the tolerance. */
 static const double SHARE_OF_LAST = 0.01;
 
-/* The error of a Newton step is about this multiple of the square of its relative change. For a
-   viscosity exp(alpha p) it is alpha p_max/2, about 10 in a contact of gears. */
+/* The relative error after a Newton step is about this multiple of the square of its relative
+   change. For a viscosity exp(alpha p) it is alpha p_max/2, about 10 in a contact of gears. */
 static const double CURVATURE = 10;
 
-/* Parameters that adapt this multiple. After two successive Newton steps it becomes LEARNED times
-   the value found from them, but at least LEAST_CURVATURE. After a single sufficient step it grows
-   by the factor FORGETTING. */
+/* Parameters that adapt this multiple. After two successive Newton steps the multiple becomes
+   LEARNED times the value found from these steps, but at least LEAST_CURVATURE. After a single
+   sufficient step it is multiplied by FORGETTING. */
 static const double LEARNED = 2, LEAST_CURVATURE = 0.3, FORGETTING = 1.05;
 
 /* Share of the tolerance that one time step may use. The oil transports these errors through the
    contact, where they add up; docs/performance.md has the sum for the presets. */
 static const double SHARE_OF_STEP = 1. / 20;
 
-/* Imbalance of flow that a step may leave between the inlet and any place, in units of the
-   tolerance. Between two places it is at most twice that, which is below 5 tolerances, the lowest
-   limit of the quality lines (quality.c). */
+/* Largest imbalance of flow between the inlet and any point after a step, in units of the
+   tolerance. Between two points the imbalance is then at most twice as large, below 5 tolerances,
+   the lowest limit of the quality lines (quality.c). */
 static const double MOST_UNBALANCED = 2;
 
 void ehl_linear_deflect(ehl_solver *s, const double *p, double *v)
@@ -75,7 +76,8 @@ static void multiply_rows(const ehl_reynolds *r, size_t from, const double *rest
                  b0[i] * dh[i - 2] + b1[i] * dh[i - 1] + b2[i] * dh[i] + b3[i] * dh[i + 1];
 }
 
-/* out = Jacobian (dp, dh = dv + dh00), rows 1 ... last - 1 */
+/* Computes out = J (dp, dh) in rows 1 ... last - 1, with the Jacobian J and the change of the film
+   dh = dv + dh00. */
 static void apply_jacobian(const ehl_reynolds *r, const double *dp, const double *dh, double *out)
 {
     const double *a1 = r->by_p[1], *a2 = r->by_p[2], *a3 = r->by_p[3];
@@ -116,7 +118,7 @@ static void scale(double *y, double factor, size_t n)
         y[i] *= factor;
 }
 
-/* y = x factor */
+/* Computes y = factor x. */
 FF_SIMD
 static void multiply(const double *restrict x, double factor, double *restrict y, size_t n)
 {
@@ -124,7 +126,7 @@ static void multiply(const double *restrict x, double factor, double *restrict y
         y[i] = x[i] * factor;
 }
 
-/* y = x + by */
+/* Computes y[i] = x[i] + by. */
 FF_SIMD
 static void shift(const double *restrict x, double by, double *restrict y, size_t n)
 {
@@ -239,8 +241,8 @@ static double combine_basis(ehl_linear *w, hessenberg *q, size_t count, size_t n
     return dh00;
 }
 
-/* Predicts the error after a relative change: the linear residual's share of the change, plus the
-   square that Newton's method neglects. */
+/* Predicts the relative error after a step with this relative change: the share of the change that
+   the linear solution leaves, plus the quadratic term that Newton's method neglects. */
 static double left_of(const ehl_linear *w, double change)
 {
     return change * (w->reached + w->curvature * change);
@@ -278,9 +280,9 @@ int ehl_linear_balances(const ehl_solver *s)
 }
 
 /* Returns the share of the residual that may remain after a relative change of the pressure
-   (forcing term, Eisenstat & Walker 1996). With this share and the square that Newton's method
-   neglects, the film meets its tolerance. If the neglected square is larger than the tolerance, the
-   share is that square. */
+   (forcing term, Eisenstat & Walker 1996). With this share and the quadratic term that Newton's
+   method neglects, the film meets its tolerance. If the quadratic term is larger than the
+   tolerance, the share is the relative size of this term. */
 static double forcing_term(const ehl_solver *s, double change, int careful)
 {
     if (s->reynolds->rough && change <= s->tolerance)
@@ -292,15 +294,16 @@ static double forcing_term(const ehl_solver *s, double change, int careful)
     return fmin(s->reynolds->touching ? SHARED_REDUCTION : least, left);
 }
 
-/* What is asked of the answer to a right-hand side that is not the residual of a Newton step. */
+/* The accuracy required for a right-hand side that is not the residual of a Newton step
+   (ehl_linear_answer). */
 typedef struct goal {
-    double share;            /* error that may be left, over the larger of answer and guess */
-    const ehl_answer *guess; /* the solution begins with it */
-    const double *rows;      /* the right-hand side without the guess */
+    double share;            /* allowed error, over the larger of answer and guess */
+    const ehl_answer *guess; /* start of the solution */
+    const double *rows;      /* the right-hand side before the guess was subtracted */
 } goal;
 
-/* Returns the share of the preconditioned residual `first` that may be left for that goal. The
- * preconditioned residual is measured in the same norm as the answer. */
+/* Returns the share of the preconditioned residual `first` that may remain for this goal. The
+   preconditioned residual is measured in the same norm as the answer. */
 static double share_left(const goal *of, double first, size_t rows, double weight)
 {
     const ehl_answer *e = of->guess;
@@ -308,10 +311,10 @@ static double share_left(const goal *of, double first, size_t rows, double weigh
     return first > 0 ? of->share * most / first : 1;
 }
 
-/* Solves J (dp, dh00) = (product, missing) until the preconditioned residual is below the share of
- * the first one that forcing_term allows, or to that goal, if it is not NULL. Left preconditioning
- * makes the norm measure the error of the pressure. A norm of the balances would let short waves of
- * the pressure grow from step to step, since they hardly change the balances. */
+/* Solves J (dp, dh00) = (product, missing) until the preconditioned residual has decreased to the
+   share that forcing_term allows, or to the goal `of` if it is not NULL. With left preconditioning
+   the norm measures the error of the pressure. With a norm of the balances, short waves of the
+   pressure would grow from step to step, since they hardly change the balances. */
 static ff_status gmres(ehl_solver *s, const ehl_film *film, int loaded, double missing,
                        const goal *of, double *dh00)
 {
@@ -320,9 +323,9 @@ static ff_status gmres(ehl_solver *s, const ehl_film *film, int loaded, double m
     hessenberg q;
     size_t rows = s->reynolds->last, nodes = s->reynolds->nodes, k = 0;
     double p_max = ehl_pressure_scale(g, film, nodes);
-    /* weight, in Pa/m, that makes a change of h00 comparable with one of the pressure. It is the
+    /* the weight, in Pa/m, makes a change of h00 comparable with a change of the pressure: a
        pressure over the whole contact divided by its deflection. Under light loads the film reacts
-       to the pressure long before the flanks deflect, and the weight is the pressure over the
+       to the pressure long before the flanks deflect; the weight is then the pressure over the
        smallest film */
     double weight = g->dx / (g->half_width * (s->kernel[0] - s->kernel[nodes - 1]));
     double by_film = p_max / ehl_least(rows, s->reynolds->thick);
@@ -358,9 +361,9 @@ static ff_status gmres(ehl_solver *s, const ehl_film *film, int loaded, double m
     return isfinite(norm) ? FF_OK : FF_NOCONV;
 }
 
-/* Returns 1 if the solution leaves the flow unbalanced although GMRES's norm is small. If the
-   blocks of the coarse grid are wider than the contact, M^-1 almost cancels some waves of the
-   balances, and a left-preconditioned norm does not contain them. */
+/* Returns 1 if the flow is unbalanced after the solution although GMRES's norm is small. If the
+   blocks of the coarse grid are wider than the contact, the preconditioner M^-1 almost cancels some
+   waves of the balances, and the left-preconditioned norm does not show them. */
 static int misses_imbalance(const ehl_solver *s, const ehl_step *step, const ehl_film *film,
                             const goal *of, double dh00)
 {
@@ -392,18 +395,18 @@ static void negate_solved(size_t last, int all, const unsigned char *restrict fu
 }
 
 /* Solves the system with the right-hand side w->asked in the rows of the nodes and `sum` in the row
- * of the load. `of`: see gmres. */
+   of the load. For `of` see gmres. */
 static ff_status solve_for_asked(ehl_solver *s, const ehl_step *step, const ehl_film *film,
                                  double sum, const goal *of, double *dh00)
 {
     ehl_linear *w = s->self;
     const ehl_reynolds *r = s->reynolds;
-    for (w->split = w->coarse != NULL;;
-         w->split = 0) { /* the band matrix alone is slower, but misses no wave */
+    for (w->split = w->coarse != NULL;; w->split = 0) { /* the band matrix alone converges more
+                                                           slowly, but its norm shows all waves */
         memcpy(w->product + 1, w->asked + 1, (r->last - 1) * sizeof *w->product);
         ff_status status = gmres(s, film, step->loaded, sum, of, dh00);
         if (status != FF_OK) {
-            w->factored = 0; /* after an overflow the factors would wrongly count as valid */
+            w->factored = 0; /* after an overflow the factors must not be reused */
             return status;
         }
         w->unbalanced = 0;
@@ -425,10 +428,10 @@ ff_status ehl_linear_solve(ehl_solver *s, const ehl_step *step, const ehl_film *
     return status;
 }
 
-/* Sets the guess to 0 where no equation holds, and its deflection accordingly. */
+/* Sets the guess to 0 where no equation holds, and updates its deflection. */
 static void fit_guess(ehl_solver *s, const ehl_step *step, const ehl_film *film, ehl_answer *e)
 {
-    enum { FEW = 16 }; /* a convolution is as long as some 30 of them */
+    enum { FEW = 16 }; /* a convolution takes as long as updating for about 30 nodes */
     const ehl_reynolds *r = s->reynolds;
     size_t cut = 0;
     for (size_t i = 0; i < r->nodes; i++)
@@ -463,7 +466,7 @@ ff_status ehl_linear_answer(ehl_solver *s, const ehl_step *step, const ehl_film 
     ehl_add(e->p, 1, w->p_step, r->nodes);
     ehl_add(e->v, 1, w->v_step, r->nodes);
     e->h00 += dh00;
-    for (size_t i = 0; i < r->nodes; i++) /* misses_imbalance has filled in w->left */
+    for (size_t i = 0; i < r->nodes; i++) /* misses_imbalance has computed w->left */
         rest[i] = i > 0 && i < r->last && ehl_is_solved(r, film, i) ? w->asked[i] - w->left[i] : 0;
     if (status == FF_OK && !ehl_linear_converged(w))
         status = FF_NOCONV;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Solves the linear system of one Newton step by GMRES (Saad & Schultz 1986) with a two-level
-   preconditioner: a coarse grid for long waves and a band matrix for the others. A product with the
-   Jacobian costs one FFT convolution. */
+   preconditioner: a coarse grid for long waves and a band matrix for short waves. A product with
+   the Jacobian costs one FFT convolution. */
 #ifndef EHL_GMRES_H
 #define EHL_GMRES_H
 
@@ -32,35 +32,36 @@ typedef struct ehl_linear {
     unsigned char *factored_kind, *kind;
     size_t factored_last;
     int factored, factored_loaded;
-    int careful; /* 1: rough flanks, or such a light load that the pressure contains little
-                    information about the film */
-    double
-        curvature;   /* multiple of the square of a relative change that Newton's method neglects */
-    double suffices; /* share of the residual that is acceptable at the end of the iterations; 0:
-                        the requested share */
-    double reached;  /* residual norm after the last solution over that before it */
-    /* imbalance of flow after the last solution, over the flow through the contact; 0 without
-       the coarse grid, since only the coarse grid hides it from the norm */
+    int careful;      /* 1: rough flanks, or such a light load that the pressure contains little
+                         information about the film */
+    double curvature; /* error that Newton's method neglects, over the square of the relative
+                         change */
+    double suffices; /* share of the residual that is acceptable after EHL_KRYLOV iterations; 0: the
+                        requested share */
+    double reached;  /* residual norm after the last solution over the norm before it */
+    /* imbalance of flow after the last solution, over the flow through the contact; 0 without the
+       coarse grid, since the norm shows the imbalance then */
     double unbalanced;
-    size_t krylov, krylov_fresh; /* iterations of the last solution, and of the first one after a
-                                    factorisation */
+    size_t krylov, krylov_fresh; /* iterations of the last solution, and of the first solution after
+                                    a factorisation */
 } ehl_linear;
 
 /* Returns FF_OK or FF_NOMEM. */
 ff_status ehl_linear_create(ehl_solver *s, ehl_linear *w);
 void ehl_linear_destroy(ehl_linear *w);
 
-/* Computes the deflection of p by FFT. It is the solver's `deflect`. */
+/* Computes the deflection of p by FFT; used as `deflect` of a solver. */
 void ehl_linear_deflect(ehl_solver *s, const double *p, double *v);
 
-/* Solves for p_step, v_step and *dh00. The residual and the derivatives of the equations have been
-   computed. Returns FF_NOCONV if a number overflowed. */
+/* Solves for p_step, v_step and *dh00. The residual and the derivatives of the equations must have
+   been computed. Returns FF_NOCONV if a number overflowed. */
 ff_status ehl_linear_solve(ehl_solver *s, const ehl_step *step, const ehl_film *film, double *dh00);
 
-/* Solves J (e->p, e->h00) = (rows, 0) with the derivatives that the equations have now, starting
- * from the values in `e`, until an error of this share of the answer is left. The last row is the
- * balance of the load. Fills in what is left of `rows`. Leaves the state of Newton's method and the
- * counters as they were. FF_NOCONV: a number overflowed, or the accuracy was not reached. */
+/* Solves J (e->p, e->h00) = (rows, 0) with the current derivatives of the equations, starting from
+   the values in `e`, until the error is at most `share` of the answer. The last row is the balance
+   of the load. `rest` receives the remaining residual. The state of Newton's method and the
+   counters are not changed. Returns FF_NOCONV if a number overflowed or the accuracy was not
+   reached. */
 ff_status ehl_linear_answer(ehl_solver *s, const ehl_step *step, const ehl_film *film,
                             const double *rows, double share, ehl_answer *e, double *rest);
 
@@ -75,8 +76,9 @@ static inline int ehl_linear_converged(const ehl_linear *w)
    outdated. */
 void ehl_linear_factor(ehl_solver *s, const ehl_step *step, const ehl_film *film);
 
-/* Adapts the curvature from two successive steps. The first had the relative change `before` and
-   left the share `reached` of its residual. The second has the relative change `now`. */
+/* Adapts the curvature from two successive steps. The first step had the relative change `before`,
+   and the share `reached` of its residual remained. The second step has the relative change
+   `now`. */
 void ehl_linear_learn(ehl_solver *s, double before, double reached, double now);
 
 void ehl_linear_unlearn(ehl_solver *s);
@@ -85,19 +87,19 @@ void ehl_linear_unlearn(ehl_solver *s);
 void ehl_linear_forget(ehl_solver *s);
 
 /* Returns whether the predicted error after the last step is within the tolerance for the pressure,
-   and within `times` the tolerance for the film. `pressure` and `film` are their relative changes
-   in that step. */
+   and within `times` the tolerance for the film. `pressure` and `film` are the relative changes of
+   pressure and film in this step. */
 int ehl_linear_settles(const ehl_solver *s, double pressure, double film, double times);
 
 /* Returns whether the last solution left the flow balanced within the tolerance. ehl_linear_settles
    relies on GMRES's norm, which may hide an imbalance a hundred times as large. */
 int ehl_linear_balances(const ehl_solver *s);
 
-/* Returns the pressures in a vector of unknowns. The unknown of a cavitated node is a mass, that of
-   a yielding node a plastic part; both count as 0 here. */
+/* Returns the pressures of a vector of unknowns: 0 at cavitated nodes, whose unknown is a mass, and
+   at yielding nodes, whose unknown is a plastic part. */
 const double *ehl_pressure_part(const ehl_solver *s, const ehl_film *film, const double *v);
 
-/* y += factor x */
+/* Adds factor x to y. */
 void ehl_add(double *restrict y, double factor, const double *restrict x, size_t n);
 
 #endif

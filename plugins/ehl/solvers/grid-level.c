@@ -8,8 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* First guess of the pressure: half an ellipse. Under a high load it is Hertz's. Under a low load
-   it is as wide as the pressure of a rigid cylinder, from -2 S to 0.475 S with S = sqrt(2 R h). */
+/* The first guess of the pressure is half an ellipse: Hertz's pressure under a high load; under a
+   low load as wide as the pressure of a rigid cylinder, from -2 S to 0.475 S with S = sqrt(2 R
+   h). */
 void ehl_first_guess(ehl_solver *s, const ehl_instant *at, double modulus, double thinnest,
                      ehl_film *film)
 {
@@ -42,7 +43,8 @@ void ehl_first_guess(ehl_solver *s, const ehl_instant *at, double modulus, doubl
         film->content[i] = s->reynolds->oil.density * thinnest;
 }
 
-/* Accuracy of films from which finer grids start, or that measure the error due to the cells. */
+/* Tolerance for films that are only the start on a finer grid, or that measure the error due to the
+   cells. */
 static const double loose = 1e-3;
 
 void ehl_grid_level_destroy(ehl_grid_level *l)
@@ -123,10 +125,10 @@ ff_status ehl_grid_level_solve(ehl_grid_level *l, const ehl_grid_level *before,
 /* A grid with at most this number of cells is not halved. */
 enum { COARSEST = 512 };
 
-/* Fills `film` with the steady film on half the cells, by nested grids. In a Newton step the end of
-   a film moves by only a few cells, so it is found on a coarse grid first, and each finer grid
-   starts from the previous one. Returns FF_NOCONV if the grid of `s` is coarse itself, or if no
-   coarser grid has a solution. */
+/* Fills `film` with the steady film on half the cells, by nested grids. The end of a film moves by
+   only a few cells in a Newton step. It is therefore found on a coarse grid first, and each finer
+   grid starts from the film on the previous grid. Returns FF_NOCONV if the grid of `s` is already
+   coarse, or if no coarser grid has a solution. */
 ff_status ehl_nested_film(ehl_solver *s, const ehl_step *step, const ehl_instant *at,
                           double modulus, double thinnest, ehl_film *film)
 {

@@ -10,7 +10,7 @@
 void ehl_first_guess(ehl_solver *s, const ehl_instant *at, double modulus, double thinnest,
                      ehl_film *film);
 
-/* A grid and everything needed for a steady film on it. */
+/* A grid, with equations, solver and film for a steady film on this grid. */
 typedef struct ehl_grid_level {
     ehl_grid grid;
     ehl_reynolds reynolds;
@@ -20,8 +20,9 @@ typedef struct ehl_grid_level {
     unsigned char *flags;
 } ehl_grid_level;
 
-/* Makes a level on the domain of `s` with that number of cells and with the equations of a steady
-   smooth film: laws, oil, wedge, limits of the film. Its film is accurate to 1e-3 at best. */
+/* Makes a level with `cells` cells on the domain of `s`, with the equations of a steady smooth
+   film: laws, oil, wedge, limits of the film. The relative tolerance of its film is at least
+   1e-3. */
 ff_status ehl_grid_level_create(ehl_grid_level *l, const ehl_solver *s, size_t cells,
                                 double modulus);
 void ehl_grid_level_destroy(ehl_grid_level *l);
@@ -36,7 +37,7 @@ ff_status ehl_grid_level_solve(ehl_grid_level *l, const ehl_grid_level *before,
                                double thinnest);
 
 /* Fills `film` with the steady film on half the cells of `s`, by nested grids. Returns FF_NOCONV if
-   the grid is coarse itself, or if no coarser grid has a solution. */
+   the grid is already coarse, or if no coarser grid has a solution. */
 ff_status ehl_nested_film(ehl_solver *s, const ehl_step *step, const ehl_instant *at,
                           double modulus, double thinnest, ehl_film *film);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Compiled with -ffast-math, which reorders sums of products and ignores NaN. Nothing here may
-   therefore test for NaN. */
+/* This file is compiled with -ffast-math, which reorders sums of products and ignores NaN. It must
+   therefore not test for NaN. */
 #include "line.h"
 
 #include <stdlib.h>
@@ -15,13 +15,13 @@ struct ehl_line_matrix {
     double *cut;     /* the shifted kernel at -(reach + margin) ... reach + margin */
     double *matrix;  /* row i: columns i - lower ... */
     double *inverse; /* inverse pivots */
-    double *carries; /* 1: the unknown is a pressure and causes deflection; 0: it is not */
+    double *carries; /* 1: the unknown is a pressure and causes deflection; 0: it causes none */
     double *border;  /* matrix^-1 times the effect of h00 */
     double border_sum;
 };
 
 enum { LEAST = 8, MOST = 64, SHARE = 16, AFTER = EHL_STENCIL - 1 - EHL_ASYMMETRIC_BEFORE };
-/* Number of zeros on either side of `cut`. The stencil of a row reaches this far beyond `reach`. */
+/* Number of zeros on either side of `cut`: the stencil of a row extends this far beyond `reach`. */
 enum { MARGIN = EHL_STENCIL };
 
 static size_t reach_of(size_t nodes)
@@ -93,7 +93,7 @@ static void fill_line(ehl_line_matrix *m, const ehl_reynolds *r, const ehl_film 
     }
 }
 
-/* Factorises without pivoting, since the diagonal is large. */
+/* Factorises without pivoting, which is possible since the diagonal is large. */
 static void eliminate_line(ehl_line_matrix *m)
 {
     size_t lower = m->lower, upper = m->width - 1 - lower;
@@ -149,7 +149,7 @@ void ehl_line_solve(ehl_line_matrix *m, const double *residual, double sum, doub
                     double *dh00)
 {
     double *x = dp + 1, total = 0,
-           h00_change; /* lift: change of all nodes that replaces the shift of the kernel */
+           h00_change; /* lift: uniform change of the film that replaces the shift of the kernel */
     memset(dp, 0, m->nodes * sizeof *dp);
     memcpy(x, residual + 1, m->rows * sizeof *x);
     substitute_line(m, x);

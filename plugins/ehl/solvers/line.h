@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The semi-system matrix of a line of nodes: derivatives of each balance with respect to the
-   pressures of nearby nodes. These pressures act through the pressure flow and, through their
-   deflection, on the film. The deflection by distant nodes is not included. The kernel is shifted
-   so that it ends in 0 after the last included node; the border of load and h00 represents the
-   shift exactly. */
+   pressures of nearby nodes. These pressures act through the pressure flow and through the
+   deflection of the film. The deflection by distant nodes is not included. The kernel is shifted so
+   that it ends in 0 after the last included node; the border of the matrix, for load and h00,
+   represents the shift exactly. */
 #ifndef EHL_LINE_H
 #define EHL_LINE_H
 

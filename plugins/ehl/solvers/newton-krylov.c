@@ -63,7 +63,8 @@ static void measure_step(const ehl_solver *s, const ehl_film *film, double dh00,
         double a = yields ? 0 : fabs(w->linear.p_step[i]), b = fabs(change) / r->thick[i];
         if (ehl_is_cavitated(r, film, i)) {
             double oil = r->unit * w->linear.p_step[i];
-            if (i + 2 == r->nodes) /* from the end no oil leaves that is not there (take_step) */
+            if (i + 2 == r->nodes) /* at the last node no oil can leave that is not there
+                                      (take_step) */
                 oil = fmax(oil, -film->content[i]);
             b = fabs(oil) / (r->oil.density * r->thick[i]);
             a = 0;
@@ -95,8 +96,8 @@ static int rescale_to_load(ehl_solver *s, const ehl_step *step, ehl_film *film)
                                               : ehl_rescale_to_load(s, step, film);
 }
 
-/* Returns 1 if the first Newton steps are not representative of the last ones: a steady film starts
-   far from its solution, and a light load hardly affects the pressure. */
+/* Returns 1 if the first Newton steps do not represent the last steps: a steady film starts far
+   from its solution, and under a light load the film hardly affects the pressure. */
 static int is_far(const ehl_solver *s, const ehl_step *step)
 {
     const newton *w = s->self;
@@ -127,8 +128,8 @@ static ff_status newton_step(ehl_solver *s, const ehl_step *step, ehl_film *film
         ehl_statistical_rows(r, film);
     if (ehl_linear_solve(s, step, film, dh00) != FF_OK)
         return FF_NOCONV;
-    s->counters.newton += w->linear.krylov > 0; /* no iterations: the residual was already small
-                                                   enough, and no step is needed */
+    s->counters.newton += w->linear.krylov > 0; /* without iterations the residual was already small
+                                                   enough, and no step was needed */
     measure_step(s, film, *dh00, dp, dh);
     return isfinite(*dp) && isfinite(*dh) && isfinite(*dh00) ? FF_OK : FF_NOCONV;
 }
@@ -146,8 +147,8 @@ static void take_step(const ehl_solver *s, ehl_film *film, double share, double 
     film->h00 += share * dh00;
 }
 
-/* Damping of the Newton steps. A node may alternate between contact and film. While the steps do
-   not shrink, a smaller share of each step is taken, which ends the alternation. */
+/* Damping of the Newton steps. A node may alternate between contact and film. As long as the steps
+   do not shrink, a smaller share of each step is taken; this ends the alternation. */
 typedef struct damping {
     double share;        /* share of a Newton step that is taken */
     double last, before; /* sizes of the last step and of the previous one, Pa */
@@ -164,13 +165,14 @@ static double damped_share(damping *d, int k, double size)
     return d->share;
 }
 
-/* Relative change of the traction if the end of the film moves by one node after the last step. */
+/* Relative change of the traction if the end of the film still moves by one node after the last
+   step. */
 static const double END_OF_FILM = 2e-5;
 
 /* Returns whether the error after a step is small enough. dp and dh are the relative changes of
    pressure and film in the step. If the ends of the film did not move, the error is predicted. If
-   they moved or are not yet found, or if the flanks are rough and contacts may change in the next
-   step, the step itself must be small. */
+   the ends moved or are not yet found, or if the flanks are rough and contacts may change in the
+   next step, the step itself must be small. */
 static int is_small(const ehl_solver *s, double dp, double dh)
 {
     const newton *w = s->self;
@@ -181,13 +183,15 @@ static int is_small(const ehl_solver *s, double dp, double dh)
     return small && (whole || ehl_linear_balances(s));
 }
 
-/* The last Newton step of a smooth film whose ends did not move. The next step learns from it. */
+/* The last Newton step of a smooth film whose ends did not move; the error that a step leaves is
+   estimated from it and the next step. */
 typedef struct judged {
     double size, reached; /* size: relative change of the pressure, 0: none; reached: remaining
                              share of the residual */
 } judged;
 
-/* Learns from the previous step how much error a step leaves, and stores the current step. */
+/* Adapts the estimate of the error that a step leaves from the previous step, and stores the
+   current step. */
 static void learn(ehl_solver *s, const ehl_step *step, judged *last, double size, int whole)
 {
     const newton *w = s->self;

@@ -8,13 +8,13 @@
 #include <math.h>
 #include <string.h>
 
-/* The factors are renewed if a solution takes this many more iterations than right after the last
-   factorisation. */
+/* The factors are renewed if a solution takes this many iterations more than the first solution
+   after the last factorisation. */
 enum { KRYLOV_STALE = 3 };
 
 /* Factors are outdated from the first row whose diagonal has changed by this share.
-   CAREFUL_STALE_CHANGE applies to steady films, and where the norm of the pressure contains little
-   information about the film; all factors are then renewed. */
+   CAREFUL_STALE_CHANGE applies to steady films, and if the norm of the pressure contains little
+   information about the film; in these cases all factors are renewed. */
 static const double STALE_CHANGE = 0.5, CAREFUL_STALE_CHANGE = 0.3;
 
 /* Writes the diagonal of rows 1 ... last - 1. Returns whether a full node before row `from` has
@@ -36,9 +36,9 @@ static int64_t compare_diagonal(size_t last, size_t from, double self, double st
 }
 
 /* Writes to `product` the diagonal of the matrix that the preconditioner approximates. Returns the
-   first node, upstream of node `from`, where the diagonal has changed too much since its last
-   factorisation, or `from` if there is none. With outdated factors the preconditioned residual says
-   little about the remaining error. */
+   first node upstream of node `from` at which the diagonal has changed too much since its last
+   factorisation, or `from` if there is none. With outdated factors the preconditioned residual is
+   no measure of the remaining error. */
 static size_t first_drifted(const ehl_solver *s, const ehl_film *film, size_t from, double stale)
 {
     ehl_linear *w = s->self;
@@ -79,7 +79,7 @@ static size_t first_outdated_row(const ehl_solver *s, const ehl_step *step)
         i = held;
     while (i < held && w->kind[i] == w->factored_kind[i])
         i++;
-    /* the column of a cavitated node belongs to a mass, and rows upstream of it contain that
+    /* the column of a cavitated node belongs to a mass, and rows upstream of the node contain this
        column */
     size_t reached = s->reynolds->conserving && i < last ? EHL_BAND_REACH : 0;
     return i > reached ? i - reached : 1;

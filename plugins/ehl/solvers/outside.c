@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Solves one instant with the discretisation of another stage (film.h), in place of a solver of
-   this plugin. */
+/* Solves one instant with the discretisation of another stage (film.h), instead of a solver of this
+   plugin. */
 #include "../equations/deflection.h"
 #include "../equations/solver.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* The march fails after MOST_FAILURES instants without a film, if they are more than
-   1/FAILING_SHARE of all instants. Otherwise steps would be cut endlessly. */
+/* The march fails after MOST_FAILURES instants without a film, if these are more than
+   1/FAILING_SHARE of all instants. Without this limit steps would be shortened endlessly. */
 enum { MOST_FAILURES = 200, FAILING_SHARE = 5 };
 
 typedef struct outside {
     ehl_fft *fft;
     ff_film_contact contact;
     void *solver;
-    size_t asked, failed; /* numbers of instants */
+    size_t asked, failed; /* numbers of instants requested, and without a film */
 } outside;
 
 static void deflect(ehl_solver *s, const double *p, double *v)
@@ -37,7 +37,7 @@ static void destroy(ehl_solver *s)
     s->self = NULL;
 }
 
-/* Returns 1 if the film consists of finite numbers and is at 0 Pa at its ends. */
+/* Returns 1 if the film consists of finite numbers and its pressure is 0 at both ends. */
 static int is_film(const ff_film_state *film, size_t nodes)
 {
     double sum = film->h00;
@@ -84,8 +84,7 @@ static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int 
         return FF_NOCONV;
     film->h00 = state.h00;
     film->full[0] = film->full[s->grid->nodes - 1] = 0;
-    ehl_reynolds_evaluate(s->reynolds, step,
-                          film); /* quantities from the last step that the losses need */
+    ehl_reynolds_evaluate(s->reynolds, step, film); /* computes quantities that the losses need */
     return FF_OK;
 }
 

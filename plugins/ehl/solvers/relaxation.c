@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Solves one instant by line relaxation in semi-system form, with the coefficients of the last
-   film. A sweep changes the pressures of the whole line at once. A band matrix acts through the
-   pressure flow, and through wedge and squeeze by the deflection of nearby nodes (Ai 1993; Zhu & Hu
-   2001: where the pressure flow vanishes the wedge keeps the diagonal large). The deflection by all
-   nodes follows by FFT and is used in the next sweep. Anderson acceleration replaces the relaxation
-   factors of these authors. A border of the matrix that keeps the load replaces their search for
-   h00. */
+   film. A sweep changes the pressures of the whole line at once. A band matrix contains the
+   pressure flow, and the effect of the deflection of nearby nodes on wedge and squeeze (Ai 1993;
+   Zhu & Hu 2001: where the pressure flow vanishes the wedge keeps the diagonal large). The
+   deflection by all nodes follows by FFT and is used in the next sweep. Anderson acceleration
+   replaces the relaxation factors of these authors. A border of the matrix, the balance of the
+   load, replaces their search for h00. */
 #include "../equations/cavitation.h"
 #include "../equations/deflection.h"
 #include "../equations/reynolds.h"
@@ -17,17 +17,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* SWEEPS: most sweeps with one set of coefficients. The matrix is renewed if it takes STALE_SWEEPS
-   more sweeps than when it was new. */
+/* SWEEPS: largest number of sweeps with one set of coefficients. The matrix is renewed if a
+   solution takes STALE_SWEEPS sweeps more than the first solution with this matrix. */
 enum { SWEEPS = 60, STALE_SWEEPS = 2 };
 
-/* Most consecutive alternations of the film boundary between two nodes. The second-order flow at a
-   node depends on two nodes upstream, with the wrong sign, so that the balances behind the pressure
-   maximum are not those of an M-matrix. In some places no film boundary is consistent: the last
-   full node must not have p < 0, and the cavitated node downstream must not gain mass. After
-   MOST_FLIPS alternations the boundary stays at the first node. The mass that the other node gains
-   is reported in the quality line `complementarity`. The first-order flow always has a consistent
-   boundary. */
+/* Largest number of consecutive alternations of the film boundary between two nodes. In the
+   second-order flow at a node, the second node has a coefficient of the wrong sign, so the balances
+   behind the pressure maximum do not form an M-matrix. At some nodes no film boundary is then
+   consistent: the last full node must not have p < 0, and the cavitated node downstream must not
+   gain mass. After MOST_FLIPS alternations the boundary stays at the first of the two nodes. The
+   mass that the other node gains is reported in the quality line `complementarity`. The first-order
+   flow always has a consistent boundary. */
 enum { MOST_FLIPS = 4 };
 
 typedef struct relaxation {
@@ -40,9 +40,9 @@ typedef struct relaxation {
     double *sweep, *change, *pressure, *deflection, *total;
     double *p_step, *v_step, *h_step;
     double missing;           /* missing load over dx */
-    int whole;                /* 1: the last sweeps converged */
+    int whole;                /* 1: the sweeps of the last solution converged */
     int sweeps, sweeps_fresh; /* number of sweeps of the last solution, and with a new matrix */
-    unsigned char *made_full; /* film boundary for which the matrix was made */
+    unsigned char *made_full; /* states of the nodes for which the matrix was made */
     int made, made_loaded;
     int flips;              /* consecutive alternations of the film boundary in this solution */
     size_t end, end_before; /* last full node after the last two steps */
@@ -71,8 +71,8 @@ static void destroy(ehl_solver *s)
     s->self = NULL;
 }
 
-/* Returns the weight of h00 relative to pressures, Pa/m: a pressure over the whole contact, divided
-   by its deflection. */
+/* Returns the weight of h00 relative to pressures, Pa/m: a uniform pressure on the whole contact
+   divided by its deflection. */
 static double h00_weight(const ehl_solver *s)
 {
     const ehl_grid *g = s->grid;
@@ -195,7 +195,7 @@ static ff_status linear_step(ehl_solver *s, const ehl_step *step, ehl_film *film
     return FF_OK;
 }
 
-/* Finds the largest change of the pressure, and of the film relative to itself. */
+/* The largest change of the pressure, and the largest relative change of the film. */
 typedef struct size {
     double dp, dh;
 } size;

@@ -162,8 +162,8 @@ def refusals():
     for what, hint, text in (
             ("no backlash", "without backlash", run("teeth: [27, 52], module: 2 mm, backlash: 0 mm", duty, forces)),
             ("index deviations", "without index deviations", run(FIRST + ", pitch_error: [2 um, 1 um]", duty, forces)),
-            ("a standard", "take stiffness/load-distribution", run(FIRST, duty, forces, mesh="iso-6336")),
-            ("a series", "take dynamics/shooting", run(FIRST, duty, forces, "harmonic-balance")),
+            ("a standard", "use stiffness/load-distribution", run(FIRST, duty, forces, mesh="iso-6336")),
+            ("a series", "use dynamics/shooting", run(FIRST, duty, forces, "harmonic-balance")),
             ("oil", "without oil in the gap", run(FIRST, duty, forces, "shooting, squeeze: series")),
             ("the loaded error", "does not offer", run(FIRST, duty, forces, "quasi-static")),
             ("the efficiency of back flanks", "these flanks do not carry the mean load", run(FIRST, duty, ["back_losses.efficiency"])),

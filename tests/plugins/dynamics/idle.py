@@ -166,8 +166,8 @@ def both_signs():
         check(f"{motion}: its mean is the line force", mean, 4 / BASE[0], 1e-5)
         teeth = flat(found["motion.tooth_force"])
         report(len(teeth) % 27 == 0 and min(teeth) < -0.5 * max(teeth), f"{motion}: tooth forces of 27 pairs, {min(teeth):.0f} to {max(teeth):.0f} N, below 0 on the back flanks")
-    report("take dynamics/shooting" in swing(duty, "harmonic-balance"), "a series of the mesh cycle is refused")
-    report("take dynamics/shooting" in swing(duty, "quasi-static", mass=""), "and the loaded error")
+    report("use dynamics/shooting" in swing(duty, "harmonic-balance"), "a series of the mesh cycle is refused")
+    report("use dynamics/shooting" in swing(duty, "quasi-static", mass=""), "and the loaded error")
 
 
 def folds():
