@@ -139,6 +139,12 @@ expect 4 ". 2 converged" "$flankfilm" run notes.yaml -o notes
 says ".'!'"
 says "' 4 with a note"
 says '2: 1 motions swing'
+# a twin, which has cells, computes no output of a condition
+python3 - <<'END'
+import csv
+rows = list(csv.DictReader(open("notes/table.csv")))
+assert {bool(row["verge.cells"]): row["verge.swing [1]"] != "" for row in rows} == {False: True, True: False}, rows
+END
 says '2: 2.5 fast'
 verdict notes 1 0.4 converged
 verdict notes 1 2.5 converged

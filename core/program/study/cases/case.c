@@ -142,7 +142,7 @@ void study_case_open(study_case *c, const study_run *run, size_t index, study_ke
     c->report = ff_run_report(c->run);
     uint64_t fingerprint = hash_assignments(study, index);
     if (study_case_is_good(c)) {
-        study_measure_want(study, c->pipeline);
+        study_measure_want(study, index, c->pipeline);
         if (accuracy_is_requested(c->run))
             accuracy_want_beside(c->pipeline, true);
         c->fingerprints = memory_alloc(c->pipeline->count * sizeof *c->fingerprints);

@@ -122,7 +122,7 @@ uint64_t study_measure_fingerprint(uint64_t fingerprint, size_t repeat);
 /* Binds this process to the core on which it runs. */
 void study_measure_pin(void);
 /* Makes stages compute the outputs that are to be measured. */
-void study_measure_want(const study_definition *study, const ff_pipeline *pipeline);
+void study_measure_want(const study_definition *study, size_t index, const ff_pipeline *pipeline);
 /* Returns, for each stage, whether it is evaluated in every case. To be freed. */
 bool *study_measure_fresh(const study_measure *measure, const ff_pipeline *pipeline);
 /* Adds the measured costs and axes to the record. */

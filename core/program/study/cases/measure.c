@@ -47,8 +47,18 @@ static bool may_be_axis(const study_measure *m, const ff_port *row, const ff_por
                      : accuracy_may_be_axis(row, of));
 }
 
-void study_measure_want(const study_definition *study, const ff_pipeline *pipeline)
+/* True if the case assigns a parameter that only twins assign. */
+static bool is_twin(const study_definition *study, size_t index)
 {
+    bool twin = false;
+    for (size_t k = study->varied_count - study->refined_count; k < study->varied_count; k++)
+        twin = twin || *study_assignment(study, k, index);
+    return twin;
+}
+
+void study_measure_want(const study_definition *study, size_t index, const ff_pipeline *pipeline)
+{
+    const size_t extra_count = is_twin(study, index) ? 0 : study->extra_count;
     const study_measure *m = study->measure;
     const ff_stage *stage;
     for (size_t i = 0; m && i < m->request->count; i++) {
@@ -57,7 +67,7 @@ void study_measure_want(const study_definition *study, const ff_pipeline *pipeli
             if (may_be_axis(m, stage->results[k].row, self->row))
                 stage->results[k].wanted = true;
     }
-    for (size_t i = 0; i < study->extra_count; i++) {
+    for (size_t i = 0; i < extra_count; i++) {
         ff_result *result = find_result(pipeline, study->extras[i], &stage);
         if (result) {
             result->wanted = true;

@@ -63,7 +63,8 @@ typedef struct study_definition {
     double memory_limit;    /* memory limit of a worker, bytes; 0: its share of the machine's
                                memory */
     const ff_node *request; /* list of outputs in place of the file's; NULL: the file's */
-    /* other results to record, "stage.name", in the cases that have them */
+    size_t refined_count;   /* number of the last paths, which only twins assign */
+    /* other results to record, "stage.name", in the cases that have them and are no twins */
     const char *const *extras;
     size_t extra_count;
     const study_measure *measure; /* NULL if nothing is measured */

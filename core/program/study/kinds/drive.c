@@ -79,6 +79,8 @@ static void lay_out_planned(study_context *context, study_definition *study)
     study->measure = context->list.measure = context->measure;
     study->varied = grid ? grid->varied : context->list.varied;
     study->varied_count = grid ? grid->varied_count : context->list.varied_count;
+    study->refined_count = grid ? 0 : context->refined_count;
+    context->list.refined_count = context->refined_count;
     study->count = context->planned;
     study->axis_count = study->followed = study->direction = grid ? grid->axis_count : 1;
     study->points = grid ? grid->points : memory_arena_alloc(&study->arena, sizeof *study->points);

@@ -85,6 +85,7 @@ typedef struct study_context {
                             none */
     const char *const *paths; /* paths that cases assign: the columns of table.csv */
     size_t path_count;
+    size_t refined_count; /* number of the last paths, which only twins assign */
     /* a study whose cases come first; NULL if the first cases form a plain list */
     const study_definition *grid;
     const ff_node *const *outputs; /* "film.h_min": these replace the file's outputs */

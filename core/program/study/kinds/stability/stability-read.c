@@ -220,6 +220,7 @@ static void set_columns(const study_map *map)
             paths[context->path_count++] = map->knobs[k];
     }
     context->paths = paths;
+    context->refined_count = context->path_count - map->axis_count;
 }
 
 void *study_map_read(study_context *context, const study_key_value *values)
