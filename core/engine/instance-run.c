@@ -204,7 +204,7 @@ static bool refuse_result(fe_request *q)
                                                      : "the last run did not request it");
 }
 
-/* Explains why a call gives no result. It changes nothing in the instance except its messages. */
+/* Explains why a call gives no result, and changes only the messages of the instance. */
 static ff_status refuse(const ff_instance *i, bool (*work)(fe_request *q), const char *name)
 {
     return fe_handle(

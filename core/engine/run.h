@@ -36,7 +36,7 @@ typedef struct fe_run_request {
     bool done; /* result of the call */
 } fe_run_request;
 
-/* Makes the call. It starts with no messages. */
+/* Makes the call, which starts with no messages. */
 ff_status fe_run_call(fe_run_request *call);
 
 #endif

@@ -65,8 +65,8 @@ static bool check_input(const ff_pipeline *pipeline, const ff_stage *stage, size
                     stage->name, wire->name, why);
 }
 
-/* Takes the array of a feedback wire from the round before. If its lengths do not agree with those
-   of the other wires, the array is left out, with an error that counts in the last round only. */
+/* Takes the array of a feedback wire from the round before. If its lengths contradict the lengths
+   on other wires, the array is left out, with an error that counts only in the last round. */
 static void take_fed_back(const ff_pipeline *pipeline, const ff_stage *stage, size_t input,
                           fe_lengths *all, ff_array *in, ff_report *report)
 {

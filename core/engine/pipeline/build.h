@@ -114,7 +114,7 @@ fe_setting fe_find_setting(const ff_stage *stage, const char *model, const char 
 /* ports.c */
 const char *fe_output_name(const ff_port *input); /* name of the output it takes: "teeth" */
 const ff_wire *fe_input_wire(const ff_stage *stage, size_t input);
-/* whether a wire that closes a loop feeds it */
+/* whether a wire that closes a loop feeds the input */
 bool fe_is_fed_back(const ff_stage *stage, size_t input);
 /* Returns the output or service of `from` that an input row takes, or -1. */
 int fe_find_offer(const ff_loaded *from, const ff_port *input);
@@ -148,7 +148,7 @@ bool fe_plugin_fault(const ff_stage *stage, ff_report *report, const char *what)
    Returns false. */
 bool fe_shared_fault(const ff_stage *stage, ff_report *report, const char *what);
 
-/* A log line of a stage in a loop. It is passed to the observer after the last round. */
+/* A log line of a stage in a loop, to be passed to the observer after the last round. */
 typedef struct fe_log_line {
     int level;
     char text[512];
@@ -275,7 +275,7 @@ bool fe_check_quality(const ff_stage *stage, ff_report *report);
 bool fe_run_loop(ff_pipeline *pipeline, const ff_loop *loop, const ff_observer *watch,
                  ff_report *report);
 
-/* state.c: restores the chain state before evaluate, and saves it after. Outside a chain they do
+/* state.c: restores the chain state before evaluate, and saves it after. Outside a chain both do
    nothing. False after an error. */
 bool fe_restore_state(const ff_pipeline *pipeline, ff_stage *stage, ff_report *report);
 bool fe_save_state(const ff_pipeline *pipeline, ff_stage *stage, ff_report *report);

@@ -325,7 +325,7 @@ void fe_forget_servings(fe_instance *instance)
     instance->serving_count = 0;
 }
 
-/* False if the machine's memory cannot hold so many numbers; the shape must then be wrong. */
+/* False if the array would exceed the machine's memory; its shape must then be wrong. */
 static bool has_room(uint32_t rank, const size_t *shape)
 {
     const double surely = 1e6; /* this many certainly fit */

@@ -20,7 +20,7 @@ bool fe_is_name(const char *text, size_t length);
  * NULL, or what is wrong. The names in `dims` are without their wires. */
 const char *fe_dims_read(const ff_model *model, const char *text, ff_dims *dims);
 /* Returns the wire to which the i-th dimension of a row belongs: "gear" for "t gear.station"; for
-   an input row without such a prefix, the row's own wire. Length 0: an output's own dimension. The
+   an input row without a prefix, the row's own wire. Length 0: an output's own dimension. The
    length is always 0 for a model older than 1.3, for which equal names mean equal lengths on all
    wires. The text is not NUL-terminated. */
 const char *fe_dim_wire(const ff_model *model, const ff_port *row, uint32_t i, size_t *length);

@@ -41,7 +41,7 @@ typedef struct fe_field {
 
 /* columns-line.c: splits a line into fields. */
 fe_field fe_field_trim(const char *at, const char *end);
-/* Splits a line into fields. Those beyond FE_MOST_FIELDS are counted but not stored. */
+/* Splits a line into fields. Fields beyond FE_MOST_FIELDS are counted but not stored. */
 size_t fe_line_split(fe_field line, char separator, fe_field fields[FE_MOST_FIELDS]);
 /* False, with an error, if a field begins with a quote that is not closed. */
 bool fe_line_is_closed(const fe_column_reader *reader, size_t count, const fe_field *fields);

@@ -11,8 +11,8 @@ enum { LEAST = 128, MOST = 512, MULTIPLE = 8 };
 /* The content of the zones, a value that no model would write. */
 static const double canary = -7.6543210987e-123;
 
-/* Returns the length of a zone. It grows with the array, so that a write one row beyond the array
-   is still inside the zone. */
+/* Returns the length of a zone, which grows with the array, so that a write one row beyond the
+ * array is still inside the zone. */
 static size_t zone_of(size_t count)
 {
     size_t zone = count < LEAST ? LEAST : count > MOST ? MOST : count;

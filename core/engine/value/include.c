@@ -82,7 +82,8 @@ static char *shipped(const char *path)
     return found;
 }
 
-/* Returns the example whose name is nearest to that of a path; NULL: none. The caller frees it. */
+/* Returns the example whose name is nearest to the file name in the path; NULL: none. The caller
+ * frees it. */
 static char *near_example(const char *path)
 {
     const char *slash = strrchr(path, '/'), *word = slash ? slash + 1 : path;

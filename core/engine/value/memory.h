@@ -13,8 +13,8 @@
 #include <stdarg.h>
 #include <stddef.h>
 
-/* A resource other than memory that must be closed, such as a parser or a plugin's object. It lies
-   in memory of the heap. */
+/* A resource other than memory that must be closed, such as a parser or a plugin's object. This
+ * struct lies in memory of the heap. */
 typedef struct fe_resource {
     void (*close)(void *object);
     void *object;

@@ -61,8 +61,8 @@ static bool step(walk *w, char *word, ff_place place, bool last)
     return fail(w->report, place, NULL, "the path before this part leads to a value, not to a map");
 }
 
-/* Returns the length of the next word. It ends at a dot, unless the map has a longer key that
-   contains dots, as the paths of a sweep do. */
+/* Returns the length of the next word. A word ends at a dot, unless the map has a longer key that
+ * contains dots, such as a path under `sweep`. */
 static size_t word_length(const walk *w, const char *at, const char *end)
 {
     const ff_node *map = *w->slot;

@@ -25,8 +25,8 @@ fe_tree *fe_tree_load(const char *path, ff_report *report);
 fe_tree *fe_tree_parse(const char *name, const char *directory, const char *text,
                        ff_report *report);
 
-/* Returns a copy of the tree that can be changed independently. It points into the original, which
-   must outlive it. */
+/* Returns a copy of the tree that can be changed independently. The original must outlive the copy,
+ * which points into it. */
 fe_tree *fe_tree_copy(const fe_tree *tree);
 
 /* Applies "a.b.c=value". The value is read as YAML; missing maps on the path are created; ".0" is a

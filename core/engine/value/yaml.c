@@ -180,8 +180,8 @@ static void check_merge(reader *r, const ff_node *item, bool alias, ff_place pla
              "\"<<\" takes aliases of maps only");
 }
 
-/* Merges maps into the map. Their keys replace neither the map's own keys nor those of maps merged
-   earlier. */
+/* Merges maps into the map. The added keys replace neither the map's own keys nor keys of maps
+ * merged earlier. */
 static void merge_maps(reader *r, ff_node *map)
 {
     size_t at = fe_map_find(map, "<<");

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Each cheaper model is judged by how far it moves the answer: the answer with it, all else equal,
- * is compared with the answer without it. The numerical error of the first answer limits what this
- * comparison can tell, so it is added once.
+ * is compared with the answer without it. The comparison is uncertain by the numerical error of the
+ * first answer, so this error is added once.
  */
 #include "choice.h"
 

@@ -9,8 +9,8 @@
 #include <stdlib.h>
 
 /* Errors of a series are relative to its value, or to a tenth of its largest value where the value
-   is smaller: at a zero, such as that of a friction which changes its sign, a relative error has no
-   meaning. */
+   is smaller: where a value passes through zero, such as a friction that changes its sign, a
+   relative error has no meaning. */
 void accuracy_error_scales(const accuracy_series *answer, double *scales)
 {
     double most = 0;

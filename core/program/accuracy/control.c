@@ -132,7 +132,7 @@ static void write_progress(const control *c)
         return;
     char *reached = accuracy_print_reached(worst), *goal = accuracy_print_goal(worst);
     snprintf(c->progress, ACCURACY_PROGRESS,
-             "attempt %zu at %.2g times the cost: %zu of %zu goals met, %.40s has %s, goal %s",
+             "attempt %zu at %.2g times the cost: %zu of %zu goals reached, %.40s has %s, goal %s",
              c->attempts + 1, predict_cost(c), count_kept(c, c->best), goals,
              worst->result->row->name, reached, goal);
     free(goal);

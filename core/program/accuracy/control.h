@@ -7,8 +7,8 @@
 
 /*
  * Runs and measures the file, coarse first, and refines the open settings that cause the errors
- * until all goals are met or refinement helps no more. The record holds the answer and refers to
- * the run that gave it. The messages of that run go to the observer and the report. Returns false
+ * until all goals are met or refinement helps no more. The record receives the answer and a
+ * reference to its run. The observer and the report receive the messages of that run. Returns false
  * after an error, or if the observer stopped it.
  */
 bool accuracy_control(accuracy_record *record, const accuracy_scene *scene, ff_report *report);

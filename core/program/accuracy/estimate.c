@@ -17,9 +17,9 @@
 
 /* Roache's factor of safety for three levels. */
 static const double safety = 1.25;
-/* The growth g is limited to that of order 1/2, where the factor on the difference equals Roache's
-   factor for two levels, 3, and that of order 2. A growth below 0 means an error that changes sign:
-   it is taken to fall with order 1/2 to 1. A growth above that of order 4 means that the coarsest
+/* The growth g is limited to the range from order 1/2, where the factor on the difference equals
+   Roache's factor for two levels, 3, to order 2. A growth below 0 means an error that changes sign:
+   it is taken to fall with order 1/2 to 1. A growth of more than order 4 means that the coarsest
    answer is unrelated to the others: no order can be seen. */
 static const double least_growth = 1.4142135623730951, most_growth = 4, unsettled_growth = 2;
 /* Errors fall faster between coarse levels than from the finest on. The difference of the coarser
@@ -31,7 +31,7 @@ static const double most_coarse_growth = 16;
 static const double reach = 0.02;
 
 /* Where a load jumps or contact is lost, a short stretch of a series is off by as much as it moves
-   and converges slowly. The typical error leaves this stretch out: it holds on this share of the
+   and converges slowly. The typical error leaves this stretch out: it applies to this share of the
    length. */
 static const double typical_share = 0.95;
 
@@ -159,9 +159,9 @@ static convergence convergence_of(const accuracy_ladder *l, const bool *typical)
                          growth_of(between(l, b, a, NULL), between(l, c, b, NULL), sign), INFINITY};
 }
 
-/* Difference of the coarser levels at number i: of all settings at once, or the sum over the
-   settings one by one, since the errors of two settings may cancel in this scene but not in the
-   next. */
+/* Difference of the coarser levels in number i: the larger of the difference for all settings at
+ * once and the sum over single settings, since the errors of two settings may cancel in one file
+ * but not in another. */
 static double coarse_difference(const accuracy_ladder *l, size_t i)
 {
     double sum = 0;

@@ -219,7 +219,7 @@ static void measure_output(const accuracy_twins *t, accuracy_error *e)
 }
 
 /* Widens the bar of a number to the bar of the series from which it is picked; the contributions of
- * the settings keep their ratios, and the bar falls no faster than that of the series. */
+   the settings keep their ratios, and the order is at most the order of the series. */
 static void widen(accuracy_error *number, double bar, const accuracy_error *series)
 {
     if (!(bar > number->bar[0] && isfinite(bar)) || number->result->data[0] == 0)

@@ -7,7 +7,7 @@
 
 #include <flankfilm/engine.h>
 
-/* All runs that were made for one answer, in their order: it owns them. Starts zeroed. */
+/* Owns all runs that were made for one answer, in their order. Starts zeroed. */
 typedef struct accuracy_runs {
     struct accuracy_twin **list;
     size_t count;

@@ -2,9 +2,9 @@
 /* Twins of one answer, a ladder of levels: all settings of all stages are one level coarser, or two
  * levels. If twins are run one by one, one of these two is run first, and the other only if it is
  * needed. Otherwise further twins have one setting each a level finer than in the coarser twin,
- * which shows the contribution of that setting. These are cheap: all other settings are coarse, and
- * results of stages upstream are reused. If a coarser twin fails because the answer itself is
- * coarse, a finer one takes its place. */
+ * which shows the contribution of that setting. These further twins are cheap: all other settings
+ * are coarse, and results of stages upstream are reused. If a coarser twin fails because the answer
+ * itself is coarse, a finer one takes its place. */
 #include "twins.h"
 
 #include <math.h>

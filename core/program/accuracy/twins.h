@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Twins of an answer: runs of it with coarser or finer settings, from which its errors are
- * estimated. They are taken from earlier runs, or run here. */
+/* Twins of an answer: runs with coarser or finer settings, from which the errors of the answer are
+ * estimated. A twin is an earlier run, or is run here. */
 #ifndef ACCURACY_TWINS_H
 #define ACCURACY_TWINS_H
 

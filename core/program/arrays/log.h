@@ -1,16 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * A log of arrays, to which one process appends. It begins with 64 bytes of text; then come
- * records, each of a multiple of 8 bytes, all numbers little-endian:
- *      0  length of the record, 8 bytes
- *      8  key of the case, filled with zeros to 24 bytes
- *     32  offset of the array in the record, 8 bytes
- *     40  name of the output, which ends with one to eight zeros
- *         the array in the format of a .npy file
- *         CRC-32 of the record up to here, and four zeros
- * A process that continues a log first cuts off an incomplete record, which a killed process may
- * have left. The file system must support appending by one process and fdatasync. Locks and shared
- * mappings are not needed.
+ * A log of arrays, to which one process appends. A log begins with 64 bytes of text; then come
+ * records, each of a multiple of 8 bytes, all numbers little-endian: 0  length of the record, 8
+ * bytes 8  key of the case, filled with zeros to 24 bytes 32  offset of the array in the record, 8
+ * bytes 40  name of the output, which ends with one to eight zeros the array in the format of a
+ * .npy file CRC-32 of the record up to here, and four zeros A process that continues a log first
+ * cuts off an incomplete record, which a killed process may have left. The file system must support
+ * appending by one process and fdatasync. Locks and shared mappings are not needed.
  */
 #ifndef ARRAYS_LOG_H
 #define ARRAYS_LOG_H

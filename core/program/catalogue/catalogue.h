@@ -32,8 +32,8 @@ void catalogue_add(catalogue *c, const char *id, const ff_loaded *loaded, const 
 void catalogue_free(catalogue *c);
 
 /* Print to stdout (the schema to `out`). Each function has its own file. With `page` the only entry
-   is printed in full, otherwise all are listed. `version` is that of the program. `commit` is that
-   of its sources, or "" if it is not known. */
+   is printed in full, otherwise all are listed. `version` is the version of the program; `commit`
+   is the commit of its sources, or "" if unknown. */
 void catalogue_print_text(const catalogue *c, bool page);
 void catalogue_print_markdown(const catalogue *c, bool page);
 void catalogue_print_json(const catalogue *c, bool page, const char *version);

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Prints the reference pages of models in Markdown. They are generated from the models' tables
-   alone. */
+/* Prints the reference pages of models in Markdown, only from the models' tables. */
 #include "catalogue.h"
 
 #include <string.h>

@@ -25,8 +25,7 @@ static char *path_beside(const char *name)
     return memory_print_text("%.*s/%s", slash ? (int)(slash - own) : 0, own, name);
 }
 
-/* Reads what a descriptor gives until its end, and keeps the beginning without the last line
- * break. */
+/* Reads from a descriptor until its end, and keeps the beginning, without the last line break. */
 static void read_output(int from, char output[MOST_OUTPUT])
 {
     size_t used = 0;

@@ -139,8 +139,9 @@ static void print_stage(const json_t *stage)
 {
     const char *name;
     json_t *entry;
-    printf("\n%s: %s, because %s\n", text_of(stage, "stage"), text_of(stage, "model"),
-           text_of(stage, "why"));
+    const char *why = text_of(stage, "why");
+    printf("\n%s: %s, because %s%s\n", text_of(stage, "stage"), text_of(stage, "model"),
+           strncmp(why, "feeds ", strlen("feeds ")) ? "" : "it ", why);
     if (json_object_get(stage, "choice"))
         print_choice(json_object_get(stage, "choice"));
     json_object_foreach(json_object_get(stage, "wires"), name, entry)

@@ -24,10 +24,9 @@ static const cli_command commands[] = {
      "file, and writes result.json and a .npy file for each array. Earlier results of the same\n"
      "file are replaced, and files derived from them, such as the page, are removed. Results of\n"
      "another file are kept unless --replace is given; a directory with anything else in it is\n"
-     "refused. With --json, results are written only if -o is given. A file with \"study\" has "
-     "many cases. Each case is\n"
-     "saved when it ends; after an interruption the same command continues. table.csv has a row\n"
-     "for each case.\n",
+     "refused. With --json, results are written only if -o is given. A file with \"study\" has\n"
+     "many cases. Each case is saved when it ends; after an interruption the same command\n"
+     "continues. table.csv has a row for each case.\n",
      cli_run},
     {"plan", "FILE", "show what running a study would do",
      "Shows what is varied, how many cases are done, and how long the others will take.\n",

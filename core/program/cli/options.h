@@ -52,7 +52,7 @@ const char *cli_option(const cli_options *options, const char *name);
 /* Returns all arguments of an option that may be repeated. */
 cli_words cli_option_words(const cli_options *options, const char *name);
 
-/* Prints "usage: flankfilm", the command, its operands and its options; NULL: those of the
+/* Prints "usage: flankfilm", the command, its operands and its options; NULL: the usage of the
  * program. */
 void cli_print_usage(const cli_command *command, FILE *out);
 /* Prints a line for each option of the command. */

@@ -72,7 +72,7 @@ static void print_shape(const ff_stage *stage, size_t output, char *out, size_t 
                                result->dims[i]);
 }
 
-/* Prints the values of both gears, "[0.35, -0.1]". They are not a series. */
+/* Prints the values of both gears, which are not a series, as "[0.35, -0.1]". */
 static bool print_pair(const ff_result *result, char *out, size_t size)
 {
     if (result->rank != 1 || result->count != 2)

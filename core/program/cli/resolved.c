@@ -92,8 +92,8 @@ static const ff_node *as_written(const ff_stage *stage, const ff_node *node, con
     return of_choice && stage && accuracy_open_use(stage) && node->replaced ? node->replaced : node;
 }
 
-/* Prints a value. It becomes a comment if a later layer or another parameter of its group has
- * replaced it, or if it is an empty value that takes another one away. */
+/* Prints a value. The line becomes a comment if a later layer or another parameter of the group has
+ * replaced the value, or if the value is empty and removes an earlier one. */
 static void print_leaf(const ff_stage *stage, const ff_node *node, const char *key,
                        const char *path, int indent)
 {
@@ -105,7 +105,7 @@ static void print_leaf(const ff_stage *stage, const ff_node *node, const char *k
     char origin[512], *text = print_value(bound, node, path);
     ff_bound_origin(&(ff_bound){.place = node->place}, origin, sizeof origin);
     char *note = memory_print_text("%s%s", origin,
-                                   away       ? ", taken away"
+                                   away       ? ", removed"
                                    : replaced ? ", replaced by a later value"
                                               : "");
     print_line(indent, replaced, key, text, note);

@@ -52,7 +52,7 @@ static void print_place(const place *to)
         printf("the earlier results in %s are kept\n", to->directory);
 }
 
-/* Adds as warnings to the answer what print_place prints for people. */
+/* Adds the messages of print_place to the JSON answer, as warnings. */
 static void warn_of_replaced(const place *to, ff_report *report)
 {
     if (to->written && to->replaced && *to->replaced)

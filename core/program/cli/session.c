@@ -116,7 +116,8 @@ static void try_case(cli_session *session, const cli_options *options, size_t in
     ff_run *run = cli_session_try(session, options, index, severity == FF_ERROR);
     if (!study_case_is_refused(
             session->study,
-            ff_run_report(run))) /* otherwise the answer says how much time is affected */
+            ff_run_report(
+                run))) /* otherwise the answer states the share of the time that is affected */
         copy_messages(session, run, severity);
     ff_run_close(run);
 }

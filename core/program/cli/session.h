@@ -16,8 +16,8 @@ typedef struct cli_session {
     ff_report *report;
     ff_engine *engine;
     ff_run *run;
-    ff_pipeline *pipeline; /* the pipeline of the run, for a study that of its example case; may be
-                            * NULL after errors */
+    ff_pipeline *pipeline;   /* the pipeline of the run; for a study, the pipeline of its example
+                                case; may be NULL after errors */
     study_definition *study; /* NULL: a single case */
     size_t first;            /* the number of the example case */
     size_t tried; /* number of complete cases that a check has tried; 0: only single values were

@@ -271,8 +271,7 @@ static bool is_missed(const accuracy_error *e)
     return !isnan(e->goal) && !(e->reached <= e->goal);
 }
 
-/* Prints for one output: the error, the error that the file allows, and what the error comes
- * from. */
+/* Prints for one output the measured error, the goal of the file, and the sources of the error. */
 static void print_error_row(const paper *page, const accuracy_error *e, int width)
 {
     char *error = accuracy_print_reached(e), *rest = accuracy_describe(e);
@@ -346,7 +345,7 @@ static void print_errors(paper *page, const results_outcome *outcome)
     if (errors->count > 0) {
         start_line(page);
         printf("  %-*s  %-*s%s\n", width, "output", asked ? ERROR : 0, "error",
-               asked ? "asked" : "");
+               asked ? "goal" : "");
     } else if (asked) {
         start_line(page);
         puts("  no error is measured: no requested output is a scalar or a series of finite "

@@ -31,7 +31,8 @@ const ff_guard_mark *crash_stack_blame_caller(const crash_stack *stack,
    Returns NULL if no library did. */
 const char *crash_stack_library(const crash_stack *stack, const ff_guard_mark *running);
 
-/* Does the same as crash_stack_blame for one address. */
+/* Returns the plugin to which an address belongs, among those of crash_stack_blame. NULL if there
+ * is none. */
 const ff_guard_mark *crash_address_blame(const void *address, const ff_guard_mark *running);
 
 #endif

@@ -156,8 +156,8 @@ static bool is_trap(int number, const siginfo_t *info)
 
 /* Returns the plugin at fault as far as it can be determined, or NULL if any of those involved may
    be it. The stack is read only if a function that ends the program was called, since after a fault
-   it may be overwritten. A fault in the code of a stage may be caused by data that a plugin serving
-   it has written. */
+   it may be overwritten. A fault in the code of a stage may also be caused by a service that has
+   overwritten its data. */
 static const ff_guard_mark *culprit(const ff_guard_mark *running, int number, const void *context)
 {
     crash_stack stack;

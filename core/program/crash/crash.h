@@ -9,7 +9,7 @@
 /* Installs the handlers, once, at the start of the working process. */
 void crash_install(void);
 
-/* Ends the process after requests for that much memory were refused repeatedly. */
+/* Ends the process, since the system has repeatedly refused it `bytes` of memory. */
 _Noreturn void crash_starve(unsigned long long bytes);
 
 #endif

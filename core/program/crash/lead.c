@@ -216,8 +216,8 @@ static bool stays_stopped(void)
 }
 
 /* Waits for the child and returns its status. If a plugin has stopped the child, the child is
-   killed, and the status of the stop is returned. If the status is lost, returns the code that the
-   child left in shared memory, or that of a failed run. */
+   killed, and the status of the stop is returned. If the status is lost, returns the exit code that
+   the child left in shared memory, or FF_FAULT_RUN. */
 static int wait_for_child(void)
 {
     assert(child > 0 && words);

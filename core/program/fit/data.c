@@ -209,8 +209,8 @@ void fit_range(const fit *f, size_t column, double *low, double *high)
     }
 }
 
-/* Reads a quantity of --at into the column with its dimension. It must be inside the range of the
-   data. */
+/* Reads a quantity of --at, which must be inside the range of the data, into the column with its
+ * dimension. */
 static bool set_condition(fit *f, const char *text)
 {
     char why[300] = "";

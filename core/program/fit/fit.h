@@ -13,7 +13,7 @@
 /* The columns of the data. */
 enum { FIT_PRESSURE, FIT_VISCOSITY, FIT_TEMPERATURE, FIT_UNCERTAINTY, FIT_WEIGHT, FIT_COLUMNS };
 
-/* State of a parameter. It is used for the user's request, and for the result of the fit. */
+/* State of a parameter, in the user's request and in the result of the fit. */
 typedef enum fit_state {
     FIT_PRESET,  /* requested: nothing; result: omitted, or at its preset */
     FIT_HELD,    /* kept at a given value */
@@ -66,7 +66,7 @@ typedef struct fit_data {
     double uncertainty;
 } fit_data;
 
-/* The data of a fit. It starts zeroed except for the report, which receives the errors. */
+/* The data of a fit. All members start zeroed except the report, which receives the errors. */
 typedef struct fit {
     ff_report *report;
     const char *path;      /* path of the data file */

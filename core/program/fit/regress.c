@@ -80,8 +80,8 @@ static bool is_free(const fit_law *law, size_t index)
     return required;
 }
 
-/* Returns whether the parameter describes the oil, such as Roelands' s0, and is to be found as well
-   because the data have several temperatures. */
+/* Returns whether the parameter would be given by an oil, such as Roelands' s0, and must also be
+ * found because the data have several temperatures. */
 static bool is_thermal(const fit_data *d, const fit_param *param)
 {
     const ff_param *row = param->row;

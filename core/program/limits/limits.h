@@ -49,7 +49,7 @@ void limits_free(limits_verdict *verdict);
 
 /* returns "met", "met within its bar" or "missed" */
 const char *limits_word(limits_standing standing);
-/* Returns the standing for such a word, and LIMITS_MISSED for any other text. */
+/* Returns the standing that the word names; LIMITS_MISSED for any other text. */
 limits_standing limits_standing_of(const char *word);
 /* Returns [{output, asked, standing, value, bar, at_least, unit}]; null for a number that is not
    known. */

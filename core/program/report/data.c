@@ -229,7 +229,7 @@ static size_t sample_index(size_t k, size_t kept, size_t count)
     return kept > 1 ? k * (count - 1) / (kept - 1) : 0;
 }
 
-/* Lists the kept instants: some evenly spread, and those of the extremes. */
+/* Lists the kept instants: some spread evenly, and the instants of the extremes. */
 static size_t choose_frames(const fields *m, size_t *chosen)
 {
     bool *kept = memory_alloc(m->frames * sizeof *kept);
@@ -246,7 +246,7 @@ static size_t choose_frames(const fields *m, size_t *chosen)
     return count;
 }
 
-/* Adds a field; leaves it out if its shape differs from that of the first. */
+/* Adds a field; leaves it out if its shape differs from the shape of the first field. */
 static void take_field(report_data *d, fields *m, size_t variable)
 {
     ff_array array = report_load(d->page, (int)variable, 0);

@@ -45,8 +45,8 @@ json_t *report_head(const char *text); /* the head of a row */
 /* An SI value in a readable unit; empty for NaN. */
 json_t *report_value(const char *name, const char *si_unit, double si);
 
-/* units.c writes numbers in readable units. `name` is that of an output or a parameter; it
- * distinguishes a temperature from a temperature rise. */
+/* units.c writes numbers in readable units. `name`, of an output or a parameter, distinguishes a
+   temperature from a temperature rise. */
 study_readable report_unit_for(const char *name, const char *si_unit, double magnitude);
 double report_convert(const study_readable *unit, double si);
 enum { REPORT_TEXT_SIZE = 200 };

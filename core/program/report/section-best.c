@@ -153,8 +153,8 @@ static json_t *two_lines(const char *above, char *below)
     return head;
 }
 
-/* Returns the head of the first column. It lists the paths of the choices in the order in which the
-   cells show their values: "0.18 um at 4 um, 30 deg". */
+/* Returns the head of the first column: the paths of the choices, in the order in which the cells
+ * show their values: "0.18 um at 4 um, 30 deg". */
 static json_t *chosen_head(const results_view *view, const report_sides *s)
 {
     char *list = NULL;

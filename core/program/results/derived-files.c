@@ -32,8 +32,8 @@ static const char *name_within(const char *directory, const char *path)
                : NULL;
 }
 
-/* Describes the state of a file by its length and time, that of a directory by its list of files.
- */
+/* Describes the state of a file by its length and time, and the state of a directory by its list of
+ * files. */
 static char *print_state(const char *path)
 {
     struct stat info;

@@ -199,7 +199,7 @@ static void put_points(const table *t, const columns *c, size_t index, const siz
     }
 }
 
-/* Leaves out arrays whose lengths differ from those of the table. */
+/* Loads an array; leaves it out if its lengths differ from the lengths of the table. */
 static bool load_column(const table *t, columns *c, size_t k, size_t index, const size_t shape[4])
 {
     const results_view *view = t->view;

@@ -54,8 +54,8 @@ static bool search(const ff_result *result, const accuracy_series *whole, const 
 bool results_find_extremes(const ff_pipeline *pipeline, const ff_stage *stage,
                            const ff_result *result, results_extremes *out)
 {
-    static const double vanishing = 0.01; /* shares of less than this, relative to the largest
-                                           * whole, mean nothing */
+    static const double vanishing =
+        0.01; /* a share is ignored if its whole is below this part of the largest whole */
     const ff_result *whole = whole_of(pipeline, stage, result);
     const ff_stage *of = whole ? results_stage_of(pipeline, whole) : NULL;
     const ff_result *along = of ? accuracy_axis_of(pipeline, stage, result) : NULL;

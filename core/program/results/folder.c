@@ -145,7 +145,7 @@ static bool read_manifest(results_folder *folder, char kind[LONGEST_NAME])
     return ours;
 }
 
-/* Whether the name is that of a temporary file. */
+/* Whether the name belongs to a temporary file. */
 static bool is_part(const char *name)
 {
     size_t length = strlen(name), tail = sizeof part - 1;

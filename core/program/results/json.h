@@ -32,7 +32,7 @@ json_t *results_json_wires(const ff_pipeline *pipeline, const ff_stage *stage);
 /* Returns {version, path, build, reference, bibtex} of a model: path and hash of its plugin, and
  * its literature. */
 json_t *results_json_model(const ff_loaded *loaded);
-/* Returns the same for a loaded stage, with {parameters, wires}. */
+/* Returns the members of results_json_model for a loaded stage, and {parameters, wires}. */
 json_t *results_json_origin(const ff_pipeline *pipeline, const ff_stage *stage);
 
 /* Returns {name: text} of the circumstances: version, file, date, machine. */

@@ -12,11 +12,11 @@ typedef struct results_input {
     const char *file; /* path as the user gave it */
     const char *const *sets;
     size_t set_count;
-    const ff_pipeline *pipeline; /* the pipeline; for a study, that of its file or of its first case
-                                  */
-    uint64_t key;                /* hash of everything on which the results depend */
-    const char *accuracy;        /* the requested accuracy, "2 %"; "" if there is none */
-    bool replace;                /* whether results of another file may be replaced */
+    const ff_pipeline
+        *pipeline; /* the pipeline; for a study, the pipeline of its file or of its first case */
+    uint64_t key;  /* hash of everything on which the results depend */
+    const char *accuracy; /* the requested accuracy, "2 %"; "" if there is none */
+    bool replace;         /* whether results of another file may be replaced */
 } results_input;
 
 /* Returns the hash of a built pipeline, before it runs, and of the requested accuracy. */
@@ -27,7 +27,8 @@ uint64_t results_input_key(const ff_pipeline *pipeline, const char *accuracy);
  * else to a description of how the inputs differ; to be freed. */
 bool results_earlier_check(const char *directory, const results_input *input, char **replaced,
                            ff_report *report);
-/* The same for a study. `replaced` is also NULL if its stages have not changed. */
+/* results_earlier_check for a study. `replaced` is also NULL if the stages of the study have not
+ * changed. */
 bool results_earlier_check_study(const char *directory, const results_input *input, char **replaced,
                                  ff_report *report);
 

@@ -51,7 +51,7 @@ typedef struct results_reader {
 json_t *results_view_read_json(const results_reader *reader, const char *name);
 const char *results_view_text(results_reader *reader,
                               const json_t *text); /* "" if it is not a text */
-/* The same for a member of an object. */
+/* Copies a member of an object in the same way. */
 const char *results_view_member(results_reader *reader, const json_t *of, const char *key);
 /* Returns the same address for the same text. */
 const char *results_view_shared_text(results_reader *reader, const char *text);

@@ -24,7 +24,7 @@ typedef struct results_view_param {
     const char *name, *text, *origin;
 } results_view_param;
 
-/* A stage; in a study, that of the first case. */
+/* A stage; in a study, the stage of the first case. */
 typedef struct results_view_stage {
     const char *name, *model, *version;
     const char *build; /* hash of the plugin's file */

@@ -29,13 +29,13 @@ typedef struct results_requested {
     char *name; /* "film.h_min", owned */
 } results_requested;
 
-/* Returns them in the order of the file, to be freed by results_free_requested. */
+/* Returns the requested outputs in the order of the file, to be freed by results_free_requested. */
 results_requested *results_list_requested(const ff_pipeline *pipeline, size_t *count);
 void results_free_requested(results_requested *list, size_t count);
 
 /* Returns the series against which the requested arrays are plotted; NULL-ended, to be freed. */
 const ff_result **results_axes(const ff_pipeline *pipeline);
-/* Whether the numbers are kept: they are requested, or one of those series. */
+/* Whether the numbers of a result are written: it is requested, or it is one of the axes. */
 bool results_is_kept(const ff_result *result, const ff_result *const *axes);
 /* Writes <stage>.<output>.npy for each requested array and for the series against which it is
  * plotted, and <stage>.<output>_error_bar.npy with the error bars of a series. */

@@ -18,7 +18,7 @@ ff_run *run_copy(const ff_run *run)
     return memory_require(copy);
 }
 
-/* Ends the program if the run ran out of memory; it has no messages then. */
+/* Ends the program if the run ran out of memory: such a run has no messages. */
 static void require(ff_run *run)
 {
     memory_require(ff_run_report(run));

@@ -9,7 +9,7 @@
 ff_run *run_read(ff_engine *engine, const char *file);
 ff_run *run_copy(const ff_run *run);
 
-/* Do nothing if the file could not be read. The places are those of ff_run_set_at. */
+/* Do nothing if the file could not be read. The places are as in ff_run_set_at. */
 void run_set(ff_run *run, const char *assignment, const ff_place *path, const ff_place *value);
 void run_set_all(ff_run *run, const char *const *assignments, size_t count);
 void run_put(ff_run *run, const char *key, const ff_node *node);

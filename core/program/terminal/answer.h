@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The one JSON object of --json. It is stored until the program ends successfully. Anything else
-   written to standard output, for instance by a plugin, goes to standard error. */
+/* The one JSON object of --json. The object is stored until the program ends successfully. Anything
+   else written to standard output, for instance by a plugin, goes to standard error. */
 #ifndef TERMINAL_ANSWER_H
 #define TERMINAL_ANSWER_H
 

@@ -35,8 +35,8 @@ static const char *created(void *ctx, void *self)
     return instance->create_only ? "is not needed any further" : NULL;
 }
 
-/* Returns whether a model must give a reason for this status. It may be stopped, or be doubtful
-   after evaluate, without a reason. */
+/* Returns whether a model must give a reason for this status. FF_NOMEM needs none; from evaluate,
+ * FF_STOPPED and FF_DOMAIN need none, either. */
 static bool owes_reason(const char *action, ff_status status)
 {
     bool evaluates = !strcmp(action, "evaluate");
@@ -69,8 +69,8 @@ static void log_line(void *ctx, const ff_stage *stage, int32_t level, const char
         breach(ctx, "logged no text");
 }
 
-/* Stores why the last call failed, for use after the instance is closed. For a fault of the plugin
-   it is the whole sentence. */
+/* Stores why the last call failed, for use after the instance is closed; for a fault of the plugin,
+ * the whole sentence. */
 static ff_status note(verify_instance *instance, ff_status status)
 {
     const ff_message *first = ff_report_first(ff_instance_report(instance->made));

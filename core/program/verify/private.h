@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Declarations shared by the files of core/program/verify only. A child process lives for one test.
-   It frees what belongs to the model, and little else. */
+/* Declarations shared by the files of core/program/verify only. A child process lives for one test,
+   and frees little more than what belongs to the model. */
 #ifndef VERIFY_PRIVATE_H
 #define VERIFY_PRIVATE_H
 
@@ -140,7 +140,7 @@ verify_setup *verify_setup_new(verify_context *context);
 /* random.c: draws a value of a parameter, in the row's unit. */
 double verify_draw_number(const ff_param *row, verify_random *random, verify_range range);
 /* table.c: returns the path of a file with the columns of the model. Its numbers differ at each
-   call. It exists as long as the process. Returns NULL if the model declares no columns. */
+   call. The file exists as long as the process. Returns NULL if the model declares no columns. */
 const char *verify_make_table(verify_context *context);
 /* Returns whether everything required could be drawn. If not, the test is skipped, unless
    `quietly`. */
@@ -209,8 +209,8 @@ verify_setup *verify_open_accepted(verify_context *context, verify_instance *ins
 /* Opens an instance and finds inputs with which it works. *served: the names of the outputs that it
    gives with them. Returns NULL if there are none. */
 verify_setup *verify_find_work(verify_context *context, verify_instance *instance, char **served);
-/* Does the same, trying the outputs one by one until the time `end`. Returns false after a
-   failure. */
+/* Finds such inputs by trying the outputs one by one until the time `end`. Returns false after a
+ * failure. */
 bool verify_find_served(verify_context *context, verify_instance *instance,
                         const verify_setup *setup, char **served, double end);
 /* Fails unless the outputs of both instances are bitwise equal. */

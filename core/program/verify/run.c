@@ -87,8 +87,8 @@ static bool concerns(const test *t, const ff_model *model)
     return true;
 }
 
-/* Loads the model. A warning also fails the test, since the loader has then reverted what the
-   warning is about. */
+/* Loads the model. A warning also fails the test, since it reports a change of the process that the
+   loader has reverted. */
 static bool load(verify_context *context, ff_engine *engine, const char *id)
 {
     ff_report *report = ff_report_new();
@@ -310,8 +310,8 @@ static void cross_out(session *s, const char *name)
         memset(s->missing + (at - s->missing), ' ', strlen(name));
 }
 
-/* Returns false, with an error, if a requested name is not that of a test, or if none is
-   requested. */
+/* Returns false, with an error, if a requested name does not belong to a test, or if no name is
+ * requested. */
 static bool check_requested(session *s)
 {
     const char *only = s->request->only;

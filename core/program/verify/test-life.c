@@ -97,7 +97,7 @@ bool verify_test_life(verify_context *c)
     bool good = verify_instance_create(&instance, c);
     verify_instance_close(&instance);
     verify_step(c, "create, set, ready, service, destroy");
-    /* does without what cannot be drawn */
+    /* parameters that cannot be drawn are left out */
     verify_setup *setup = verify_open_accepted(c, &instance, true);
     if (setup) { /* two instances at the same time; the older one is destroyed first */
         ff_status status = verify_instance_open(&second, setup);

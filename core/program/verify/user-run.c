@@ -34,8 +34,8 @@ static bool is_connected(const ff_stage *stage, const char *wire)
     return false;
 }
 
-/* Returns whether the result depends on the oil. The tests replace the laws of the file, so that
-   such a result would contradict them. */
+/* Returns whether the result depends on the oil. The tests replace the laws of the file, and a
+   result that depends on the oil would contradict the replaced laws. */
 static bool is_of_oil(const ff_pipeline *pipeline, const ff_result *result)
 {
     for (size_t i = 0; i < pipeline->count; i++) {

@@ -399,7 +399,7 @@ class Control(lab.Lab):
     def test_the_progress_says_what_a_twin_is_for(self):
         self.write("busy.yaml", FILE.replace("0.1 %", "{all: 5 %, check: twins}").replace("before: first", "before: first, work: 0.8 s"))
         self.write("twice.yaml", FILE.replace("before: first", "before: first, work: 0.8 s").replace("0.1 %", "{last.value: 0.1 %}"))
-        self.assertIn("attempt 2 at 4 times the cost: 0 of 1 goals met, value has", self.progress_of("twice"))
+        self.assertIn("attempt 2 at 4 times the cost: 0 of 1 goals reached, value has", self.progress_of("twice"))
         said = self.progress_of("busy")
         for words in ("attempt 1, with the presets", "a coarser twin measures the errors of attempt 1", "a finer twin checks the errors"):
             self.assertIn(f"{words}; last (toy/order)", said)

@@ -58,7 +58,7 @@ static void test_swap(void)
     cli_expect("what all cases have in vain is said once", &r,
                idle && !cli_has(idle + 1, "c (both.yaml:4:12)"));
     r = cli("$F explain walk.yaml --yaml --set a.step=");
-    cli_expect("what was taken away", &r, cli_has(r.out, "--set, taken away"));
+    cli_expect("what was taken away", &r, cli_has(r.out, "--set, removed"));
 }
 
 int main(int argc, char **argv)

@@ -177,8 +177,8 @@ static bool read_span(reading *r, const ff_node *map, const char *path, span *s)
     return true;
 }
 
-/* Returns the assignment of the value at a fraction from 0 to 1 of the range. It has 12 digits,
-   which removes round-off of the division. */
+/* Returns the assignment of the value at a fraction from 0 to 1 of the range, with 12 digits, which
+ * removes round-off of the division. */
 static const char *span_text(reading *r, const char *path, const span *s, double share)
 {
     double value =

@@ -43,8 +43,8 @@ static uint64_t hash_judging(uint64_t hash, const ff_run *run)
     return accept ? hash_node(study_hash_text(hash, "accept"), accept) : hash;
 }
 
-/* Hashes the assignments of a case that cannot be built. It has no resolved parameters from which a
-   key could be made. */
+/* Hashes the assignments of a case that cannot be built, and so has no resolved parameters from
+ * which a key could be made. */
 static uint64_t hash_assignments(const study_definition *study, size_t index)
 {
     uint64_t hash = study_hash_text(STUDY_HASH_START,

@@ -139,7 +139,7 @@ typedef struct study_run {
     size_t set_count;
     ff_engine *engine;
     const char *directory;
-    const ff_pipeline *pipeline; /* pipeline of the file, whose plugins are compared with those
+    const ff_pipeline *pipeline; /* pipeline of the file; its plugins are compared with the plugins
                                     of earlier runs; NULL: no comparison */
     size_t jobs;
     ff_instance *executor; /* an instance that provides FF_EXECUTOR_ID; NULL: workers of this

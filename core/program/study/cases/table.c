@@ -57,7 +57,7 @@ static void put_name(FILE *out, const char *name, const char *unit)
     free(head);
 }
 
-/* What at least one case contains. It decides which columns the table has. */
+/* What at least one case contains, which decides the columns of the table. */
 typedef struct table_has {
     json_t *columns;    /* {name: unit} of the outputs, in the order in which they first appear */
     bool limits, range; /* whether some case is judged by limits; whether some case uses a model

@@ -8,7 +8,7 @@
 /* Writes the description of the study next to its journal. `tally` as in study_run.describe. */
 bool study_describe(const study_run *run, const study_tally *tally, ff_report *report);
 
-/* Writes table.csv, and the description with the verdicts. It needs the keys of all cases.
+/* Writes table.csv, and the description with the verdicts. `keys` has the keys of all cases.
    `records`: the contents of the journals; NULL: they are read when no other shard is writing the
    table. */
 bool study_table_write(const study_run *run, char (*keys)[STUDY_KEY_SIZE], study_records *records,

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-/* Returns whether the text reads as itself without quotes, even in a flow map. */
+/* Returns whether YAML reads the text unchanged without quotes, even in a flow map. */
 static bool is_plain(const char *text)
 {
     size_t length = strlen(text);

@@ -7,8 +7,8 @@
 
 #include <stdio.h>
 
-/* The first writes the node on one line, which reads as the same node. The second writes a key or a
-   text. */
+/* study_yaml_print writes the node on one line, from which YAML reads the same node;
+ * study_yaml_print_text writes a key or a text. */
 void study_yaml_print(const ff_node *node, FILE *out);
 void study_yaml_print_text(const char *text, bool quoted, FILE *out);
 /* Returns "path=node", as in --set, to be freed. */

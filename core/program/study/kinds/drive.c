@@ -233,8 +233,9 @@ static bool check_stage(const study_context *context, const ff_pipeline *pipelin
                     (int)strcspn(path, "."), path);
 }
 
-/* Whether the driver cannot compare outputs with these dimensions. It can compare scalars and, if
- * it measures costs, also series; if one of two dimensions is optional, the output may be a series.
+/* Whether the driver cannot compare outputs with these dimensions. A driver can compare scalars
+ * and, if it measures costs, also series; if one of two dimensions is optional, the output may be a
+ * series.
  */
 static bool is_too_much(const study_context *context, const char *dims)
 {

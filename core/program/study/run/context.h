@@ -21,8 +21,8 @@ typedef struct study_key_value {
     ff_value value;      /* in SI, from the node or the preset, if the key has a type */
 } study_key_value;
 
-/* What a case assigns to a path: "film.cells=512", with the name "512". Both are "" if the value of
-   the file is kept. */
+/* What a case assigns to a path: "film.cells=512", with the name "512". Assignment and name are ""
+   if the value of the file is kept. */
 typedef struct study_setting {
     const char *assignment, *name;
 } study_setting;
@@ -79,8 +79,8 @@ typedef struct study_context {
     memory_arena arena;  /* memory that lives as long as the study */
 
     /* The driver sets these before anything runs. */
-    bool measured;       /* whether costs are measured: cases run one by one on one core, and what
-                            differs between them is computed in each; if false, outputs are scalars */
+    bool measured; /* whether costs are measured: cases run one by one on one core, and stages in
+                      which cases differ are computed in each case; if false, outputs are scalars */
     const char *further; /* text about the cases that may follow, such as "then halvings"; "" if
                             none */
     const char *const *paths; /* paths that cases assign: the columns of table.csv */
@@ -136,7 +136,7 @@ char *study_context_format(study_context *context, const char *format, ...)
 bool study_context_refuse(study_context *context, const ff_node *where, const char *hint,
                           const char *text);
 /* Returns the cases of a map from paths to ranges, lists or single values, as under `sweep:`.
-   Returns NULL after an error. They are valid as long as the context. */
+   Returns NULL after an error. The cases are valid as long as the context. */
 const study_definition *study_context_expand(study_context *context, const ff_node *map);
 /* Returns the text of a value, or NULL for a list, a map or a missing node. */
 const char *study_word(const ff_node *node);

@@ -99,7 +99,7 @@ typedef struct study_fork_server {
 
 bool study_fork_server_start(study_fork_server *server, const study_run *run);
 void study_fork_server_start_chain(study_fork_server *server, size_t chain);
-/* Does the same as study_pool_wait. Returns FF_TASK_GONE if the fork server has ended. */
+/* Waits as study_pool_wait does. Returns FF_TASK_GONE if the fork server has ended. */
 int study_fork_server_wait(study_fork_server *server, int milliseconds, size_t *task);
 void study_fork_server_end(study_fork_server *server); /* waits for the running cases */
 

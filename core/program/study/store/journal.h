@@ -50,7 +50,7 @@ void study_journal_close(study_journal *journal);
 char *study_journal_line(json_t *record, json_t *written_forms);
 /* Returns whether the line is complete and unchanged. */
 bool study_line_is_whole(const char *line, size_t length);
-/* Returns the contents of such a line, to be released, or NULL for any other line. */
+/* Returns the contents of a whole line, to be released, or NULL for any other line. */
 json_t *study_line_parse(const char *line, size_t length);
 
 enum study_rerun { STUDY_RERUN_NONE, STUDY_RERUN_FAILED, STUDY_RERUN_ALL };
@@ -59,7 +59,7 @@ bool study_record_is_ok(const json_t *record);
 /* Returns whether a case with a record of this state need not run again. */
 bool study_state_is_settled(enum study_state state, enum study_rerun rerun);
 
-/* file.c: a text file in the study's directory. It gets its name when it is complete. */
+/* file.c: a text file in the study's directory. The file gets its name when it is complete. */
 typedef struct study_file {
     FILE *out; /* stream to write to; NULL if it could not be opened, which study_file_end
                   reports */

@@ -87,8 +87,8 @@ static bool make_lock(const study_journal *journal, const char *name, ff_report 
                             strerror(cause));
 }
 
-/* Returns whether a lock excludes that of this journal. A run of all cases excludes every other
-   run. */
+/* Returns whether a lock excludes the lock of this journal. A run of all cases excludes every other
+ * run. */
 static bool excludes(const char *name, const char *own, bool alone)
 {
     size_t length = strlen(name), end = sizeof lock_end - 1;

@@ -15,7 +15,7 @@
 enum { STUDY_FORM_NAME = 17 }; /* size of a form's name, a hash, with its terminating zero, bytes */
 
 /* Writes the record as a line without its closing brace. `written_forms` counts, for each form, the
-   lines since the form was last written. This form is added to it. */
+   lines since the form was last written. The form of the record is added. */
 void study_form_write(json_t *record, json_t *written_forms, FILE *out);
 
 /* Returns the record of a line with a form, or NULL if the values do not fit the form. */

@@ -17,12 +17,13 @@ enum {
 
 typedef struct study_records study_records;
 
-/* Reads all journals in the directory, which may be missing. The record of a key is its last one
-   with status ok, or else its last one. `whole`: records whose arrays are lost are ignored. */
+/* Reads all journals in the directory, which may be missing. If a key has several records, the last
+   one with status ok counts, or else the last one. `whole`: records whose arrays are lost are
+   ignored. */
 study_records *study_records_open(const char *directory, bool whole);
 void study_records_close(study_records *records); /* accepts NULL */
-/* Closes the journals, so that a worker has no open descriptor of them. They are opened again for
-   each record that is read later. */
+/* Closes the journals, so that a worker has no open descriptor of them. A journal is opened again
+   for each record that is read later. */
 void study_records_close_files(study_records *records);
 size_t study_records_count(const study_records *records);
 

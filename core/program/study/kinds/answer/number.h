@@ -27,7 +27,7 @@ study_readable study_readable_unit(const char *si_unit, double magnitude);
 /* Returns the unit for an output of that name; temperatures are in degC. */
 study_readable study_readable_output(const char *name, const char *si_unit, double magnitude);
 
-/* Writes an SI value in such a unit, "14 000 rpm"; digits and gap as in study_number_text. */
+/* Writes an SI value in a readable unit, "14 000 rpm"; digits and gap as in study_number_text. */
 void study_quantity_text(double si, const study_readable *unit, int digits, const char *gap,
                          char out[STUDY_QUANTITY_SIZE]);
 

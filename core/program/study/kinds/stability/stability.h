@@ -50,7 +50,8 @@ typedef struct study_cell {
     const study_setting *settings; /* its assignments, one for each axis */
     double *at;                    /* the number on each axis that is a range, otherwise the index
                                     * of its point */
-    size_t halved; /* axis on which it lies between two others; axis_count if it is on the grid */
+    size_t halved; /* axis along which it is halfway between two other cells; axis_count if it is on
+                      the grid */
     int64_t number, twin; /* numbers of its case and of its last twin, or STUDY_NOT_SUBMITTED */
     bool confirmed;       /* the twin agrees, or the letter does not depend on one */
     bool finer;           /* the last twin is the finer one */
@@ -121,8 +122,8 @@ typedef struct study_map {
  */
 void *study_map_read(study_context *context, const study_key_value *values);
 
-/* stability-judge.c: decides the class of a cell from its result and that of its twin, which is
- * NULL if there is none yet. */
+/* stability-judge.c: decides the class of a cell from its own result and the result of its twin,
+ * which is NULL if there is none yet. */
 void study_judge(const study_map *map, study_cell *cell, const study_outcome *answer,
                  const study_outcome *twin);
 /* Returns the result of the case with that number; NULL for STUDY_NOT_SUBMITTED. */

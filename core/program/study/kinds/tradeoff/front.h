@@ -14,7 +14,7 @@ size_t study_front(const double *cost, const double *error, size_t count, size_t
  * the point farthest from the line between its ends, in logarithms. `length` if there is none. */
 size_t study_front_knee(const double *cost, const double *error, const size_t *front,
                         size_t length);
-/* Returns the cost of a point over that of the cheapest point that is as good. */
+/* Returns the cost of a point relative to the cheapest point with the same or a smaller error. */
 double study_front_excess(const double *cost, const double *error, size_t count, size_t point);
 
 #endif

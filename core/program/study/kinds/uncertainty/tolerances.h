@@ -13,8 +13,8 @@ typedef struct study_toleranced {
     ff_tolerance tolerance;
 } study_toleranced;
 
-/* Returns the values with a tolerance in all stages, in the order of the file. Of the sets under
- * `with:`, only that of the model in use counts. */
+/* Returns the values with a tolerance in all stages, in the order of the file. Sets under `with:`
+   are ignored, except the set of the model in use. */
 study_toleranced *study_find_toleranced(const ff_node *root, memory_arena *arena, size_t *count);
 
 #endif

@@ -84,7 +84,7 @@ static void add_part(study_line *line, double part, double kelvin, const char *w
 }
 
 /* Half width of the middle 95 % of a normal variate, in standard deviations, so that the bar of the
- * inputs has the same confidence as that of the numbers. */
+   inputs has the same confidence as the numerical bar. */
 static const double z95 = 1.959963984540054;
 
 /* Relative error bar due to the inputs, with its 95 % interval; NaN if an end is not bounded. */

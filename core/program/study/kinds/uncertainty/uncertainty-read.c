@@ -94,7 +94,7 @@ static bool read_conditions(study_uncertainty *u, const ff_node *list)
     return true;
 }
 
-/* Reads the cost of a level, relative to that of a case with the unchanged file. */
+/* Reads the cost of a level, relative to a case with the unchanged file. */
 static bool read_cost(const study_uncertainty *u, const ff_node *node, uncertainty_patch *patch)
 {
     return (study_read_share(study_word(node), &patch->cost) && patch->cost > 0) ||

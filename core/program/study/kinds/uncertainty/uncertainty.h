@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Effect of uncertain inputs on the outputs, compared with that of the grid and of the choice of
- * models. The study runs the medians first, with the error bar and with other models, then pilot
- * samples on all levels of a ladder of cheaper models, then as many further samples of each level
- * as the pilot shows to be worth their cost. A surface through the samples gives the share of each
- * input. */
+/* Effect of uncertain inputs on the outputs, compared with the effects of the grid and of the
+ * choice of models. The study runs the medians first, with the error bar and with other models,
+ * then pilot samples on all levels of a ladder of cheaper models, then as many further samples of
+ * each level as the pilot shows to be worth their cost. A surface through the samples gives the
+ * share of each input. */
 #ifndef STUDY_UNCERTAINTY_H
 #define STUDY_UNCERTAINTY_H
 

@@ -181,7 +181,7 @@ static bool read_samples(study_context *context, const ff_node *node, variate *v
     return true;
 }
 
-/* Reads the paths that receive the value: the name itself, or those of `sets`. */
+/* Reads the paths that receive the value: the name itself, or the paths in `sets`. */
 static bool read_paths(study_context *context, const ff_node *sets, const ff_node *at, variate *v)
 {
     size_t count = sets ? sets->count : 1;

@@ -5,8 +5,8 @@
  * Sudret 2008, Reliab. Eng. Syst. Saf. 93, 964). Its variance is the sum of its squared
  * coefficients, and a coefficient belongs to the inputs of its product. Regression determines the
  * coefficients; the surface with the least error at left-out samples is used. Missing terms are
- * orthogonal to those of the surface, so a share exceeds that of the surface at most by the
- * remaining variance.
+ * orthogonal to the terms of the surface, so the true share exceeds the share in the surface at
+ * most by the remaining variance.
  *
  * The terms have mean 0, so their part can be subtracted from values without changing the mean. The
  * part of each value comes from a surface through the other values, so that the mean stays
@@ -213,8 +213,8 @@ static double product(const double *a, const double *b, size_t n)
     return sum;
 }
 
-/* Returns the variance of the constant term, relative to that of a mean of independent residuals.
- */
+/* Returns the variance of the constant term, relative to the variance of a mean of independent
+ * residuals. */
 static double growth_of(const rows *of, size_t n, const double *gain, const double *ahead)
 {
     double constant = 0, mean = 0;

@@ -87,22 +87,22 @@ double estimate_correlation(const double *a, const double *b, size_t count);
 typedef enum { ESTIMATE_MEAN, ESTIMATE_DISTRIBUTION } estimate_aim;
 
 /* Plans samples for the standard error that `plain` samples of level 0 alone would have; the
-   pilot's samples are the first of them. `cost` is the cost of a case of each level over that of
-   level 0. */
+   pilot's samples are the first of them. `cost` is the cost of a case of each level, relative to a
+   case of level 0. */
 estimate_plan estimate_allocate(const estimate_pilot *pilot, const double *cost, size_t plain,
                                 estimate_aim aim);
 
 /* The effect of a surface on a mean of values from which their explained parts are subtracted. */
 typedef struct estimate_explanation {
     double left;   /* remaining share of the variance of the mean */
-    double growth; /* variance of the mean relative to that of independent residuals; it includes
-                    * the errors of the surface */
+    double growth; /* variance of the mean, relative to a mean of independent residuals; it includes
+                      the errors of the surface */
     size_t terms;  /* degrees of freedom that the surface uses; 0: there is no surface */
 } estimate_explanation;
 
 /* estimate-surface.c: writes to `part` the part of each value that a surface over the numbers from
-   which they were made explains. Its mean is 0. It is 0 if there are too few samples, and NaN where
-   the value is. */
+   which they were made explains. The parts have the mean 0. They are 0 if there are too few
+   samples, and NaN where the value is NaN. */
 estimate_explanation estimate_explained(const double *values, const double *numbers, size_t count,
                                         const estimate_input *inputs, size_t input_count,
                                         double *part);
