@@ -42,9 +42,9 @@ told = {name: {speed: run(FILE, held(speed) + sets) for speed in MEASURED} for n
 speeds = list(MEASURED)
 print("""# Friction and loss against measurement
 
-Made by `sh docs/validation/friction.sh build`. The spur pair 40/40 of Petry-Johnson, Kahraman, Anderson & Chase 2008 at 413 N m
-([its data](measured.md#loss-of-a-spur-gear-mesh)), `configs/validation/mesh-loss-oils.yaml`: laws and temperatures were
-fixed before the first run, and no constant is fitted. Laws of the measured oil, a 75W90, at high pressure are not
+Made by `sh docs/validation/friction.sh build`. The first sections are for the 40/40 spur pair of Petry-Johnson, Kahraman,
+Anderson & Chase 2008 at 413 N m ([its data](measured.md#loss-of-a-spur-gear-mesh),
+`configs/validation/mesh-loss-oils.yaml`). Laws and temperatures were fixed before the first run, and no constant is fitted. Laws of the measured oil, a 75W90, at high pressure are not
 published. All rows therefore use eta0 of the 75W90, and the rise with pressure and the limiting stress of one of three
 measured gear oils. The spread of the rows shows what this choice means for the loss.
 

@@ -161,7 +161,7 @@ for name in laws:
     print("| %s | %s | -0.08 to +0.02 |" % (name, ", ".join(slopes)), flush=True)
 print("""
 With heat the losses grow more slowly with speed than without, most for the law with the highest loss (Barus, 28 MPa: 1.361 kW at 10,000
-rpm, 3.335 kW without heat). With none of the four laws they grow as slowly as measured, and each law agrees at one speed at most. The effect of other inputs on the loss in kW, at 6000 rpm and
+rpm, 3.335 kW without heat). All four laws give losses that grow faster with speed than measured, and each law agrees at one speed at most. The effect of other inputs on the loss in kW, at 6000 rpm and
 110 degC:
 
 | laws | as above | alpha -10 % | alpha +10 % | 512 cells, 1000 steps |

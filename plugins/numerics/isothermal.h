@@ -124,8 +124,8 @@ static inline ff_status numerics_hold_against(const ff_host *host, const char *w
     if (fabs(by_law - by_oil) <= 0.01 * fabs(by_oil))
         return FF_OK;
     return ff_failf(host, FF_INVALID, wire,
-                    "the law and the oil contradict each other: at %g degC %s is %.4g %s by the "
-                    "law and %.4g %s by the oil; wire the oil to the law, or disconnect it here "
+                    "the law and the oil contradict each other: at %g degC %s is %.4g %s in the "
+                    "law and %.4g %s in the oil; connect the oil to the law, or disconnect it here "
                     "(oil: none)",
                     T - 273.15, name, by_law, unit, by_oil, unit);
 }

@@ -74,7 +74,7 @@ outputs: [film.h_central]
 END
 for command in run check; do
     ! (cd "$lab" && "$flankfilm" $command oil.yaml --plugin-path "$lab") >"$lab/said" 2>&1
-    grep -q 'at 80 degC eta0 is 0.01 Pa s by the law and 0.0298[0-9] Pa s by the oil' "$lab/said" ||
+    grep -q 'at 80 degC eta0 is 0.01 Pa s in the law and 0.0298[0-9] Pa s in the oil' "$lab/said" ||
         { cat "$lab/said"; exit 1; }
 done
 "$flankfilm" check "$lab/oil.yaml" --plugin-path "$lab" --set "viscosity.eta0=29.9 mPa s" >"$lab/said" 2>&1 ||

@@ -43,10 +43,10 @@ refuses() { # TEXT, then SETTING...: what `run` refuses is found by `check`, too
 refuses 'viscosity.eta0: the stage "oil" gives this value, too, by the wire "oil"' "viscosity.eta0=60 mPa s"
 refuses 'density.rho0: the stage "oil" gives this value, too, by the wire "oil"' "density.rho0=855 kg/m3"
 # a law that knows nothing of the oil, by 2 % and by 0.3 %
-refuses 'at 70 degC eta0 is 0.06025 Pa s by the law and 0.05907 Pa s by the oil' \
+refuses 'at 70 degC eta0 is 0.06025 Pa s in the law and 0.05907 Pa s in the oil' \
     viscosity.use=viscosity/roelands viscosity.oil=none "viscosity.alpha=20 1/GPa" "viscosity.eta0=60.25 mPa s"
 says 'h_central' viscosity.use=viscosity/roelands viscosity.oil=none "viscosity.alpha=20 1/GPa" "viscosity.eta0=59.25 mPa s"
-refuses 'rho0 is 880 kg/m3 by the law and 855.1 kg/m3 by the oil' density.oil=none "density.rho0=880 kg/m3"
+refuses 'rho0 is 880 kg/m3 in the law and 855.1 kg/m3 in the oil' density.oil=none "density.rho0=880 kg/m3"
 refuses 'in two places: here 70 degC, and as duty.oil_temperature 90 degC (--set' \
     "duty={use: operating/steady, torque: 1 N m, speed: 1 rpm, oil_temperature: 90 degC}"
 
