@@ -172,17 +172,19 @@ void accuracy_want_beside(const ff_pipeline *pipeline, bool estimates)
     }
 }
 
-double accuracy_distance(const ff_pipeline *pipeline, const ff_stage *stage,
-                         const ff_result *result, double zero, bool absolute,
-                         const ff_pipeline *other, memory_arena *arena)
+double accuracy_between(const accuracy_error *e, const ff_pipeline *of, const ff_pipeline *one,
+                        const ff_pipeline *other, memory_arena *arena)
 {
-    const double *numbers = accuracy_numbers_like(pipeline, stage, result, other, arena);
-    const ff_result *along = accuracy_axis_of(pipeline, stage, result);
-    const accuracy_series answer = {result->rank, result->count, along ? along->data : NULL,
-                                    result->data, zero,          absolute};
-    double *off = memory_arena_alloc(arena, result->count * sizeof *off + 1), largest;
+    const ff_stage *stage = &one->stages[e->stage - of->stages];
+    const int output = ff_model_find_output(stage->loaded->model, e->result->row->name);
+    const ff_result *result = output < 0 ? NULL : &stage->results[output];
+    const double *numbers = result ? accuracy_numbers_like(one, stage, result, other, arena) : NULL;
     if (!numbers)
         return NAN;
+    const ff_result *along = accuracy_axis_of(one, stage, result);
+    const accuracy_series answer = {result->rank, result->count, along ? along->data : NULL,
+                                    result->data, e->zero_point, e->absolute};
+    double *off = memory_arena_alloc(arena, result->count * sizeof *off + 1), largest;
     for (size_t i = 0; i < result->count; i++)
         off[i] = fabs(numbers[i] - result->data[i]);
     return accuracy_relative(off, &answer, &largest);

@@ -3,6 +3,8 @@
 #ifndef ACCURACY_AXIS_H
 #define ACCURACY_AXIS_H
 
+#include "measure.h"
+
 #include "../memory/memory.h"
 
 #include <flankfilm/engine.h>
@@ -32,11 +34,10 @@ const double *accuracy_numbers_like(const ff_pipeline *pipeline, const ff_stage 
                                     const ff_result *result, const ff_pipeline *other,
                                     memory_arena *arena);
 
-/* Returns the difference of a result and the same one in another pipeline, relative to the distance
-   from `zero`, or absolute; NaN if the two cannot be compared. */
-double accuracy_distance(const ff_pipeline *pipeline, const ff_stage *stage,
-                         const ff_result *result, double zero, bool absolute,
-                         const ff_pipeline *other, memory_arena *arena);
+/* Returns the difference of the output between two pipelines with the stages of `of`, which has the
+   error, in the form of `reached`; NaN if they cannot be compared. */
+double accuracy_between(const accuracy_error *e, const ff_pipeline *of, const ff_pipeline *one,
+                        const ff_pipeline *other, memory_arena *arena);
 
 /* If a series is requested, makes stages with a series of angles also compute their scalar angles,
    such as the one at which a second pair of teeth enters contact. Called before the run. */

@@ -34,17 +34,6 @@ static size_t place_of(const trial *t, const accuracy_error *e)
     return (size_t)(e->stage - t->base->stages);
 }
 
-/* Difference of an output between two answers, as the goal states errors; NaN if they cannot be
-   compared. */
-static double distance(trial *t, const accuracy_error *e, const ff_pipeline *next)
-{
-    const ff_stage *stage = &t->current->stages[place_of(t, e)];
-    int output = ff_model_find_output(stage->loaded->model, e->result->row->name);
-    return output < 0 ? (double)NAN
-                      : accuracy_distance(t->current, stage, &stage->results[output], e->zero_point,
-                                          e->absolute, next, &t->choice->arena);
-}
-
 static const char *keep(trial *t, char *text)
 {
     const char *kept = memory_arena_text(&t->choice->arena, text, strlen(text));
@@ -75,7 +64,8 @@ static const char *reason_to_reject(trial *t, size_t stage, const accuracy_twin 
         return "no output can be compared";
     for (size_t i = 0; i < t->measured->count; i++) {
         const accuracy_error *e = &t->measured->errors[i];
-        double moved = distance(t, e, next->pipeline), most = share_of_models * e->goal;
+        double moved = accuracy_between(e, t->base, t->current, next->pipeline, &t->choice->arena),
+               most = share_of_models * e->goal;
         moves[i] = moved + (t->choice->differs ? 0 : e->reached);
         if (isnan(e->goal) || t->moved[i] + moves[i] <= most)
             continue;

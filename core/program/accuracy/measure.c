@@ -300,16 +300,11 @@ static bool misses(const accuracy_record *record)
     return missed;
 }
 
-/* Difference of an output between two twins. */
+/* Returns the difference of an output between two twins. */
 static double between_twins(const accuracy_twins *t, const accuracy_error *e,
                             const accuracy_twin *one, const accuracy_twin *other)
 {
-    const ff_stage *stage = &one->pipeline->stages[e->stage - t->answer->stages];
-    const int output = ff_model_find_output(stage->loaded->model, e->result->row->name);
-    return output < 0
-               ? (double)NAN
-               : accuracy_distance(one->pipeline, stage, &stage->results[output], e->zero_point,
-                                   e->absolute, other->pipeline, &t->record->arena);
+    return accuracy_between(e, t->answer, one->pipeline, other->pipeline, &t->record->arena);
 }
 
 /* Finds which part of each error above its goal is due to settings of the file: their share of the
@@ -374,9 +369,9 @@ bool accuracy_check_twin(accuracy_record *record, const accuracy_scene *scene)
     record->failure = failure ? failure : record->failure;
     for (size_t i = 0; i < record->count; i++) {
         accuracy_error *e = &record->errors[i];
-        e->twin_difference = good ? accuracy_distance(t.answer, e->stage, e->result, e->zero_point,
-                                                      e->absolute, finer->pipeline, &record->arena)
-                                  : (double)NAN;
+        e->twin_difference =
+            good ? accuracy_between(e, t.answer, t.answer, finer->pipeline, &record->arena)
+                 : (double)NAN;
     }
     return !t.stopped;
 }
