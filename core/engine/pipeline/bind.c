@@ -78,8 +78,7 @@ static void refuse_key(binding *k, const char *path, ff_place place)
 {
     const char *owner = other_owner(k, path), *hint = NULL, *advice = "";
     if (ff_model_find_param(k->loaded->model, path) >= 0)
-        hint = fe_pipeline_print(k->b->pipeline,
-                                 "the dot stands for a map within a map: %.*s: {%s: ...}",
+        hint = fe_pipeline_print(k->b->pipeline, "write the dot as a nested map: %.*s: {%s: ...}",
                                  (int)strcspn(path, "."), path, strchr(path, '.') + 1);
     else if (owner)
         hint = fe_pipeline_print(k->b->pipeline,
@@ -165,7 +164,7 @@ static void warn_of_left(binding *k)
 {
     if (k->left)
         ff_warn(k->b->report, k->stage->use_place,
-                "%s: %s cannot take what is written for %s (%s), and it is left out: %s",
+                "%s: %s cannot take values that are written for %s (%s), so they are left out: %s",
                 k->stage->name, k->id, k->before->text,
                 fe_place_text(k->b->pipeline, k->before->place), k->left);
 }

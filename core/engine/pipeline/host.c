@@ -374,7 +374,7 @@ static double *host_output(void *ctx, uint32_t index, uint32_t rank, const size_
     const ff_loaded *loaded = instance->stage->loaded;
     if (!instance->evaluating || index >= loaded->model->output_count) {
         breach(instance, "asked for memory of output row %u %s", index,
-               instance->evaluating ? "which it does not have" : "outside of evaluate");
+               instance->evaluating ? "but has no such row" : "outside of evaluate");
         return NULL;
     }
     const ff_result *result = &instance->stage->results[index];

@@ -317,7 +317,7 @@ static bool check_port(const checking *c, const ff_port *row, ff_dims *dims)
         {row->flags < 2 * FF_DIFFERENCE, "has unknown flags"},
         {is_line(row->doc), "has no line of explanation"},
         {!row->service || is_line(row->service), "has a bad interface"},
-        {!row->service || plain, "has a unit or dimensions beside the interface"},
+        {!row->service || plain, "has a unit or dimensions in addition to the interface"},
         {row->service || row->dims, "has no dimensions"},
     };
     if (!check_claims(c, claims, sizeof claims / sizeof *claims))
@@ -368,7 +368,7 @@ static bool check_input(checking *c, size_t index, ff_dims *dims)
         if (!strcmp(c->name, other->name))
             return fault(c, "has the input \"%s\" twice", c->name);
         if (same_first_name(c->name, other->name) && (row->flags ^ other->flags) & FF_FEEDBACK)
-            return fault(c, "has feedback for one of the inputs \"%s\" and \"%s\" alone",
+            return fault(c, "has feedback for only one of the inputs \"%s\" and \"%s\"",
                          other->name, c->name);
         if (same_first_name(c->name, other->name) && !same_from)
             return fault(c, "wires the inputs \"%s\" and \"%s\" from different kinds", other->name,
@@ -444,7 +444,7 @@ static bool check_output(checking *c, ff_loaded *loaded, size_t index)
     if (!check_port(c, row, dims) || !check_meaning(c, row))
         return false;
     const char *shared = fe_dims_clash(loaded, index);
-    return !shared || fault(c, "gives outputs along \"%s\" of different stages, \"%s\" one of them",
+    return !shared || fault(c, "gives outputs along \"%s\" of different stages, such as \"%s\"",
                             shared, row->name);
 }
 

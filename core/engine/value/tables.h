@@ -8,8 +8,8 @@
 /* The tables that one instance of a model reads through flankfilm.table/1. Must start zeroed. */
 typedef struct fe_tables {
     struct fe_kept_table *kept;
-    struct fe_kept_table
-        *spare;        /* tables of the previous instance that were not yet requested again */
+    /* tables of the previous instance that were not yet requested again */
+    struct fe_kept_table *spare;
     ff_report *errors; /* why the last call failed; NULL: it succeeded */
     const char *item;  /* item of the last call */
 } fe_tables;

@@ -54,8 +54,8 @@ typedef struct accuracy_record {
     accuracy_runs runs;  /* all attempts and twins */
     bool two_levels;     /* the errors come from a single coarser twin */
     const char *failure; /* why a twin failed; NULL if none did */
-    size_t
-        attempts; /* number of answers measured, including the last one; 0 if there are no goals */
+    /* number of answers measured, including the last one; 0 if there are no goals */
+    size_t attempts;
     const char **chosen; /* "film.cells=362": the answer's values of the settings that the file
                             leaves open */
     size_t chosen_count;
@@ -63,10 +63,10 @@ typedef struct accuracy_record {
                             none */
     ff_pipeline *answer; /* the pipeline with the answer, of the file's run or of `twin` */
     const accuracy_twin *twin; /* the attempt that is the answer; NULL if there were none */
-    struct accuracy_choice
-        *choice;     /* Choice of models, whose errors are included; NULL if none was made. */
-    bool checked;    /* the file asks that a finer twin checks the errors */
-    bool from_finer; /* the errors come from that same twin */
+    /* Choice of models, whose errors are included; NULL if none was made. */
+    struct accuracy_choice *choice;
+    bool checked;              /* the file asks that a finer twin checks the errors */
+    bool from_finer;           /* the errors come from that same twin */
     const char *check_failure; /* why there is no such twin; NULL if there is one */
     char *progress; /* set by the caller: receives the progress text, at most ACCURACY_PROGRESS
                      * characters; or NULL */

@@ -13,8 +13,8 @@ typedef struct cli_progress {
     json_t *log; /* [{stage, level, text}]; the caller frees it */
     bool terminal;
     char text[ACCURACY_PROGRESS]; /* what is being run, if there are several runs; otherwise "" */
-    const ff_stage
-        *stage; /* the stage that is running: since `started`; its line was last drawn at `drawn` */
+    /* the stage that is running: since `started`; its line was last drawn at `drawn` */
+    const ff_stage *stage;
     double started, drawn; /* s; 0: no line is shown */
 } cli_progress;
 

@@ -12,9 +12,9 @@ typedef struct results_input {
     const char *file; /* path as the user gave it */
     const char *const *sets;
     size_t set_count;
-    const ff_pipeline
-        *pipeline; /* the pipeline; for a study, the pipeline of its file or of its first case */
-    uint64_t key;  /* hash of everything on which the results depend */
+    /* the pipeline; for a study, the pipeline of its file or of its first case */
+    const ff_pipeline *pipeline;
+    uint64_t key;         /* hash of everything on which the results depend */
     const char *accuracy; /* the requested accuracy, "2 %"; "" if there is none */
     bool replace;         /* whether results of another file may be replaced */
 } results_input;

@@ -126,8 +126,8 @@ typedef struct results_view {
     const results_view_case *const *cases;
     size_t case_count; /* product of lengths */
 
-    const char
-        *summary; /* count of the verdicts: "12 good, 104 doubtful (inlet heating 88, lambda 61)" */
+    /* count of the verdicts: "12 good, 104 doubtful (inlet heating 88, lambda 61)" */
+    const char *summary;
     const results_view_figures *const *figures;
     size_t figures_count;
 } results_view;

@@ -15,10 +15,9 @@
 #include <unistd.h>
 
 enum {
-    ZONE = 256,
-    FILLING = 0xA5
-}; /* ZONE: number of guard bytes after each block; FILLING:
-      their value */
+    ZONE = 256,    /* number of guard bytes after each block */
+    FILLING = 0xA5 /* their value */
+};
 
 typedef struct block {
     unsigned char *first;

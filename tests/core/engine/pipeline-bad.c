@@ -37,7 +37,7 @@ static const struct {
     {"pipeline:\n  a: {use: toy/source, level: 1 mm, range: 3}\n", 3, 44,
      "a.range: expected a map, found a value"},
     {"pipeline:\n  a: {use: toy/source, level: 1 mm, range.from: 2 degC}\n", 3, 37,
-     "the dot stands for a map within a map: range: {from: ...}"},
+     "write the dot as a nested map: range: {from: ...}"},
     {"pipeline:\n  a: {use: toy/source}\n", 3, 3, "\"level\" is missing: value of all outputs"},
     {"pipeline:\n  a: {use: toy/source, level: [1 mm]}\n", 3, 31,
      "expected a number with a unit such as \"3 mm\", found a list"},

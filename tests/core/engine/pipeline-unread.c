@@ -102,9 +102,10 @@ static void swaps(void)
                                "  a: {use: toy/source, level: 2 mm, range: {to: 3 degC}, note: x}\n"
                                "outputs: [\"a.*\"]\n";
     attempt a = try_build_set(text, "a.use=toy/frugal", false);
-    check_warning("what the new model cannot take is named", &a, 1, 7,
-                  "toy/frugal cannot take what is written for toy/source (case.yaml:3:12), and it "
-                  "is left out: \"level\" (case.yaml:3:24), \"range\" (case.yaml:3:37), \"note\"");
+    check_warning(
+        "what the new model cannot take is named", &a, 1, 7,
+        "toy/frugal cannot take values that are written for toy/source (case.yaml:3:12), so they "
+        "are left out: \"level\" (case.yaml:3:24), \"range\" (case.yaml:3:37), \"note\"");
     try_close(&a);
     a = try_build_set("pipeline:\n  a: {use: toy/source, level: 2 mm, notte: x}\n",
                       "a.use=toy/frugal", false);

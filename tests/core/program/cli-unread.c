@@ -35,7 +35,7 @@ static void test_run(void)
 
 static void test_swap(void)
 {
-    static const char left[] = "toy/wave cannot take what is written for toy/walk";
+    static const char left[] = "toy/wave cannot take values that are written for toy/walk";
     cli_write("walk.yaml", "format: 2\npipeline:\n  a: {use: toy/walk, step: 2 m, with: {toy/wave: "
                            "{amplitude: 1 mm}}}\n");
     outcome r = cli("$F run walk.yaml --set a.use=toy/wave --json");

@@ -8,10 +8,8 @@
 
 #include <stdio.h>
 
-enum {
-    STUDY_CSV_FIELDS = 1000
-}; /* largest number of fields; one more is stored to detect a
-      longer line */
+/* Largest number of fields; one more is stored to detect a longer line. */
+enum { STUDY_CSV_FIELDS = 1000 };
 
 typedef struct study_csv_field {
     char *text;

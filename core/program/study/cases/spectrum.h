@@ -18,10 +18,10 @@ typedef struct study_limit {
 } study_limit;
 
 struct study_spectrum {
-    double *times; /* duration of each row: share (1), or s */
-    size_t empty;  /* number of rows with the duration 0 */
-    double rounding,
-        stated; /* for shares: the rounding error that their digits allow, and their sum as given */
+    double *times;   /* duration of each row: share (1), or s */
+    size_t empty;    /* number of rows with the duration 0 */
+    double rounding; /* for shares: the rounding error that their digits allow */
+    double stated;   /* for shares: their sum as given */
     size_t count, room;
     bool shares;
     study_limit *below;

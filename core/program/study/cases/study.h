@@ -27,8 +27,8 @@ typedef struct study_varied {
     /* "path=value in YAML" for each point of the axis; "" assigns nothing */
     const char **assignments;
     const char **names; /* names of the points; NULL if the values are the names */
-    ff_place
-        place; /* where the file contains the path; its source is NULL if the path is in no file */
+    /* where the file contains the path; its source is NULL if the path is in no file */
+    ff_place place;
     const ff_node *values; /* one for each point; NULL if the program made the values */
     study_place *places;   /* positions of the values, if a table contains the path; otherwise
                               NULL */
@@ -145,8 +145,8 @@ typedef struct study_run {
     ff_instance *executor; /* an instance that provides FF_EXECUTOR_ID; NULL: workers of this
                               process run all cases */
     size_t shard, shards;  /* this run executes shard number `shard`, from 1 to `shards` */
-    size_t begin,
-        end; /* range of chains to run without writing a table; end 0: all chains, and the table */
+    /* range of chains to run without writing a table; end 0: all chains, and the table */
+    size_t begin, end;
     enum study_rerun rerun;
     bool fail_fast;
 

@@ -30,8 +30,8 @@ typedef struct study_setting {
 typedef struct study_output {
     const double *values; /* NULL if the case lacks the output */
     size_t rank, count;   /* 0 and 1 for a scalar */
-    const double
-        *at; /* the series over which it is plotted, which never decreases; NULL: the index */
+    /* the series over which it is plotted, which never decreases; NULL: the index */
+    const double *at;
     const char *along; /* the name of that series, or "" */
 } study_output;
 
@@ -97,13 +97,13 @@ typedef struct study_context {
     const char *const *knobs; /* parameters that are scaled; NULL if there are none */
     size_t knob_count;
     const char *along; /* as in study_measure */
-    const char *const
-        *stages; /* stages whose work is counted although cases do not differ in them */
+    /* stages whose work is counted although cases do not differ in them */
+    const char *const *stages;
     size_t stage_count;
     size_t opened;         /* number of the first cases that must be valid before any case is run */
     const char **compared; /* models that the study compares with the file's */
-    size_t compared_count,
-        first_compared; /* `first_compared`: number of the first case with one of them */
+    size_t compared_count;
+    size_t first_compared; /* number of the first case with one of these models */
 
     study_definition list; /* the submitted cases, along one axis that grows */
     size_t room;           /* number of cases for which memory of `list` and the next members is

@@ -114,10 +114,8 @@ static void explain_change(survey *s, const study_case *c)
 
 static void count_case(survey *s, study_walk *walk)
 {
-    enum {
-        TIMED = 10000
-    }; /* largest number of records that are read to estimate the duration
-          of a case */
+    /* largest number of records that are read to estimate the duration of a case */
+    enum { TIMED = 10000 };
     study_plan *plan = s->plan;
     if (study_records_state(s->records, walk->c.key) == STUDY_UNKNOWN)
         study_walk_make(walk);

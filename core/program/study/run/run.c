@@ -318,10 +318,8 @@ static bool await_row(const execution *r)
 /* Answers all finished cases here, without passing each of them to a worker. */
 static void answer_known(execution *r)
 {
-    enum {
-        FEW = 1000
-    }; /* below this number of cases, a separate process costs more than it
-          saves */
+    /* below this number of cases, a separate process costs more than it saves */
+    enum { FEW = 1000 };
     const study_run *run = r->run;
     study_search search = {.pid = 0};
     study_known known;

@@ -29,8 +29,8 @@ typedef struct study_judgement {
 } study_judgement;
 
 double study_json_number(const json_t *value); /* returns NaN if it is not a number */
-extern const char
-    study_refused[]; /* "refused": status and verdict of a row that cannot be computed */
+/* "refused": status and verdict of a row that cannot be computed */
+extern const char study_refused[];
 const char *study_verdict_name(int verdict); /* "good", "doubtful", "bad", "refused", "failed" */
 
 /* Judges the record of a case by its status, quality lines, warnings, and outputs of which only a

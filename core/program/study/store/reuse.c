@@ -22,10 +22,11 @@
 static const double worth_keeping = 2e-3; /* Least time of an evaluation, s, for which its result
                                              is stored; writing a file takes a tenth of that. */
 enum {
-    FORM = 2, /* version of the file format; a file of another version counts as damaged */
-    LARGEST = 1 << 26,
-    /* bytes of a file */ MOST_IDLE = 1 << 26 /* number of bytes stored without being reused, after
-                                                 which results of the stage are no longer stored */
+    FORM = 2,          /* version of the file format; a file of another version counts as damaged */
+    LARGEST = 1 << 26, /* bytes of a file */
+    /* number of bytes stored without being reused, after which results of the stage are no
+       longer stored */
+    MOST_IDLE = 1 << 26
 };
 
 static void write_text(FILE *out, const char *text)

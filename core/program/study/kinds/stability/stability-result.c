@@ -5,10 +5,9 @@
 #include <string.h>
 
 enum {
-    MOST_BOUNDARIES = 40,
-    MOST_ROWS = 60
-}; /* boundaries shown for each axis, and cells for each
-    * slice */
+    MOST_BOUNDARIES = 40, /* boundaries shown for each axis */
+    MOST_ROWS = 60        /* cells listed for each slice */
+};
 
 static json_t *text_or_null(const char *text)
 {
