@@ -69,7 +69,7 @@ static const ff_param params[] = {
             "bore diameters, 0: none"),
     FF_LIST("inertia", "kg m2", spur, given_inertia, 0, NULL, NULL, 1e-20, 1e20, 0, 0, 1, 2,
             "polar moments of inertia; left out: discs of working pitch diameter and face "
-            "widthminus the bore"),
+            "width minus the bore"),
     FF_ONE_OF(GEAR_MATERIALS, "material", spur, material.name[0], 0, "steel",
               "material of the gears: gives modulus, Poisson's ratio, density, heat data, hardness "
               "and yield strength, as far as they are known"),
