@@ -31,18 +31,12 @@ int ehl_wants_h_central(uint64_t wanted)
     return (wanted & all) != 0 || ehl_loss_of_shear(wanted);
 }
 
-int ehl_wants_p_max_itself(uint64_t wanted)
+int ehl_wants_p_max(uint64_t wanted)
 {
     static const uint64_t all = FF_BIT(EHL_P_MAX) | FF_BIT(EHL_P_MAX_ERROR) |
                                 FF_BIT(EHL_P_MAX_HIGHEST) | FF_BIT(EHL_P_MAX_AT_LANDING) |
-                                FF_BIT(EHL_P_MAX_AT_LANDING_ERROR);
+                                FF_BIT(EHL_P_MAX_AT_LANDING_ERROR) | FF_BIT(EHL_PRESSURE);
     return (wanted & all) != 0;
-}
-
-int ehl_wants_p_max(uint64_t wanted)
-{
-    return ehl_wants_p_max_itself(wanted) || (wanted & FF_BIT(EHL_PRESSURE)) ||
-           ehl_loss_of_shear(wanted);
 }
 
 int ehl_wants_lowest_alone(uint64_t wanted)

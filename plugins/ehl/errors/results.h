@@ -119,13 +119,11 @@ double ehl_space_part(const ehl_results *r, size_t row, int kind);
 int ehl_wants_lowest_alone(uint64_t wanted);
 int ehl_wants_highest_alone(uint64_t wanted);
 
-/* Whether an output is wanted that depends on h_min, h_central or p_max. A friction depends on the
- * central film and, through the viscosity, on the pressure. */
+/* Whether an output is wanted that depends on h_min, h_central or p_max. Friction depends on the
+ * central film; a spike that the cells cut off hardly changes it (docs/theory.md, section 12). */
 int ehl_wants_h_min(uint64_t wanted);
 int ehl_wants_h_central(uint64_t wanted);
 int ehl_wants_p_max(uint64_t wanted);
-int ehl_wants_p_max_itself(uint64_t wanted); /* p_max itself, not only friction or the
-                                                pressure distribution */
 
 /* The first function returns the least film of the gap of r, by a parabola, and sets *at to its
  * node. The second function returns the film at x = 0. */

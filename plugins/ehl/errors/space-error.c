@@ -328,7 +328,7 @@ ff_status ehl_results_measure(ehl_results *r, const ehl_march *m, const ehl_hist
         status = measure_film(r, m, &p, EHL_LEAST);
     if (status == FF_OK && films && ehl_wants_h_central(r->wanted))
         status = measure_film(r, m, &p, EHL_CENTRAL);
-    if (status == FF_OK && ehl_wants_p_max_itself(r->wanted) && !m->heat && !m->thermal)
+    if (status == FF_OK && ehl_wants_p_max(r->wanted) && !m->heat && !m->thermal)
         status = ehl_narrow_peaks(r, m, &p);
     return status == FF_OK && count >= LEAST_COUNT ? measure_peaks(r, m, &p) : status;
 }

@@ -519,8 +519,26 @@ static void test_resolution(void)
     }
 }
 
+/* Spikes cost marches on more cells, but hardly change friction: its outputs have no line of p_max.
+ */
+static void test_wanted(void)
+{
+    static const char *const wanted[] = {"friction_coefficient power_loss", "pressure"};
+    for (int k = 0; k < 2; k++) {
+        line c;
+        line_open(&c, "ehl/finite-volume");
+        line_last(&c, 2, 100e-6);
+        stage_set(c.film, "steps", 20);
+        check_true(wanted[k], line_run(&c, wanted[k]) == FF_OK);
+        check_true("has a line of p_max or not",
+                   stage_has_quality(c.film, "p_max_space_error") == (k == 1));
+        line_close(&c);
+    }
+}
+
 int main(void)
 {
+    test_wanted();
     test_measured();
     check_highest("swelling", swelling, 224, 535.63e6);
     check_highest("swelling slowly", swelling_slowly, 256, 219.95e6);
