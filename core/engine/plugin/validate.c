@@ -413,7 +413,7 @@ static bool check_meaning(const checking *c, const ff_port *row)
         {!(row->flags & FF_DIFFERENCE) || kelvin, "has a difference that is not in K"},
         {!row->label || is_line(row->label), "has a label that is not one line"},
         {!row->quantity || is_line(row->quantity), "has a quantity that is not one line"},
-        {row->apart >= 0, "has a negative difference at which two values agree"},
+        {row->apart >= 0, "has a negative allowed difference"},
         {row->headline >= FF_NO_HEADLINE && row->headline <= FF_MEAN, "has an unknown headline"},
         {!row->origin || ff_model_find_input(c->model, row->origin) >= 0,
          "is counted from an input that the model does not have"},

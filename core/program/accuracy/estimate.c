@@ -2,10 +2,10 @@
 /*
  * Error estimate from three levels of grid refinement (Roache 1998, Verification and Validation in
  * Computational Science and Engineering, ch. 5; Celik et al. 2008, J. Fluids Eng. 130, 078001). If
- * the error falls by a factor g per level, the error of the finest answer follows in two ways: from
- * its difference to the middle one, over g - 1, and from the difference of the two coarser ones,
- * over g (g - 1). The two disagree if the true g is not the one assumed; the larger counts. The
- * error of the middle answer is g/(g - 1) of its difference to the finest.
+ * the error falls by a factor g per level, the error of the finest answer is its difference from
+ * the middle answer divided by g - 1, and also the difference of the two coarser answers divided by
+ * g (g - 1). The two disagree if the true g is not the assumed one; the larger counts. The error of
+ * the middle answer is its difference from the finest times g/(g - 1).
  */
 #include "estimate.h"
 
@@ -22,8 +22,9 @@ static const double safety = 1.25;
    it is taken to fall with order 1/2 to 1. A growth of more than order 4 means that the coarsest
    answer is unrelated to the others: no order can be seen. */
 static const double least_growth = 1.4142135623730951, most_growth = 4, unsettled_growth = 2;
-/* Errors fall faster between coarse levels than from the finest on. The difference of the coarser
-   levels is brought to the next level by at most order 4, and from there by at most order 2. */
+/* Errors fall faster between coarse levels than beyond the finest one. The difference of the
+ * coarser levels is therefore extrapolated to the finer levels with at most order 4, and from there
+ * with at most order 2. */
 static const double most_coarse_growth = 16;
 /* The error of a series passes through 0 at one point and a difference between levels at another.
    So each point takes the largest estimate within this share of the points. Estimates at untypical
@@ -113,9 +114,10 @@ static double growth_of(double near, double far, double sign)
     return near > 0 ? sign * far / near : far > 0 ? INFINITY : NAN;
 }
 
-/* Growth used for the estimate. Observed orders above 2 are not trusted: the higher the order, the
-   lower the one used instead, down to order 3/2 for a series and to order 1 for a single number,
-   which may agree by chance. Above order 4 the bar of a series is 1.8 times the bar just below. */
+/* Growth used for the estimate. Observed orders above 2 are not trusted: the higher the observed
+ * order, the lower the order that is used, down to 3/2 for a series and to 1 for a single number,
+ * which may agree by chance. At an observed order of 4 the bar of a series jumps by a factor
+ * of 1.8. */
 static double growth_to_use(const accuracy_ladder *l, double observed)
 {
     const double settles = l->count > 1 ? unsettled_growth * least_growth : unsettled_growth;
@@ -190,7 +192,7 @@ static void mark_answer(const accuracy_ladder *l, bool *typical)
     free(sizes);
 }
 
-/* Error at number i, relative. */
+/* Relative error of number i. */
 static double error_at(const accuracy_ladder *l, size_t i, bool typical, const convergence *c)
 {
     double observed = typical ? c->typical : c->all, growth = growth_to_use(l, observed);
@@ -201,7 +203,7 @@ static double error_at(const accuracy_ladder *l, size_t i, bool typical, const c
         return safety * near * growth / (growth - 1);
     if (!l->half)
         return safety * near / (growth * growth - 1);
-    if (typical) /* a large move of coarser levels alone is no part of the answer's error */
+    if (typical) /* if only the coarser levels move much, this is no error of the answer */
         far = fmin(far, c->coarse_limit);
     return safety * fmax(near, far / coarse) / (growth - 1);
 }

@@ -129,7 +129,7 @@ static void add_parts(const accuracy_twins *t, const double *shares, accuracy_er
     qsort(e->parts, e->part_count, sizeof *e->parts, by_error);
 }
 
-/* Adds the changes by the accepted models, in the form of the goal. */
+/* Adds the errors that the accepted models cause, which are stated in the form of the goal. */
 static void add_changes(const accuracy_twins *t, const accuracy_ladder *levels, accuracy_error *e)
 {
     const accuracy_choice *choice = t->record->choice;
@@ -140,7 +140,7 @@ static void add_changes(const accuracy_twins *t, const accuracy_ladder *levels, 
         if (c->output_stage != (size_t)(e->stage - t->answer->stages) ||
             strcmp(c->output, result->row->name) != 0)
             continue;
-        for (size_t k = 0; k < result->count; k++) /* NaN: the two could not be compared */
+        for (size_t k = 0; k < result->count; k++) /* NaN if the answers could not be compared */
             e->bar[k] += c->error * levels->scale[k];
         e->reached += c->error;
         e->relative += share * c->error;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Prints the gears of a pipeline as a drawing states them. If values have a tolerance, it tries
- * every combination of their limits, and prints each number with its smallest and largest value. */
+/* Prints the gears of a pipeline as a drawing states them. If values have a tolerance, the gears
+ * are evaluated for every combination of their limits, and each number is printed with its smallest
+ * and largest value. */
 #include "drawing.h"
 
 #include "../accuracy/models.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* For `check`: finds errors of an oil that a run would report, namely a temperature that is given
- * in two places, and laws that contradict the oil. Evaluates only the stages of the oil and those
- * that feed them. */
+ * in two places, and laws that contradict the oil. Evaluates only the stages of the oil and the
+ * stages that feed them. */
 #include "oil.h"
 
 #include "../accuracy/models.h"
@@ -14,16 +14,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const asked[] = {"temperature", "eta0", "rho0"};
-enum { TEMPERATURE, ETA0, RHO0, ASKED };
+static const char *const names[] = {"temperature", "eta0", "rho0"};
+enum { TEMPERATURE, ETA0, RHO0, NAMES };
 
 static bool is_oil(const ff_stage *stage)
 {
     const ff_model *model = stage->loaded ? stage->loaded->model : NULL;
     if (!model || !stage->needed || ff_model_find_service(model, FF_LIQUID_ID) < 0)
         return false;
-    for (size_t i = 0; i < ASKED; i++)
-        if (ff_model_find_output(model, asked[i]) < 0)
+    for (size_t i = 0; i < NAMES; i++)
+        if (ff_model_find_output(model, names[i]) < 0)
             return false;
     return true;
 }
@@ -34,9 +34,9 @@ static char *request(const ff_pipeline *pipeline)
     char *text = memory_print_text("outputs=[");
     size_t count = 0;
     for (size_t k = 0; k < pipeline->count; k++)
-        for (size_t i = 0; is_oil(&pipeline->stages[k]) && i < ASKED; i++)
+        for (size_t i = 0; is_oil(&pipeline->stages[k]) && i < NAMES; i++)
             memory_add_text(&text, "%s%s.%s", count++ ? ", " : "", pipeline->stages[k].name,
-                            asked[i]);
+                            names[i]);
     memory_add_text(&text, "]");
     if (count)
         return text;
@@ -66,36 +66,36 @@ static ff_instance *make_law(ff_engine *engine, const ff_stage *stage)
     return law;
 }
 
-typedef struct question {
+typedef struct law_call {
     int what;
     double T;
     const void *table; /* the table of functions of the law */
-    double answer;
-} question;
+    double value;
+} law_call;
 
-static ff_status ask(void *ctx)
+static ff_status evaluate_law(void *ctx)
 {
-    question *q = ctx;
+    law_call *call = ctx;
     const double p = 0;
-    if (q->what == ETA0) {
-        const ff_viscosity *viscosity = q->table;
-        return viscosity->eval(viscosity->self, 1, &p, &q->T, &q->answer, NULL, NULL);
+    if (call->what == ETA0) {
+        const ff_viscosity *viscosity = call->table;
+        return viscosity->eval(viscosity->self, 1, &p, &call->T, &call->value, NULL, NULL);
     }
-    const ff_density *density = q->table;
-    return density->eval(density->self, 1, &p, &q->T, &q->answer, NULL, NULL);
+    const ff_density *density = call->table;
+    return density->eval(density->self, 1, &p, &call->T, &call->value, NULL, NULL);
 }
 
 /* Returns eta0 or rho0 of the law at T; NaN if the law does not give it. */
-static double ask_law(ff_instance *law, int what, double T)
+static double value_of_law(ff_instance *law, int what, double T)
 {
-    question q = {.what = what, .T = T, .answer = NAN};
+    law_call call = {.what = what, .T = T, .value = NAN};
     const char *id = what == ETA0 ? FF_VISCOSITY_ID : FF_DENSITY_ID;
-    if (ff_instance_service(law, id, &q.table) != FF_OK)
+    if (ff_instance_service(law, id, &call.table) != FF_OK)
         return NAN;
-    ff_status status = ff_instance_call(law, "eval", ask, &q);
+    ff_status status = ff_instance_call(law, "eval", evaluate_law, &call);
     if (status != FF_OK && status != FF_DOMAIN)
         return NAN;
-    return what == ETA0 ? exp(q.answer) : q.answer;
+    return what == ETA0 ? exp(call.value) : call.value;
 }
 
 /* Returns the place of that parameter in the file, or of the stage if it is not given. */
@@ -107,31 +107,31 @@ static ff_place place_of(const ff_stage *stage, const char *param)
 
 static double scalar(ff_run *oils, const ff_stage *oil, int what)
 {
-    char *path = memory_print_text("%s.%s", oil->name, asked[what]);
+    char *path = memory_print_text("%s.%s", oil->name, names[what]);
     const ff_result *result;
     bool known = ff_run_result(oils, path, &result) == FF_OK;
     free(path);
     return known ? *result->data : NAN;
 }
 
-static void hold(cli_session *session, const ff_stage *law, ff_run *oils, const ff_stage *oil,
-                 int what)
+static void compare_law(cli_session *session, const ff_stage *law, ff_run *oils,
+                        const ff_stage *oil, int what)
 {
     static const char *const units[] = {"", "Pa s", "kg/m3"};
     ff_instance *alone = make_law(session->engine, law);
     double T = scalar(oils, oil, TEMPERATURE), by_oil = scalar(oils, oil, what);
-    double by_law = alone ? ask_law(alone, what, T) : NAN;
+    double by_law = alone ? value_of_law(alone, what, T) : NAN;
     ff_instance_close(alone);
     if (!isfinite(by_law) || !isfinite(by_oil) || fabs(by_law - by_oil) <= 0.01 * fabs(by_oil))
         return;
     char there[200];
     ff_message_print(&(ff_message){.place = oil->place, .text = ""}, there, sizeof there);
     ff_error(
-        session->report, FF_FAULT_INPUT, place_of(law, asked[what]),
+        session->report, FF_FAULT_INPUT, place_of(law, names[what]),
         "connect the oil to the law, or disconnect it from the stage that uses both (oil: none)",
         "%s: the law and the oil contradict each other: at %g degC %s is %.4g %s in the law and "
         "%.4g %s in the oil, the stage \"%s\" (%.*s)",
-        law->name, T - 273.15, asked[what], by_law, units[what], by_oil, units[what], oil->name,
+        law->name, T - 273.15, names[what], by_law, units[what], by_oil, units[what], oil->name,
         (int)(strlen(there) > 2 ? strlen(there) - 2 : 0), there);
 }
 
@@ -146,14 +146,14 @@ static const ff_stage *stage_on(const ff_pipeline *pipeline, const ff_stage *sta
 
 /* Compares the laws of a stage with the oil that it uses. A law that is wired to the oil cannot
  * contradict it. */
-static void hold_laws(cli_session *session, ff_run *oils, const ff_stage *user)
+static void compare_laws(cli_session *session, ff_run *oils, const ff_stage *user)
 {
     static const char *const wires[] = {NULL, "viscosity", "density"};
     const ff_stage *oil = stage_on(session->pipeline, user, "oil");
-    for (int what = ETA0; oil && what < ASKED; what++) {
+    for (int what = ETA0; oil && what < NAMES; what++) {
         const ff_stage *law = stage_on(session->pipeline, user, wires[what]);
         if (law && law->loaded && law->params && !stage_on(session->pipeline, law, "oil"))
-            hold(session, law, oils, oil, what);
+            compare_law(session, law, oils, oil, what);
     }
 }
 
@@ -198,6 +198,6 @@ void cli_check_oil(cli_session *session, ff_run *oils)
         run_start(oils, NULL);
     for (size_t i = 0; !run_has_errors(oils) && i < session->pipeline->count; i++)
         if (session->pipeline->stages[i].needed && session->pipeline->stages[i].loaded)
-            hold_laws(session, oils, &session->pipeline->stages[i]);
+            compare_laws(session, oils, &session->pipeline->stages[i]);
     free(outputs);
 }

@@ -112,7 +112,8 @@ report_extremes report_find_extremes(const ff_array *array)
     return found;
 }
 
-/* Returns the scalar output of that name of any stage, in SI; NaN when there is none. */
+/* Returns the value, in SI, of the first scalar output with that name in any stage; NaN if there is
+ * none. */
 static double find_scalar(report_page *page, const char *output, size_t index)
 {
     double value = NAN;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The context of a test, and its checks of the state of the process. */
+/* The context of a test, which also checks the state of the process. */
 #include "private.h"
 
 #include "../memory/memory.h"

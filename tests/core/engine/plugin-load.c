@@ -67,7 +67,7 @@ static void descriptors(void)
         {"feedback-service", "has feedback of a service for the input \"law\""},
         {"bounds", "has impossible bounds for the output \"level\""},
         {"difference", "has a difference that is not in K for the output \"level\""},
-        {"apart", "has a negative difference at which two values agree for the output \"level\""},
+        {"apart", "has a negative allowed difference for the output \"level\""},
         {"headline", "has an unknown headline for the output \"level\""},
         {"origin", "is counted from an input that the model does not have for the output"},
         {"shown", "shows the output \"level\" in \"kg\", a unit of another dimension"},
