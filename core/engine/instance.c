@@ -25,7 +25,7 @@ static void explain(ff_instance *i)
         message = ff_report_at(i->report, 0);
     if (!message)
         return;
-    fe_engine_say(i->engine, i->report);
+    fe_engine_set_message(i->engine, i->report);
     if (tables->errors)
         fe_tables_print(tables, i->reason, sizeof i->reason);
     else

@@ -12,7 +12,7 @@ static void work(void *ctx)
         run->report = ff_report_new();
     run->call_report = ff_report_new();
     call->work(call);
-    fe_engine_say(run->engine, run->call_report);
+    fe_engine_set_message(run->engine, run->call_report);
     if (call->step)
         ff_report_append(run->report, run->call_report);
 }

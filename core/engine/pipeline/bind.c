@@ -180,7 +180,7 @@ static void check_keys(binding *k, const ff_node *map, const char *prefix, bool 
         const char *path = fe_pipeline_print(k->b->pipeline, "%s%s", prefix, key);
         bool plain = !strchr(key, '.');
         if (!strncmp(key, "x-", 2) || (own && (!strcmp(key, "use") || !strcmp(key, "with"))) ||
-            fe_is_taken_away(value))
+            fe_is_removed(value))
             continue;
         if (plain && (ff_model_find_param(model, path) >= 0 || is_wire(model, path)))
             continue;

@@ -108,7 +108,7 @@ typedef struct fe_setting {
 
 uint32_t fe_latest_rank(const ff_node *node); /* the latest layer that sets anything in it */
 /* Whether the value is empty, which removes the value of an earlier layer. */
-bool fe_is_taken_away(const ff_node *node);
+bool fe_is_removed(const ff_node *node);
 fe_setting fe_find_setting(const ff_stage *stage, const char *model, const char *path);
 
 /* ports.c */

@@ -130,7 +130,7 @@ static bool check_outputs(const fe_call *call, ff_report *report)
 }
 
 /* Reports the errors of a table that the model read. */
-static bool tell_table(const ff_stage *stage, ff_report *report)
+static bool report_table_errors(const ff_stage *stage, ff_report *report)
 {
     const fe_tables *tables = &stage->instance->tables;
     char what[700];
@@ -177,7 +177,7 @@ static void print_words_of_services(const ff_stage *stage, char *out, size_t siz
 
 /* Reports a fault of a plugin: the stage's own plugin, or that of the service which the stage
    reports as faulty. */
-static bool tell_fault(const fe_call *call, ff_status status, const char *text, ff_report *report)
+static bool report_fault(const fe_call *call, ff_status status, const char *text, ff_report *report)
 {
     const ff_stage *stage = call->stage, *server = server_of(stage, stage->instance->item);
     char what[1400];
@@ -212,9 +212,9 @@ static bool judge(const fe_call *call, ff_status status, ff_report *report)
     if (status == FF_NOMEM)
         fe_report_note_no_memory(report);
     if (instance->tables.errors)
-        return tell_table(stage, report);
+        return report_table_errors(stage, report);
     if (means.fault == FF_FAULT_PLUGIN)
-        return tell_fault(call, status, text, report);
+        return report_fault(call, status, text, report);
     ff_place place = instance->item[0] ? place_of(stage, instance->item, &known) : stage->place;
     print_words_of_services(stage, words, sizeof words);
     if (means.fault == FF_FAULT_RUN && instance->item[0])

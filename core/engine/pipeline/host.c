@@ -67,7 +67,7 @@ static void host_log(void *ctx, int32_t level, const char *text)
     protect(instance, log_line, &call);
 }
 
-static void tell_progress(void *ctx)
+static void report_progress(void *ctx)
 {
     watch_call *call = ctx;
     const ff_observer *watch = call->instance->watch;
@@ -80,7 +80,7 @@ static int32_t host_progress(void *ctx, double fraction)
     fe_instance *instance = ctx;
     watch_call call = {.instance = instance,
                        .fraction = fraction > 0 ? fmin(fraction, 1) : 0}; /* NaN gives 0 */
-    bool lacks = protect(instance, tell_progress, &call) == FF_NOMEM;
+    bool lacks = protect(instance, report_progress, &call) == FF_NOMEM;
     instance->left = instance->left || call.stop == FE_LEAVE;
     return lacks || call.stop;
 }

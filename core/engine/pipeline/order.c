@@ -5,7 +5,7 @@
 #include <assert.h>
 #include <stdlib.h>
 
-static void say_why(ff_pipeline *pipeline, ff_stage *stage)
+static void set_reason(ff_pipeline *pipeline, ff_stage *stage)
 {
     const char *first = "", *fed = "";
     size_t requested = 0;
@@ -65,7 +65,7 @@ void fe_mark_needed(ff_pipeline *pipeline)
     fe_want_quantities(pipeline);
     for (size_t i = 0; i < pipeline->count; i++)
         if (!pipeline->stages[i].why)
-            say_why(pipeline, &pipeline->stages[i]);
+            set_reason(pipeline, &pipeline->stages[i]);
 }
 
 static void report_cycle(fe_build *b, const ff_stage *first, ff_place place)

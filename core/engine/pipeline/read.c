@@ -180,7 +180,7 @@ bool fe_read_stages(fe_build *b, const ff_node *root)
     pipeline->stages = fe_arena_alloc(arena, map->count * sizeof *pipeline->stages);
     pipeline->order = fe_arena_alloc(arena, map->count * sizeof *pipeline->order);
     for (size_t i = 0; i < map->count; i++)
-        if (strncmp(map->keys[i], "x-", 2) != 0 && !fe_is_taken_away(map->items[i]) &&
+        if (strncmp(map->keys[i], "x-", 2) != 0 && !fe_is_removed(map->items[i]) &&
             check_name(b, map->keys[i], map->key_places[i]))
             read_stage(b, map, i);
     if (pipeline->count == 0 && ff_report_errors(b->report) == 0)

@@ -118,7 +118,7 @@ static bool is_fed_anew(const iteration *it, const fe_loop_stage *m)
     return false;
 }
 
-static void ask_for_all(fe_loop_stage *m)
+static void want_all(fe_loop_stage *m)
 {
     for (size_t i = 0; i < m->stage->loaded->model->output_count; i++) {
         m->stage->results[i].wanted = m->initial[i].wanted;
@@ -165,7 +165,7 @@ static bool evaluate(iteration *it, fe_loop_stage *m)
     ff_report_free(m->report);
     m->report = ff_report_new();
     m->line_count = 0;
-    ask_for_all(m);
+    want_all(m);
     stage->ran = fe_gather_inputs(it->pipeline, stage, in, m->report) &&
                  fe_evaluate(it->pipeline, stage, in, m->report);
     for (size_t i = 0; i < outputs; i++) {
@@ -337,7 +337,7 @@ static void enter(fe_loop_stage *m, ff_stage *stage, const ff_observer *watch)
 static void leave(fe_loop_stage *m)
 {
     if (!m->stage->ran)
-        ask_for_all(m);
+        want_all(m);
     for (size_t i = 0; i < m->stage->loaded->model->input_count; i++)
         forget(&m->fed[i]);
     fe_free(m->initial);

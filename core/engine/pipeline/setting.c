@@ -40,7 +40,7 @@ static bool is_empty(const ff_node *node)
     return node->kind == FF_SCALAR && !*node->text && !node->quoted;
 }
 
-bool fe_is_taken_away(const ff_node *node)
+bool fe_is_removed(const ff_node *node)
 {
     return is_empty(node) && node->replaced;
 }
@@ -49,7 +49,7 @@ fe_setting fe_find_setting(const ff_stage *stage, const char *model, const char 
 {
     const ff_node *own = fe_find_node(stage->node, path);
     const ff_node *set = fe_find_node(fe_model_set(stage, model), path);
-    if (own && (fe_is_taken_away(own) || (set && is_empty(own) && own->rank > set->rank)))
+    if (own && (fe_is_removed(own) || (set && is_empty(own) && own->rank > set->rank)))
         return (fe_setting){.node = NULL};
     fe_setting setting = {.node = own, .priority = own ? 2 * (uint64_t)own->rank + 1 : 0};
     if (set && (!own || 2 * (uint64_t)set->rank > setting.priority))

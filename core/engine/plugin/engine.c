@@ -15,7 +15,7 @@ static ff_status protect(fe_heap *heap, void (*function)(void *ctx), void *ctx)
     return status;
 }
 
-static void be_silent(ff_engine *engine)
+static void clear_message(ff_engine *engine)
 {
     fe_free(engine->report_text);
     engine->report_text = NULL;
@@ -24,20 +24,20 @@ static void be_silent(ff_engine *engine)
 
 ff_status fe_engine_lack(ff_engine *engine)
 {
-    be_silent(engine);
+    clear_message(engine);
     engine->message = "out of memory\n";
     return FF_NOMEM;
 }
 
 ff_status fe_engine_call(ff_engine *engine, fe_heap *heap, void (*function)(void *ctx), void *ctx)
 {
-    be_silent(engine);
+    clear_message(engine);
     return protect(heap, function, ctx) == FF_OK ? FF_OK : fe_engine_lack(engine);
 }
 
-void fe_engine_say(ff_engine *engine, const ff_report *report)
+void fe_engine_set_message(ff_engine *engine, const ff_report *report)
 {
-    be_silent(engine);
+    clear_message(engine);
     fe_heap *before = fe_heap_use(&engine->heap);
     engine->report_text = ff_report_text(report, false);
     engine->message = engine->report_text;

@@ -25,14 +25,14 @@ struct ff_engine {
 };
 
 /* Calls function(ctx) with `heap` in use; the heap belongs to an object of the engine. The message
-   is "" until fe_engine_say. FF_OK, or FF_NOMEM with its message. */
+   is "" until fe_engine_set_message. FF_OK, or FF_NOMEM with its message. */
 ff_status fe_engine_call(ff_engine *engine, fe_heap *heap, void (*function)(void *ctx), void *ctx);
 
 /* Refuses a call to an object that once ran out of memory, with a message. */
 ff_status fe_engine_lack(ff_engine *engine);
 
 /* Makes the messages of the report the message of the engine. Call it inside fe_engine_call. */
-void fe_engine_say(ff_engine *engine, const ff_report *report);
+void fe_engine_set_message(ff_engine *engine, const ff_report *report);
 
 /* Whether the bytes of the model's file were changed in place, which changes its running code. A
    new file at the same path is harmless. Async-signal-safe. */

@@ -60,7 +60,7 @@ static const char *linker_words(const char *path)
 
 /* Whether the linker failed because of missing memory. If it cannot map a file it gives no reason:
    either memory is missing, or the file system forbids execution. */
-static bool is_of_memory(const char *path, const char *words)
+static bool is_memory_error(const char *path, const char *words)
 {
     struct statvfs system;
     const char *unmapped = dgettext("libc", "failed to map segment from shared object");
@@ -83,7 +83,7 @@ static void *open_file(const char *path, char *why, size_t why_size)
     if (object)
         return object;
     snprintf(why, why_size, "cannot be loaded: %s", linker_words(path));
-    if (strcmp(first, why) != 0 || is_of_memory(path, why))
+    if (strcmp(first, why) != 0 || is_memory_error(path, why))
         fe_out_of_memory();
     return NULL;
 }

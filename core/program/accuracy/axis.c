@@ -134,7 +134,7 @@ static void want_points(const ff_stage *stage, size_t count)
 }
 
 /* Whether the file asks for a series. */
-static bool asks_series(const ff_pipeline *pipeline)
+static bool requests_series(const ff_pipeline *pipeline)
 {
     for (size_t s = 0; s < pipeline->count; s++) {
         const ff_stage *stage = &pipeline->stages[s];
@@ -149,7 +149,7 @@ static bool asks_series(const ff_pipeline *pipeline)
 
 void accuracy_want_points(const ff_pipeline *pipeline)
 {
-    const bool asked = asks_series(pipeline);
+    const bool asked = requests_series(pipeline);
     for (size_t s = 0; asked && s < pipeline->count; s++) {
         const ff_stage *stage = &pipeline->stages[s];
         if (stage->needed && stage->loaded)

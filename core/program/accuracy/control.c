@@ -207,7 +207,7 @@ static bool is_promising(const control *c, const accuracy_error *e)
 }
 
 /* Sets the level of the next attempt; false if the present one is the answer. */
-static bool go_on(control *c)
+static bool set_next_level(control *c)
 {
     const accuracy_record *record = &c->best->record;
     bool promising = !c->best->run->good && c->kept_count == 1; /* finer settings may succeed */
@@ -254,7 +254,7 @@ static bool choose_models(control *c)
     if (c->stopped)
         return false;
     if (!c->choice->differs)
-        return !c->failure && go_on(c);
+        return !c->failure && set_next_level(c);
     begin_with(c, c->choice);
     return true;
 }
@@ -292,7 +292,7 @@ static void choose_best(control *c)
 static bool search(control *c)
 {
     for (bool again = true; again;) {
-        again = try_next(c) && go_on(c) && c->kept_count < MOST_ATTEMPTS;
+        again = try_next(c) && set_next_level(c) && c->kept_count < MOST_ATTEMPTS;
         if (!again && !c->stopped && c->best->run->good && !c->choice &&
             leaves_models_open(c->pipeline))
             again = choose_models(c) && c->kept_count < MOST_ATTEMPTS;

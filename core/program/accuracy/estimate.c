@@ -138,7 +138,7 @@ typedef struct convergence {
     double coarse_limit; /* largest difference of the coarser levels at typical points */
 } convergence;
 
-static bool goes_down(const accuracy_ladder *l)
+static bool uses_coarser(const accuracy_ladder *l)
 {
     return (l->half && l->quarter) || !l->twice;
 }
@@ -146,13 +146,14 @@ static bool goes_down(const accuracy_ladder *l)
 /* Returns the level from whose difference to the answer the error is estimated. */
 static const double *nearest(const accuracy_ladder *l)
 {
-    return !goes_down(l) ? l->twice : l->half ? l->half : l->quarter;
+    return !uses_coarser(l) ? l->twice : l->half ? l->half : l->quarter;
 }
 
 static convergence convergence_of(const accuracy_ladder *l, const bool *typical)
 {
-    const double *a = goes_down(l) ? l->answer : l->twice, *b = goes_down(l) ? l->half : l->answer,
-                 *c = goes_down(l) ? l->quarter : l->half;
+    const double *a = uses_coarser(l) ? l->answer : l->twice,
+                 *b = uses_coarser(l) ? l->half : l->answer,
+                 *c = uses_coarser(l) ? l->quarter : l->half;
     if (!a || !b || !c)
         return (convergence){NAN, NAN, INFINITY};
     /* Only a single number can overshoot. */
@@ -199,7 +200,7 @@ static double error_at(const accuracy_ladder *l, size_t i, bool typical, const c
     double coarse = fmax(growth, fmin(fabs(observed), most_coarse_growth)); /* fmax and fmin drop
                                                                                NaN */
     double near = difference(l, nearest(l), l->answer, i), far = coarse_difference(l, i);
-    if (!goes_down(l))
+    if (!uses_coarser(l))
         return safety * near * growth / (growth - 1);
     if (!l->half)
         return safety * near / (growth * growth - 1);

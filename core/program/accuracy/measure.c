@@ -183,7 +183,7 @@ static double order_of_estimate(const accuracy_twins *t, const accuracy_error *e
 
 /* Raises the bar of each number to at least the stage's estimate: a stage may know a source of
  * error that the twins do not show. */
-static void hold_to_estimate(const accuracy_twins *t, const double *at, accuracy_error *e)
+static void raise_to_estimate(const accuracy_twins *t, const double *at, accuracy_error *e)
 {
     const ff_result *estimate = accuracy_estimate_of(e->stage, e->result);
     const double measured = e->relative;
@@ -214,7 +214,7 @@ static void measure_output(const accuracy_twins *t, accuracy_error *e)
         e->bar[i] = fmax(e->bar[i], least_error * e->goal * levels.scale[i]);
     find_relative(levels.at, e);
     add_parts(t, shares, e);
-    hold_to_estimate(t, levels.at, e);
+    raise_to_estimate(t, levels.at, e);
     add_changes(t, &levels, e);
 }
 
@@ -251,7 +251,7 @@ static double bar_at_extreme(const ff_result *number, const accuracy_error *seri
 
 /* Gives a number that is the extreme of a series at least the bar of the series at that point: a
  * single number may agree on two levels by chance. */
-static void hold_to_series(const accuracy_twins *t, accuracy_error *number)
+static void raise_to_series(const accuracy_twins *t, accuracy_error *number)
 {
     if (number->result->rank != 0 || !number->bar)
         return;
@@ -269,12 +269,12 @@ static void conclude(const accuracy_twins *t)
     for (size_t i = 0; i < record->count; i++)
         measure_output(t, &record->errors[i]);
     for (size_t i = 0; i < record->count; i++)
-        hold_to_series(t, &record->errors[i]);
+        raise_to_series(t, &record->errors[i]);
 }
 
 /* True if stages estimate errors, and all these errors are so small that a twin two levels coarser
  * is expected to show that the goals are met. */
-static bool are_far_below(const accuracy_record *record)
+static bool suit_far_twin(const accuracy_record *record)
 {
     bool some = false, all = true;
     for (size_t i = 0; i < record->count; i++) {
@@ -343,7 +343,7 @@ bool accuracy_measure(accuracy_record *record, const accuracy_scene *scene,
     accuracy_twins t = twins_of(record, scene, attempt);
     t.one_by_one = effort != ACCURACY_PARTS;
     list_outputs(&t);
-    t.far_first = t.one_by_one && are_far_below(record);
+    t.far_first = t.one_by_one && suit_far_twin(record);
     for (bool missed = true; missed && accuracy_twins_find(&t) && !t.stopped;) {
         conclude(&t);
         missed = effort == ACCURACY_ORDER || (effort == ACCURACY_ENOUGH && misses(record));

@@ -57,7 +57,7 @@ static bool is_law(const ff_model *model)
 
 /* The most expensive model of the kind. NULL if none states its cost, or if the kind is a law,
    whose most expensive member need not be the exact one. */
-static const char *most_costly(ff_engine *engine, const char *use)
+static const char *most_expensive(ff_engine *engine, const char *use)
 {
     const char *found = NULL;
     size_t count;
@@ -82,7 +82,7 @@ static const char *reference_of(const ff_node *stage, ff_engine *engine)
     for (size_t i = 0; with && with->kind == FF_MAP && i < with->count; i++)
         if (is_of_kind(with->keys[i], use))
             return with->keys[i];
-    return most_costly(engine, use);
+    return most_expensive(engine, use);
 }
 
 static bool refuse(const ff_node *use, const char *name, ff_report *report)
@@ -121,7 +121,7 @@ static void name_reference(ff_run *run, const char *name, const ff_node *stage, 
     free(set);
 }
 
-static void check_asked(ff_run *run)
+static void check_requests(ff_run *run)
 {
     const ff_pipeline *pipeline = ff_run_pipeline(run);
     for (size_t i = 0; i < pipeline->count && !accuracy_has_goals(run); i++) {
@@ -190,7 +190,7 @@ ff_pipeline *accuracy_build(ff_run *run, ff_engine *engine, bool everything)
 {
     ff_pipeline *pipeline = accuracy_build_alone(run, engine, everything);
     if (pipeline && !run_has_errors(run) && accuracy_check(run))
-        check_asked(run);
+        check_requests(run);
     return pipeline;
 }
 

@@ -93,7 +93,7 @@ void accuracy_copy_states(const ff_pipeline *from, ff_pipeline *to)
             ff_stage_set_state(&to->stages[i], from->stages[i].state, from->stages[i].state_size);
 }
 
-static void want_the_same(const ff_pipeline *from, ff_pipeline *to)
+static void copy_wanted(const ff_pipeline *from, ff_pipeline *to)
 {
     for (size_t i = 0; i < to->count; i++) {
         const ff_stage *stage = &from->stages[i], *other = &to->stages[i];
@@ -135,7 +135,7 @@ const accuracy_twin *accuracy_twin_run(const accuracy_scene *scene, const char *
         accuracy_want_beside(twin->pipeline, !scene->outputs);
         accuracy_copy_states(like, twin->pipeline);
         if (!scene->outputs)
-            want_the_same(like, twin->pipeline);
+            copy_wanted(like, twin->pipeline);
         twin->good = run_start(twin->run, &watch) && !run_has_errors(twin->run);
     }
     for (size_t i = 0; twin->pipeline && i < twin->pipeline->count; i++) {

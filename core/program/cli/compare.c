@@ -44,7 +44,7 @@ static bool open_design(const char *operand, report_design *design, ff_report *r
     return good;
 }
 
-static void say(void *ctx, int indent, const char *line)
+static void print_line(void *ctx, int indent, const char *line)
 {
     const cli_options *options = ctx;
     if (options->json)
@@ -92,7 +92,7 @@ static bool write_files(const study_context *context, const cli_options *options
 static bool compare(const cli_options *options, const report_design *designs, size_t count,
                     ff_report *report)
 {
-    const study_run run = {.say = say, .ctx = (void *)options};
+    const study_run run = {.print_line = print_line, .ctx = (void *)options};
     study_context context = {.name = "compare", .report = report, .run = &run};
     study_answer answer = {.context = &context, .file = "compare"};
     bool good = report_compare(&answer, designs, count);

@@ -156,7 +156,7 @@ static int execute(cli_options *options, int argc, char **argv)
     return code;
 }
 
-static bool asks_json(int argc, char **argv)
+static bool has_json_option(int argc, char **argv)
 {
     bool json = false;
     for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++)
@@ -168,7 +168,7 @@ static int dispatch(int argc, char **argv)
 {
     cli_options options = {.command = NULL};
     const char *word = argc > 1 ? argv[1] : NULL;
-    options.json = asks_json(argc, argv);
+    options.json = has_json_option(argc, argv);
     if (!word) {
         cli_wrong_usage(&options, "a command is missing; flankfilm --help lists them");
         return FF_FAULT_INPUT;
@@ -280,7 +280,7 @@ int main(int argc, char **argv)
     signal(SIGPIPE, SIG_IGN); /* so that a closed pipe shows as a write error */
     signal(SIGXFSZ, SIG_IGN); /* so that a limit on the size of files does, too */
     if (crash_lead(&end))
-        conclude(&end, asks_json(argc, argv));
+        conclude(&end, has_json_option(argc, argv));
     if (ff_protected(dispatch_it, &line) == FF_NOMEM)
         memory_require(NULL);
     int code = close_output(line.code);

@@ -109,7 +109,7 @@ static long long integer_of(const json_t *map, const char *key)
     return (long long)json_integer_value(json_object_get(map, key));
 }
 
-static void say_below(study_answer *answer, const json_t *sums)
+static void print_below(study_answer *answer, const json_t *sums)
 {
     size_t i;
     json_t *one;
@@ -129,7 +129,7 @@ static void say_below(study_answer *answer, const json_t *sums)
 }
 
 /* Prints which stages were evaluated once for several rows. */
-static void say_stages(study_answer *answer, const json_t *sums)
+static void print_stages(study_answer *answer, const json_t *sums)
 {
     const char *name;
     json_t *of;
@@ -145,7 +145,7 @@ static void say_stages(study_answer *answer, const json_t *sums)
 }
 
 /* Prints for how much of the time there are no results, and why. */
-static void say_left_out(study_answer *answer, const json_t *sums)
+static void print_left_out(study_answer *answer, const json_t *sums)
 {
     const json_t *refused = json_object_get(sums, "refused");
     double stated = study_number_of(sums, "stated"), share = study_number_of(refused, "share");
@@ -220,9 +220,9 @@ bool cli_spectrum_sum(const study_run *run, study_context *context)
                                              .digits = 12,
                                              .indent = 2,
                                              .figure = draw(&answer, run, sums)});
-    say_below(&answer, sums);
-    say_stages(&answer, sums);
-    say_left_out(&answer, sums);
+    print_below(&answer, sums);
+    print_stages(&answer, sums);
+    print_left_out(&answer, sums);
     study_answer_say(&answer, STUDY_ON_TERMINAL, 0, "%s", "");
     study_answer_close(&answer);
     return study_context_write(context, run->directory);

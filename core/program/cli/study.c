@@ -42,7 +42,7 @@ typedef struct study_progress {
     double printed_at; /* time of the last progress line, s after the start */
 } study_progress;
 
-static void tell_progress(void *ctx, const study_counters *counters)
+static void print_progress(void *ctx, const study_counters *counters)
 {
     study_progress *t = ctx;
     size_t fresh = counters->done - counters->before, left = counters->total - counters->done;
@@ -109,7 +109,7 @@ static bool begin_rows(study_run *run, const cli_options *options, ff_report *re
 }
 
 /* Prints a line of the study's driver. */
-static void say(void *ctx, int indent, const char *line)
+static void print_driver_line(void *ctx, int indent, const char *line)
 {
     const study_progress *t = ctx;
     int blanks = (int)strspn(line, " ");
@@ -296,10 +296,10 @@ static void note_files(const study_context *of, const char *directory)
 static bool begin_run(study_run *run, cli_session *session, const cli_options *options,
                       study_progress *t)
 {
-    run->progress = options->json ? NULL : tell_progress;
+    run->progress = options->json ? NULL : print_progress;
     run->enter = enter;
     run->describe = describe;
-    run->say = say;
+    run->print_line = print_driver_line;
     run->ctx = t;
     if (cli_option(options, "executor"))
         run->executor = cli_executor_open(session->engine, options, session->report);

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool is_told(const ff_report *report, ff_place place)
+static bool is_reported(const ff_report *report, ff_place place)
 {
     for (size_t i = 0; i < ff_report_count(report); i++) {
         const ff_message *m = ff_report_at(report, i);
@@ -34,7 +34,7 @@ static void check_key(const char *key, ff_place place, json_t *lines, ff_report 
         if (is_of_stage(line, key))
             names[count++] = line + stage + 1;
     }
-    if (count > 0 && !json_object_get(lines, key) && !is_told(report, place)) {
+    if (count > 0 && !json_object_get(lines, key) && !is_reported(report, place)) {
         const char *nearest = ff_nearest(key + stage + 1, names, count);
         ff_warn(report, place, "accept: %.*s has no line \"%s\" in this run%s%s%s", (int)stage, key,
                 key + stage + 1, nearest ? "; did you mean \"" : "", nearest ? nearest : "",

@@ -35,7 +35,7 @@ FILE *file_stream(int directory, const char *name)
 }
 
 /* Whether to continue after a call that transferred this many bytes. */
-static bool goes_on(ssize_t moved)
+static bool may_continue(ssize_t moved)
 {
     errno = moved == 0 ? EIO : errno;
     return moved > 0 || (moved < 0 && errno == EINTR);
@@ -47,7 +47,7 @@ bool file_read(int fd, void *data, size_t size, off_t at)
         char *next = (char *)data + done;
         const size_t left = size - done;
         ssize_t got = at < 0 ? read(fd, next, left) : pread(fd, next, left, at + (off_t)done);
-        if (!goes_on(got))
+        if (!may_continue(got))
             return false;
         done += got > 0 ? (size_t)got : 0;
     }
@@ -60,7 +60,7 @@ bool file_write(int fd, const void *data, size_t size, off_t at)
         const char *next = (const char *)data + done;
         const size_t left = size - done;
         ssize_t put = at < 0 ? write(fd, next, left) : pwrite(fd, next, left, at + (off_t)done);
-        if (!goes_on(put))
+        if (!may_continue(put))
             return false;
         done += put > 0 ? (size_t)put : 0;
     }

@@ -197,7 +197,7 @@ static bool add_output(json_t *rows, size_t v, size_t owner, const report_design
 }
 
 /* Prints for each design whether it meets the limits of its file, and what is doubtful. */
-static void say_verdicts(study_answer *answer, const report_design *designs, size_t count)
+static void print_verdicts(study_answer *answer, const report_design *designs, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
         const results_view_case *c = designs[i].view->cases[designs[i].index];
@@ -272,7 +272,7 @@ bool report_compare(study_answer *answer, const report_design *designs, size_t c
             .name =
                 study_context_format(context, i % 2 ? "error of %s" : "%s", designs[i / 2].name)};
     if (good)
-        say_verdicts(answer, designs, count);
+        print_verdicts(answer, designs, count);
     study_answer_add(
         answer,
         &(study_table){.summary = "What each gives",

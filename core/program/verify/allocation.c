@@ -72,7 +72,7 @@ static void *remember(void *memory, size_t size)
 }
 
 /* Checks the guard bytes of a block. The caller holds the lock. */
-static void look_behind(const block *b)
+static void check_guard(const block *b)
 {
     unsigned char *zone = b->first + b->size;
     for (size_t i = 0; i < ZONE; i++)
@@ -88,7 +88,7 @@ static void forget(const void *memory)
     pthread_mutex_lock(&lock);
     for (size_t i = block_count; i-- > 0;)
         if (blocks[i].first == memory) {
-            look_behind(&blocks[i]);
+            check_guard(&blocks[i]);
             blocks[i] = blocks[--block_count];
             break;
         }
@@ -142,7 +142,7 @@ size_t verify_allocation_breached(void)
 {
     pthread_mutex_lock(&lock);
     for (size_t i = 0; i < block_count; i++)
-        look_behind(&blocks[i]);
+        check_guard(&blocks[i]);
     size_t size = breached;
     breached = 0;
     pthread_mutex_unlock(&lock);

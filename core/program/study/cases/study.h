@@ -170,7 +170,7 @@ typedef struct study_run {
        until all are finished. */
     const study_definition *described;
     void (*describe)(void *ctx, const study_definition *study, const study_tally *tally, FILE *out);
-    void (*say)(void *ctx, int indent, const char *line); /* prints a line of a driver */
+    void (*print_line)(void *ctx, int indent, const char *line); /* prints a line of a driver */
     /* called about once per second */
     void (*progress)(void *ctx, const struct study_counters *counters);
     void *ctx;

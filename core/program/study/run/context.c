@@ -72,8 +72,8 @@ bool study_is_map(const ff_node *node)
 
 void study_context_print_line(const study_context *context, int indent, const char *line)
 {
-    if (context->run->say)
-        context->run->say(context->run->ctx, indent, line);
+    if (context->run->print_line)
+        context->run->print_line(context->run->ctx, indent, line);
 }
 
 FILE *study_context_file(study_context *context, const char *name)

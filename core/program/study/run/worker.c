@@ -95,7 +95,7 @@ static void add_costs(const study_case *c, double spent, json_t *record)
 }
 
 /* Returns the answer for an overwritten plugin: the path of its file. */
-static char *tell_written_over(const study_run *run)
+static char *answer_written_over(const study_run *run)
 {
     const ff_loaded *over = ff_engine_written_over(run->engine);
     return over ? memory_print_text("%c%s\n", STUDY_VERDICT_WRITTEN_OVER, over->path) : NULL;
@@ -112,7 +112,7 @@ static char *answer_case(study_walk *walk, size_t index, study_memory *memory, c
     }
     *record = study_case_run(c, walk->run, index, memory);
     add_costs(c, (double)(clock() - start) / CLOCKS_PER_SEC, *record);
-    char *over = study_record_is_ok(*record) ? NULL : tell_written_over(walk->run);
+    char *over = study_record_is_ok(*record) ? NULL : answer_written_over(walk->run);
     if (over || *record)
         return over ? over : study_journal_line(*record, memory->written_forms);
     char *why = study_first_error(c->report);

@@ -100,7 +100,7 @@ static uint32_t find_form(const study_records *r, const char *name)
     return (uint32_t)i;
 }
 
-static uint32_t learn_form(study_records *r, const char *name, json_t *content)
+static uint32_t add_form(study_records *r, const char *name, json_t *content)
 {
     uint32_t known = find_form(r, name);
     if (known || !content)
@@ -118,7 +118,7 @@ static json_t *restore(study_records *r, json_t *line)
     const char *name = json_string_value(json_object_get(line, "form"));
     if (!name)
         return line;
-    uint32_t number = learn_form(r, name, json_object_get(line, "is"));
+    uint32_t number = add_form(r, name, json_object_get(line, "is"));
     json_t *record = number ? study_form_fill(r->forms[number - 1].content, line) : NULL;
     json_decref(line);
     return record;

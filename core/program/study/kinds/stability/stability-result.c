@@ -146,7 +146,7 @@ static json_t *boundary_row(const study_map *map, const study_boundary *b)
         text_or_null(worse->line));
 }
 
-static void tell_boundaries(const study_map *map, study_answer *answer, size_t axis)
+static void add_boundaries(const study_map *map, study_answer *answer, size_t axis)
 {
     const char *path = map->grid->varied[axis].path;
     json_t *rows = json_array();
@@ -182,7 +182,7 @@ static void tell_boundaries(const study_map *map, study_answer *answer, size_t a
 }
 
 /* Adds the cells of a slice that are not converged, with the reasons. */
-static void tell_cells(const study_map *map, size_t slice, study_answer *answer, json_t *figure)
+static void add_cells(const study_map *map, size_t slice, study_answer *answer, json_t *figure)
 {
     static const study_column why[] = {
         {.of = {"verdict"}, .head = "verdict"}, {.of = {"because"}, .head = "because of"},
@@ -288,9 +288,9 @@ void study_map_reduce(void *study, study_answer *answer)
     study_map_print(map);
     add_file(map, answer);
     for (size_t a = 0; a < map->axis_count; a++)
-        tell_boundaries(map, answer, a);
+        add_boundaries(map, answer, a);
     for (size_t i = 0; i < study_map_slices(map); i++)
-        tell_cells(map, i, answer, draw(map, i, answer));
+        add_cells(map, i, answer, draw(map, i, answer));
     study_context_print_line(map->context, 0, "");
     /* finding failed cells is the purpose of a map, so only silent failures make it bad */
     map->context->verdict = map->counts[STUDY_SILENT] + map->more[STUDY_SILENT] ? FF_BAD : FF_GOOD;

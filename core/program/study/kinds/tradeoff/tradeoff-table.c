@@ -200,7 +200,7 @@ static void add_front(study_answer *answer, const json_t *candidates, const json
                                             .forms = SHOWN});
 }
 
-static void tell_reference(study_answer *answer, const json_t *result)
+static void add_reference(study_answer *answer, const json_t *result)
 {
     const json_t *reference = json_object_get(result, "reference");
     size_t i;
@@ -254,7 +254,7 @@ void study_tradeoff_print(study_answer *answer)
     json_t *sorted = sort_by_cost(candidates), *names = names_of_counts(candidates), *of;
     const char *count = json_object_iter_key(json_object_iter(names)), *output;
     count = count ? study_context_format(answer->context, "%s", count) : NULL;
-    tell_reference(answer, result);
+    add_reference(answer, result);
     json_object_foreach(json_object_get(result, "outputs"), output, of)
     {
         json_t *figure = draw(answer, candidates, output, of);

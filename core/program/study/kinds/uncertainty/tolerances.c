@@ -13,7 +13,7 @@ typedef struct search {
 static void look_at(search *s, const ff_node *node, const char *path);
 
 /* Examines the value under a name, or at an index of a list. */
-static void look_below(search *s, const ff_node *node, const char *path, const char *name)
+static void search_below(search *s, const ff_node *node, const char *path, const char *name)
 {
     char *longer = memory_print_text("%s.%s", path, name);
     look_at(s, node, longer);
@@ -26,7 +26,7 @@ static void look_at(search *s, const ff_node *node, const char *path)
     ff_tolerance tolerance;
     for (size_t i = 0; node->kind != FF_SCALAR && i < node->count; i++) {
         snprintf(number, sizeof number, "%zu", i);
-        look_below(s, node->items[i], path, node->kind == FF_MAP ? node->keys[i] : number);
+        search_below(s, node->items[i], path, node->kind == FF_MAP ? node->keys[i] : number);
     }
     if (node->kind != FF_SCALAR || ff_tolerance_parse(node->text, &tolerance, why, sizeof why) <= 0)
         return;
@@ -44,10 +44,10 @@ static void look_at_stage(search *s, const ff_node *stage, const char *name)
         const char *key = stage->keys[i];
         const ff_node *set = stage->items[i];
         if (strcmp(key, "with") != 0) {
-            look_below(s, set, name, key);
+            search_below(s, set, name, key);
         } else if (use && use->kind == FF_SCALAR && (set = ff_node_get(set, use->text))) {
             char *path = memory_print_text("%s.with", name);
-            look_below(s, set, path, use->text);
+            search_below(s, set, path, use->text);
             free(path);
         }
     }

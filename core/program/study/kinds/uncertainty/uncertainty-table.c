@@ -159,7 +159,7 @@ static void draw_limits(study_answer *answer, json_t *outputs)
                                         "What limits each output", "outputs", bars));
 }
 
-static void tell_output(study_answer *answer, const char *name, const json_t *of, json_t *all)
+static void add_output(study_answer *answer, const char *name, const json_t *of, json_t *all)
 {
     study_context *context = answer->context;
     json_int_t failed = json_integer_value(json_object_get(of, "failed"));
@@ -177,7 +177,7 @@ static void tell_output(study_answer *answer, const char *name, const json_t *of
                          (long long)failed);
 }
 
-static void tell_conditions(study_answer *answer, const json_t *conditions, json_t *all)
+static void add_conditions(study_answer *answer, const json_t *conditions, json_t *all)
 {
     json_t *rows = json_array(), *of;
     const char *name;
@@ -201,7 +201,7 @@ static json_t *remark_of(const json_t *level, const json_t *first)
     return isfinite(found) ? json_sprintf("%.3g %% found", 100 * found) : NULL;
 }
 
-static void tell_levels(study_answer *answer, const json_t *result)
+static void add_levels(study_answer *answer, const json_t *result)
 {
     const json_t *gain = json_object_get(result, "gain"), *all = json_object_get(result, "levels");
     json_t *rows = json_array(), *level;
@@ -227,7 +227,7 @@ static void tell_levels(study_answer *answer, const json_t *result)
                      study_number_of(gain, "predicted"));
 }
 
-static void tell_limits(study_answer *answer, const json_t *limits)
+static void add_limits(study_answer *answer, const json_t *limits)
 {
     json_t *reason;
     const char *model;
@@ -243,13 +243,13 @@ void study_uncertainty_reduce(void *study, study_answer *answer)
     answer->digits = 9;
     draw_limits(answer, json_object_get(result, "outputs"));
     json_object_foreach(json_object_get(result, "outputs"), name, of)
-        tell_output(answer, name, of, all);
-    tell_conditions(answer, json_object_get(result, "conditions"), all);
+        add_output(answer, name, of, all);
+    add_conditions(answer, json_object_get(result, "conditions"), all);
     add_statistics(answer, NULL, NULL, all, NULL, IN_FILE);
     if (json_object_get(result, "gain"))
-        tell_levels(answer, result);
+        add_levels(answer, result);
     study_context_print_line(answer->context, 0, "");
     json_object_foreach(json_object_get(result, "outputs"), name, of)
-        tell_limits(answer, json_object_get(of, "limits"));
+        add_limits(answer, json_object_get(of, "limits"));
     study_context_print_line(answer->context, 0, "");
 }
