@@ -42,9 +42,9 @@ typedef struct fe_instance {
     struct fe_loop_stage *member; /* its entry in the running loop; NULL: none */
     fe_heap *heap;                /* memory that host functions allocate */
     fe_resource open;             /* registers `self` from create to destroy */
-    bool no_memory; /* an allocation in a host function failed; the call ends when the model returns
-                     */
-    bool no_room;   /* like no_memory, for the output whose name is in `text` */
+    /* an allocation in a host function failed; the call ends when the model returns */
+    bool no_memory;
+    bool no_room;     /* like no_memory, for the output whose name is in `text` */
     fe_tables tables; /* tables read by the model; their errors are reported before `text` */
     fe_serving *servings;
     size_t serving_count;

@@ -25,10 +25,10 @@ enum { ACCURACY_PROGRESS = 120 };
 typedef struct accuracy_error {
     const ff_stage *stage;
     const ff_result *result;
-    double goal;       /* the file's goal; NaN if it states none */
-    bool absolute;     /* the goal is absolute, in SI, not relative */
-    double reached;    /* the error to be compared with the goal: `relative`, or absolute in SI
-                        */
+    double goal;   /* the file's goal; NaN if it states none */
+    bool absolute; /* the goal is absolute, in SI, not relative */
+    /* the error to be compared with the goal: `relative`, or absolute in SI */
+    double reached;
     double zero_point; /* zero point of relative errors, SI */
     double *bar;       /* error bar of each number, SI, at least 0; NULL if it is not known */
     double relative;   /* relative error; for a series, at 95 of 100 points; NaN if it is not

@@ -200,9 +200,9 @@ void cli_print_resolved(const cli_session *session, const cli_options *options)
     run_set_all(run, options->sets, options->set_count);
     if (session->study->request)
         run_put(run, "outputs", session->study->request);
-    accuracy_build(run, session->engine, false); /* values that only the cases give may be missing
-                                                  */
-    if (ff_run_root(run))                        /* the file could be read */
+    /* values that only the cases give may be missing */
+    accuracy_build(run, session->engine, false);
+    if (ff_run_root(run)) /* the file could be read */
         print_run(run, options->operand);
     ff_run_close(run);
 }

@@ -17,8 +17,8 @@ enum { LONGEST_NAME = 255, LONGEST_PART = LONGEST_NAME + 20 };
 static const char manifest[] = ".flankfilm";
 static const char manifest_head[] = "flankfilm "; /* the kind of results follows */
 static const char manifest_rest[] = " directory; its files:\n";
-static const char head[] = ".flankfilm.", part[] = ".part"; /* prefix and suffix of a temporary name
-                                                             */
+/* prefix and suffix of a temporary name */
+static const char head[] = ".flankfilm.", part[] = ".part";
 
 typedef struct entry {
     char *name;

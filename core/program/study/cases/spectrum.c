@@ -145,7 +145,8 @@ void study_spectrum_check(const study_definition *study, const ff_pipeline *pipe
 
 /* Sums over the rows for one output. */
 typedef struct sum {
-    double time, integral, low, high;
+    double time, integral; /* time of the rows with numbers, and integral over this time */
+    double low, high;
     size_t low_row, high_row;
     bool series;
 } sum;
@@ -169,14 +170,15 @@ static void add_value(sum *of, double value, double time, size_t row)
 /* The numbers of all rows, with one entry for each output. */
 typedef struct reading {
     const study_definition *study;
-    json_t *names; /* {output: [index, unit]} */
+    json_t *names; /* {output: [index in `sums`, unit]} */
     sum *sums;
     size_t count;
     json_t *stages;
-    json_t *values; /* {output: [value of each row]}; NULL if there are too many rows */
-    double missing, refused;
-    size_t refused_rows, first_refused;
-    char *reason; /* reason of the first refused row */
+    json_t *values;          /* {output: [value of each row]}; NULL if there are too many rows */
+    double missing, refused; /* time of the rows without numbers, and of the refused rows */
+    size_t refused_rows, first_refused; /* their number, and the number of the first, from 1 */
+    char *reason;                       /* reason of the first refused row */
+    /* for each entry of `below`: the limit in SI, the time below it, and the number of rows */
     double *limits, *shares;
     size_t *rows;
 } reading;

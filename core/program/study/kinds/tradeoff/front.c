@@ -32,8 +32,8 @@ size_t study_front(const double *cost, const double *error, size_t count, size_t
 size_t study_front_knee(const double *cost, const double *error, const size_t *front, size_t length)
 {
     size_t knee = length;
-    double farthest = 0.02; /* relative to the diagonal; a front that bends less counts as straight
-                             */
+    /* relative to the diagonal; a front that bends less counts as straight */
+    double farthest = 0.02;
     if (length < 3 || !(error[front[length - 1]] > 0))
         return length;
     size_t first = front[0], last = front[length - 1];

@@ -45,8 +45,8 @@ typedef struct term {
 typedef struct surface {
     size_t count;
     term terms[MOST_TERMS];
-    double coefficient[MOST_TERMS], variance[MOST_TERMS]; /* coefficients, and their squared errors
-                                                           */
+    /* coefficients, and their squared errors */
+    double coefficient[MOST_TERMS], variance[MOST_TERMS];
     double rest;    /* mean square of the residuals, for the remaining degrees of freedom */
     double missing; /* mean square of the residual at a sample that was left out of the fit */
     double freedom;
