@@ -126,7 +126,7 @@ machine at the beginning and at the end: $load and $(cut -d' ' -f1 /proc/loadavg
 
 Each table compares candidates (models and settings) with a reference, a finer run. *Cost* is the CPU time of the
 stages that the candidates change, the median of the repeats; *run* is that of all stages. *Error* is the relative difference from the reference that
-is not exceeded on 95 % of the mesh cycle. It is **bold** if the candidate is on the front: no cheaper candidate has as
+is not exceeded on 95 % of the mesh cycle. An error is **bold** if the candidate is on the front: no cheaper candidate has as
 small an error. "reference 1" is the refinement of "reference 0", and the changes between them show the uncertainty of
 the reference. The [guide](guide/accuracy.md#speed-against-accuracy) says how to measure your own trade-off.
 

@@ -150,8 +150,8 @@ The paper claims 15 % for M from 2 on. The computed loss includes the part of th
 ## Loss of a spur gear mesh
 
 `mesh-loss.yaml`: Petry-Johnson, Kahraman, Anderson & Chase 2007/2008, 413 N m. The measured values are intervals, since the
-paper gives rounded percentages. They assume the loss of one mesh; if the loss is that of the two meshes of a back-to-back
-rig, each has half. Gears,
+paper gives rounded percentages. The intervals assume the loss of one mesh; if the loss is that of the two meshes of a
+back-to-back rig, each has half. Gears,
 oil, laws and the rule for the temperature were written down before the first run; every run is shown. "Laws" are eta(p)
 and the Eyring stress.
 

@@ -216,7 +216,7 @@ function figure3(  k0, n, low, i, h, fmass, a, b, least) {
         "the upper branch hardly depends on k. Below the speeds of the figure there are resonances at f_n/4 and lower, due to harmonics 5 to 7 " \
         "of a k(t) with jumps, and from about 2100 to 2200 Hz the lower motion is unstable. All branches: [dynamics](dynamics.md); k by other models: [stiffness](stiffness.md).")
     say("Which k(t) would give the figure? At f_n/n the linear motion swings by k_n/(2 zeta k) times the static deflection, so contact is lost if k_n exceeds 2 zeta k: " \
-        F("%.3f 1e8 N/m. The table is for a k with only the first three of these harmonics, each multiplied by the same factor. It gives the range of mesh frequency with a second motion, and its rms at the lower end:", 2 * 0.01 * k0 / 1e8))
+        F("%.3f 1e8 N/m. The table is for a k with only the first three of these harmonics, each multiplied by the same factor. The columns give the range of mesh frequency with a second motion, and its rms at the lower end:", 2 * 0.01 * k0 / 1e8))
     over_sizes()
     say("Separate peaks with III on the upper branch would require a third of this k1, and k2 and k3 slightly above that threshold. Only the measured response of the pair could decide.")
 }

@@ -110,7 +110,7 @@ counts the speeds at which `shared` and `frozen` give different numbers.
 {chr(10).join(number)}
 
 The first fold at a damping ratio of 0.05 is compared with another program, which solves load sharing at each instant with
-finite elements. Its rim radius is not known. The rim radius here is chosen so that for the pair without relief the slope of
+finite elements. The rim radius in that program is not known. The rim radius here is chosen so that for the pair without relief the slope of
 the mesh force exceeds the chord by 3.8 %, as in that program; the gear with 25 teeth has the same ratio of rim to root
 radius. `frozen` uses the chord, `shared` ten force levels.
 

@@ -219,17 +219,17 @@ If contact is kept, the balance closes to less than 5e-4 of the loss, which is t
 and `power_loss_space_error`). If flanks separate, a motion without a film during contact loss supplies less power than the
 film takes; the quality line `power_balance` shows this. With `squeeze: series` the flanks land at the same time in the film and in the motion, since both squeeze the oil with the same force;
 the squeeze loss that the motion already contains is not counted twice. At point III the remaining difference is above 1e-3.
-It has two main causes: the computed domain suits loaded flanks and is too short for all the oil that is squeezed in a gap of
-some micrometres; and during contact loss the film includes the wedge of the rolling flanks, which the motion includes only
-with `squeeze_rolling` ("wedge in flight"). The table varies both at point III:
+This difference has two main causes: the computed domain suits loaded flanks and is too short for all the oil that is
+squeezed in a gap of some micrometres; and during contact loss the film includes the wedge of the rolling flanks, which the
+motion includes only with `squeeze_rolling` ("wedge in flight"). The table varies both at point III:
 
 TEXT
     refined
     cat <<'TEXT'
 
 The remainder with the finest cells, 1.1e-3 to 1.3e-3, is known term by term (16 half widths, 1000 steps, the wedge during contact loss). At
-the start of active profile, where k(t) jumps, the film begins loaded. It then has less elastic energy than the Hertzian contact that `separation` assumes, and
-its compressed oil releases energy that was never put in. The error due to the cells falls with the square of their number:
+the start of active profile, where k(t) jumps, the film begins loaded. The film then has less elastic energy than the
+Hertzian contact that `separation` assumes, and its compressed oil releases energy that was never put in. The error due to the cells falls with the square of their number:
 
 TEXT
     python3 "$here/two-way-books.py" "$build/flankfilm" "$configs/two-way.yaml"
