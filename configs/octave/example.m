@@ -5,8 +5,8 @@
 %   flankfilm export results/torque --to netcdf        # results/torque/results.nc
 %   octave configs/octave/example.m results/torque/results.nc
 %
-% Values are in SI. Dimensions come in the reverse of the order in which the file names them, as
-% columns run first here: film.h_min(torque, film.t) is an array of t x torque.
+% Values are in SI. MATLAB and Octave reverse the order of dimensions in the file:
+% film.h_min(torque, film.t) becomes an array of t x torque.
 
 if exist('OCTAVE_VERSION', 'builtin')
   pkg load netcdf
@@ -19,7 +19,7 @@ if ~isempty(words)
   file = words{end};
 end
 
-torque = ncread(file, 'torque');                       % what the study varies
+torque = ncread(file, 'torque');                       % the varied parameter
 film = ncread(file, 'film.h_min');                     % t x torque
 unit = ncreadatt(file, 'film.h_min', 'units');
 what = ncreadatt(file, 'film.h_min', 'long_name');
@@ -34,7 +34,7 @@ for k = 1:numel(torque)
   end
 end
 line = polyfit(log(torque(good)), log(lowest(good)), 1);
-fprintf('the least film goes with the torque to the power of %.3f\n', line(1));
+fprintf('the least film varies with the torque to the power of %.3f\n', line(1));
 
 if ~isempty(getenv('DISPLAY')) || usejava('desktop')
   plot(film * 1e6);
