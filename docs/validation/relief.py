@@ -90,9 +90,10 @@ def main():
         print(rows[-2], rows[-1], *number[-2:], sep='\n', file=sys.stderr)
     page.write_text(f"""# What relief does to resonance, jumps and the number of motions
 
-`python3 docs/validation/relief.py build` writes this page. The 50/50 pair of Li and Kahraman 2011 and a 25/50 pair, both of
-3 mm, 20 mm wide and with the force of 250 N m on 50 teeth; linear tip relief from HPSTC on; `stiffness/load-distribution` with analytical
-compliance, `dynamics/shooting`, the mass of the gears. `force: frozen` uses load sharing and slope at the mean load for any
+`python3 docs/validation/relief.py build` writes this page. The gears are the 50/50 pair of Li and Kahraman 2011 and a 25/50
+pair, both with a module of 3 mm and a width of 20 mm. The mesh force is that of 250 N m on the gear with 50 teeth; tip
+relief is linear from HPSTC on; the models are `stiffness/load-distribution` with analytical compliance, `dynamics/shooting`,
+the mass of the gears. `force: frozen` uses load sharing and slope at the mean load for any
 force, `force: shared` those at the force of each instant ([theory](../theory.md#4-dynamics), 4.3b).
 
 With a damping ratio of 0.05: natural frequency, the motion with the largest rms from 1800 to 3800 Hz, and the first two
