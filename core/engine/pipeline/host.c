@@ -373,8 +373,8 @@ static double *host_output(void *ctx, uint32_t index, uint32_t rank, const size_
     fe_instance *instance = ctx;
     const ff_loaded *loaded = instance->stage->loaded;
     if (!instance->evaluating || index >= loaded->model->output_count) {
-        breach(instance, "asked for memory of output row %u %s", index,
-               instance->evaluating ? "but has no such row" : "outside of evaluate");
+        breach(instance, "asked for memory of output row %u%s", index,
+               instance->evaluating ? ", but has no such row" : " outside of evaluate");
         return NULL;
     }
     const ff_result *result = &instance->stage->results[index];

@@ -54,7 +54,7 @@ static bool is_there(const char *folder, const char *name)
     return there;
 }
 
-/* Finds the build tree beside this code, or beside a build file in a parent directory. */
+/* Looks in the build tree: the folder of this code, or a parent directory with a build file. */
 char *fe_built_file(const char *path)
 {
     char folder[LONGEST_PATH];
