@@ -66,7 +66,7 @@ for line in open(counted):
     print("| %.0f | %.0f | %.3f | %.0f | %.0f | %.2f | %.2f |" % (
         cells, steps, giga, each, flops, flops / each, 28 * 8 * cells * (convolutions + newton) / 1e6))
 print("""
-With 256 cells, 0.426e9 of the instructions measure the errors on finer cells (`ehl_results_measure`); [campaigns.md](campaigns.md) has the cost of the other quality
+With 256 cells, 0.074e9 of the instructions measure the errors on finer cells (`ehl_results_measure`); [campaigns.md](campaigns.md) has the cost of the other quality
 lines.
 
 | film | instructions |

@@ -320,8 +320,9 @@ double ehl_peak_bound(const ehl_march *m)
 }
 
 /* The order of magnitude of the error due to the cells, which serves the tolerances of the solution
- * alone, over 1/n^p with n cells over the build-up length: that of h_min for M 16, L 5 and n 30. */
-static const double MAGNITUDE = 0.5;
+ * alone, over 1/n^p with n cells over the build-up length: that of h_min for M 16 and L 5 at n 15.
+ */
+static const double MAGNITUDE = 0.35;
 
 /* Records what is known of the cells alone. The errors of h_min and h_central are not known until
  * they are found. */
