@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""references.py FILE.bib HEADER: makes each entry @type{key, ...} a string, BIB_key, as it stands."""
+"""references.py FILE.bib HEADER: defines in HEADER a string BIB_key for each entry @type{key, ...} of FILE."""
 import json
 import re
 import sys

@@ -1,4 +1,4 @@
-# the name is the author's, and so is the literature
+# the example becomes a template: it gets the new plugin's ID, and its literature is removed
 s#discretisation/penalty#@ID@#
 s#^ \* A discretisation of the film by somebody outside#\ * @ID@: a discretisation of the film#
 /\.bibtex = /,/}}",/c\

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Two engines in two threads, one with films, the other with motions by harmonic balance. Both
- * plan transforms of ever other lengths by FFTW, whose planner is one of the process: each gives
- * what it gives alone.
- */
+/* Two engines in two threads, one with films, the other with motions by harmonic balance. Both plan
+   transforms of changing lengths by FFTW, whose planner the whole process shares: each engine must
+   give the results that it gives alone. */
 #include <flankfilm/engine.h>
 
 #include <check.h>
@@ -17,10 +15,10 @@ enum { ROUNDS = 40 };
 
 typedef struct planner {
     pthread_t thread;
-    const char *file, *outputs, *result, *length; /* the last with the number of the round in it */
+    const char *file, *outputs, *result, *length; /* length: with the number of the round in it */
     int first, step;
     double together[ROUNDS], alone[ROUNDS];
-    double *answers; /* of the two */
+    double *answers; /* of both engines */
     int failures;
 } planner;
 
@@ -75,7 +73,8 @@ int main(void)
     snprintf(folder, sizeof folder, "%s/tests/core/engine/scenes", getenv("FLANKFILM_TEST_SOURCE"));
     if (chdir(folder) != 0)
         return 2;
-    setenv("OPENBLAS_NUM_THREADS", "1", 1); /* a sanitizer does not see how its threads wait */
+    setenv("OPENBLAS_NUM_THREADS", "1", 1); /* a sanitizer does not recognise the synchronisation of
+                                               its threads */
     for (int i = 0; i < 2; i++) {
         planners[i].answers = planners[i].together;
         if (pthread_create(&planners[i].thread, NULL, run_all, &planners[i]) != 0)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Hertz and Moes figures of a constant line contact. */
+/* Hertz pressure and width, and Moes' parameters, of a constant line contact. */
 #include <check.h>
 #include <stage.h>
 
@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The oil of the tables: 5.006 mPa s, 11.03 1/GPa. */
+/* Opens the viscosity law of the tables: 5.006 mPa s, 11.03 1/GPa. */
 static stage *open_oil(void)
 {
     stage *oil = stage_open("viscosity/barus");
@@ -61,7 +61,7 @@ static void check_gear_contacts(void)
     stage_close(oil);
 }
 
-/* Both ways to state radii, speeds and modulus say the same. */
+/* Radii, speeds and modulus given in either of two ways must give the same contact. */
 static void check_two_ways(void)
 {
     static const char *const same[] = {"equivalent_radius", "entrainment_speed", "sliding_speed",
@@ -88,7 +88,7 @@ static void check_two_ways(void)
     stage_close(other);
 }
 
-/* Both moduli alone: Poisson's ratio of steel, 0.3, typed a second time. */
+/* With only both moduli given, Poisson's ratio must be that of steel, 0.3. */
 static void check_preset_ratio(void)
 {
     stage *s = open_contact(12e-3, 4, 1e5);
@@ -150,7 +150,8 @@ static void check_refusals(void)
     stage_close(contact);
 }
 
-/* ln eta of Roelands bends, so that alpha* is not the slope at 0; 1/alpha* by the midpoint rule. */
+/* Since Roelands' ln eta is not linear in pressure, alpha* is not the slope at 0; computes 1/alpha*
+   by the midpoint rule. */
 static void check_film_coefficient(void)
 {
     enum { POINTS = 400000 };

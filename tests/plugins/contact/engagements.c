@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A motion of several mesh cycles: each of its engagements is a history, and none is forgotten. */
+/* A motion with a period of several mesh cycles: each of its engagements must become a history. */
 #include "../../../plugins/contact/engagements.h"
 #include "check.h"
 #include "pair.h"
@@ -31,7 +31,7 @@ static stage *open_train(pair *p, size_t count, const double *factor)
     return p->tooth;
 }
 
-/* Period 2: the pairs bear 1.5 and 0.5 times the load in turn. */
+/* Period 2: tooth pairs carry 1.5 and 0.5 times the load alternately. */
 static void check_two(void)
 {
     static const double factor[] = {1.5, 0.5}, alike[] = {1, 1};
@@ -66,7 +66,7 @@ static void check_two(void)
     check_near("against the torque", off_all, fabs(force / held - 1), 1e-3);
     pair_close(&p);
     pair_close(&one);
-    /* told as period 2, a motion of period 1 is the same twice */
+    /* a motion of period 1 given with period 2 must give the same engagement twice */
     s = open_train(&p, 2, alike);
     alone = open_train(&one, 1, alike);
     check_true("run",
@@ -81,7 +81,7 @@ static void check_two(void)
     pair_close(&one);
 }
 
-/* Without load each engagement has the gap of its own row. */
+/* Without load, each engagement must have the gap of its own row. */
 static void check_gaps(void)
 {
     static const double factor[] = {1, 0, 0};
@@ -106,7 +106,8 @@ static void check_gaps(void)
     pair_close(&p);
 }
 
-/* A long motion: so many as are allowed, rising, none twice, of all of its parts. */
+/* A long motion: the engagements must be as many as allowed, in increasing order, none twice, and
+   from all parts of the motion. */
 static void check_sample(void)
 {
     size_t picked[LONGEST];
@@ -123,8 +124,8 @@ static void check_sample(void)
                 check_true("a sample", 0);
             }
         }
-    /* a motion that nearly repeats itself after 2, 3 or 4 cycles is met at all of its phases, none
-       less than half of its share */
+    /* if a motion nearly repeats itself after 2, 3 or 4 cycles, each of these cycles must have at
+       least half the average number of engagements */
     for (size_t period = 2; period <= 4; period++) {
         size_t met[4] = {0}, count = contact_engagements_pick(LONGEST, 16, picked);
         for (size_t i = 0; i < count; i++)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Kinematics, Hertz and Moes figures along one tooth engagement. */
+/* Kinematics, Hertz pressure and Moes' parameters in an engagement. */
 #include "check.h"
 #include "pair.h"
 
@@ -9,7 +9,7 @@ enum { MOST = 4000 };
 
 static const double degree = M_PI / 180, force = 3547.26;
 
-/* Value of an output where the roll angle is `at`, linear between instants. */
+/* Returns an output at the roll angle `at`, linearly interpolated between instants. */
 static double value_at(const stage *tooth, const char *output, double at)
 {
     size_t n, i = 0;
@@ -53,7 +53,7 @@ static void check_printed_figures(void)
     pair_close(&p);
 }
 
-/* Unequal gears: every relation between the outputs, instant by instant. */
+/* Unequal gears: checks every relation between the outputs at each instant. */
 static void check_relations(void)
 {
     static double load[MOST];
@@ -103,7 +103,7 @@ static void check_relations(void)
     pair_close(&p);
 }
 
-/* Gears exchanged and the load turned end for end: the same history read backwards. */
+/* With exchanged gears and the load reversed in time, the history must be the same backwards. */
 static void check_swapped(void)
 {
     static double load[2][MOST];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Inputs that a gear or a motion of somebody else's might hand over. */
+/* Wrong inputs, as plugins of other authors for gears or motions could give. */
 #include <check.h>
 #include <stage.h>
 
@@ -10,7 +10,7 @@
 
 enum { COUNT = 7 };
 
-/* One of the arrays below with an entry replaced. */
+/* An entry to replace in one of the arrays below. */
 typedef struct fault {
     const char *what, *row;
     int entry;
@@ -31,7 +31,7 @@ static const fault faults[] = {
     {"a force out of all bounds", "load.tooth_force", 3, 1e308},
 };
 
-/* Rows in the order of the model's inputs; the jumps stand between 2|3 and 4|5. */
+/* Rows in the order of the model's inputs; the load jumps between stations 2 and 3, and 4 and 5. */
 static stage *open_tooth(const fault *f)
 {
     static const char *const rows[] = {
@@ -88,8 +88,8 @@ static double uniform(double low, double high)
     return low + (high - low) * unit;
 }
 
-/* A wild load over wild stations: 0 when what comes out is a history within the load's bounds,
-   1 when it is not, -1 when it is refused for its ramps. */
+/* Runs a random load at random stations. Returns 0 if the history is within the load's bounds, 1 if
+   not, -1 if the run fails because of its ramps. */
 static int run_random(void)
 {
     enum { MOST = 60 };
@@ -103,7 +103,8 @@ static int run_random(void)
         force[i] = uniform(-1, 1) * exp(uniform(-20, 20));
         gap[i] = uniform(-1e-4, 1e-4);
         top = fmax(top, force[i]);
-        largest = fmax(largest, fabs(force[i])); /* rounding is relative to the neighbours */
+        largest = fmax(largest, fabs(force[i])); /* rounding errors are relative to the neighbouring
+                                                    forces */
     }
     stage *tooth = open_tooth(NULL);
     stage_give_series(tooth, "gear.roll_angle", n, roll);

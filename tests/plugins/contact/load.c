@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How the tooth force becomes a load history: ramps, clipping, gaps, engagements, refusals. */
+/* How the tooth force becomes a load history: ramps, clipping, gaps, engagements, errors. */
 #include "check.h"
 #include "pair.h"
 
@@ -11,7 +11,8 @@ enum { MOST = 4000 };
 
 static const double degree = M_PI / 180;
 
-/* Integral of the load over the roll angle, exact for a load that is linear between instants. */
+/* Returns the integral of the load over the roll angle, exact for a load that is linear between
+   instants. */
 static double integral(const stage *tooth, const char *output)
 {
     size_t n;
@@ -22,7 +23,7 @@ static double integral(const stage *tooth, const char *output)
     return sum;
 }
 
-/* Both jumps of a shared load as ramps of that width; 0: as steps. */
+/* Checks both jumps of the load of a tooth pair as ramps of a width, or as steps if it is 0. */
 static void check_ramp(const char *ramp, double width)
 {
     static double load[MOST];
@@ -61,7 +62,8 @@ static void check_ramp(const char *ramp, double width)
     pair_close(&p);
 }
 
-/* A smooth force with `stations` of them: greatest error over the maximum, and its estimate. */
+/* Returns the largest error of a smooth force with a number of stations, over its maximum, and its
+   estimate. */
 static double interpolation_error(double stations, double *estimate)
 {
     static double load[MOST];
@@ -105,8 +107,8 @@ static void check_interpolation(void)
     check_below("the estimate is not wild", estimate[1], 5 * fine);
 }
 
-/* A force that falls and rises along straight lines and is 0 between them: where it ends and begins
-   lies between stations, and is an instant of the history. */
+/* A force that decreases linearly to 0, stays 0, and increases linearly: its end and begin lie
+   between stations, and must be instants of the history. */
 static void check_ends(double ends_at, double begins_at)
 {
     static double load[MOST];
@@ -135,8 +137,8 @@ static void check_ends(double ends_at, double begins_at)
     pair_close(&p);
 }
 
-/* A force that is negative for a while: no load there, and the gap as given, which a small force
-   does not end. */
+/* A force that is negative in between: there must be no load there, and the given gap, which a
+   small force does not end. */
 static void check_separation(void)
 {
     static double load[MOST], gap[MOST];

@@ -9,23 +9,24 @@ typedef struct pair {
     stage *gear, *duty, *tooth;
 } pair;
 
-/* A pair of 25 and 40 teeth with profile shift at 1250 Hz; tooth has no load yet. */
+/* Opens a pair of 25 and 40 teeth with profile shift at 1250 Hz; `tooth` has no load yet. */
 pair pair_open(void);
-/* The same with its gears exchanged, so that gear 1 has 40 teeth. */
+/* Opens this pair with exchanged gears, so that gear 1 has 40 teeth. */
 pair pair_open_exchanged(void);
-/* Li & Kahraman's 50/50 pair, whose figures are printed. */
+/* Opens Li & Kahraman's 50/50 pair, whose values are published. */
 pair pair_open_printed(void);
-/* The 50/50 pair with other tip diameters. */
+/* Opens the 50/50 pair with other tip diameters. */
 pair pair_open_long(const char *tip_diameter);
 void pair_close(pair *p);
 
-/* Roll angles and the number of stations. */
+/* Returns the roll angles of the stations, and their number. */
 const double *pair_stations(const pair *p, size_t *n);
 
-/* Half the force where two pairs are in contact, all of it between LPSTC and HPSTC. */
+/* Sets the tooth force: half the force where two pairs are in contact, all of it between LPSTC and
+   HPSTC. */
 void pair_share(const pair *p, double force, double *tooth_force);
 
-/* All outputs but those that need an oil. */
+/* All outputs except those that need an oil. */
 extern const char pair_dry[];
 
 #endif

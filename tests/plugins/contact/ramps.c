@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Ramps of the load where pairs come and go in quick succession, and where three share it. */
+/* Load ramps where the number of tooth pairs changes in quick succession, and where three pairs
+   carry the load. */
 #include "check.h"
 #include "pair.h"
 
@@ -11,7 +12,8 @@ enum { MOST = 1000 };
 
 static const double degree = M_PI / 180, line_force = 6000, width = 0.02;
 
-/* Equal shares of the line force; pairs change by one from 1 + floor(contact ratio) and back. */
+/* Sets equal forces of all pairs in contact; their number alternates between 1 + floor(contact
+   ratio) and one less. */
 static void share_equally(pair *p, double *load)
 {
     size_t n;
@@ -26,7 +28,7 @@ static void share_equally(pair *p, double *load)
 
 typedef struct shape {
     double low, high, steepest, integral; /* N, N/deg, N deg */
-    int ramps;                            /* rises and falls */
+    int ramps;                            /* number of increases and decreases */
 } shape;
 
 static shape shape_of(const stage *tooth)
@@ -49,7 +51,8 @@ static shape shape_of(const stage *tooth)
     return s;
 }
 
-/* Ages 0 to e, 1 to 1 + e and 2 to 2 + e with three pairs, e = 0.3, two between; 7.2 deg each. */
+/* Three pairs in contact from 0 to e, 1 to 1 + e and 2 to 2 + e mesh cycles after the begin of
+   contact, e = 0.3, else two; a mesh cycle is 7.2 deg. */
 static void check_three_pairs(void)
 {
     static double load[MOST];
@@ -92,7 +95,7 @@ static void check_short_zone(void)
     pair_close(&p);
 }
 
-/* Three pairs for 1e-8 of a pitch: no history can show that, and none has to. */
+/* Three pairs in contact for 1e-8 of a pitch: too short to appear in a history. */
 static void check_no_zone(const char *ramp)
 {
     static double load[MOST];

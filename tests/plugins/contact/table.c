@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Histories from files: what is read, and what is refused with its line. */
+/* Histories from files: values that are read, and errors with their line. */
 #include <check.h>
 #include <stage.h>
 
@@ -55,7 +55,7 @@ static void test_rows_become_instants(void)
     unlink(path);
 }
 
-/* A row gives what contact/constant gives. */
+/* A row must give the contact of contact/constant. */
 static void test_a_row_is_a_constant_contact(void)
 {
     static const char *const outputs[] = {"hertz_half_width",  "hertz_pressure", "slide_roll_ratio",
@@ -98,7 +98,7 @@ static void test_gap_where_the_contact_is_lost(void)
     unlink(path);
 }
 
-/* At rest M and the slide to roll ratio have no value, which is no fault of the numbers. */
+/* At rest, M and the slide-roll ratio have no value; this must not be an error. */
 static void test_at_rest(void)
 {
     char path[PATH_ROOM];

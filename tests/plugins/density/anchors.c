@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Each density law against numbers computed elsewhere and against its own limits. */
+/* Compares each density law with values computed elsewhere and with its limits. */
 #include "check.h"
 #include "stage.h"
 
@@ -26,7 +26,7 @@ static stage *dowson(double a, double b)
     return s;
 }
 
-/* rho/rho0 at 1 GPa in three usual forms of the same law, to the four digits printed. */
+/* rho/rho0 at 1 GPa, in three usual forms of the same law, to the four published digits. */
 static void dowson_higginson(void)
 {
     stage *usual = dowson(0, 0);
@@ -49,7 +49,7 @@ static void tait(void)
     stage_set(s, "K0", 1.05e9);
     stage_set(s, "K0_prime", 10.076);
     check_near("at 1 GPa, V = 0.7791", relative(s, 1e9), 1.2835, 5e-5);
-    /* K(p) = rho dp/drho = V (K0 + p (1 + K0')); its own rise at 0 is K0' */
+    /* K(p) = rho dp/drho = V (K0 + p (1 + K0')), with slope K0' at 0 */
     const ff_density *d = stage_service(s, FF_DENSITY_ID);
     double p[2] = {0, 1e3}, rho[2], slope[2];
     d->eval(d->self, 2, p, NULL, rho, slope, NULL);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the interface asks of every density law. */
+/* Requirements of the interface on every density law. */
 #include "check.h"
 #include "stage.h"
 
@@ -13,8 +13,8 @@
 
 typedef struct law {
     const char *id, *set[3][2];
-    double knots[2];   /* Pa, where a continuation begins besides 0; 0: none */
-    double top;        /* Pa, above it FF_DOMAIN; 0: never */
+    double knots[2];   /* Pa, pressures besides 0 at which the law is continued; 0: none */
+    double top;        /* Pa, above which the law returns FF_DOMAIN; 0: none */
     double compliance; /* 1/Pa at ambient pressure */
 } law;
 
@@ -78,7 +78,7 @@ static void check_derivative(const ff_density *d, const law *l)
         double p = pressures[i], h = 1e-2 * (fabs(p) + 0.02 / fmax(l->compliance, 1e-9));
         h = fmin(h, 0.5 * fmin(fabs(p), fmin(fabs(p - l->knots[0]), fabs(p - l->knots[1]))));
         double rise = fabs(h * slope(d, p)) / value(d, p);
-        if (rise > 1e-5) /* less than that and a difference only sees rounding */
+        if (rise > 1e-5) /* for smaller changes, a difference has only rounding errors */
             worst = fmax(worst, fabs(difference(value, d, p, h) / slope(d, p) - 1));
     }
     check_below("  derivative against differences", worst, 1e-8);

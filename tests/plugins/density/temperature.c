@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Densities over temperature: a sum of powers, whose expansion falls with pressure and leaves a
-   heat at constant volume, and whose slopes are those of central differences. */
+/* Densities over temperature: a sum of powers, whose expansion decreases with pressure, so that the
+   heat capacity at constant volume stays positive, and whose slopes must agree with central
+   differences. */
 #include "check.h"
 #include "difference.h"
 #include "stage.h"
@@ -52,7 +53,8 @@ static double missed(const ff_density *d, double h)
 {
     double sum = 0;
     for (double T = 280; T < 420; T += 10)
-        for (int i = 1; i < PRESSURES; i++) { /* at the first the tangent begins to bend */
+        for (int i = 1; i < PRESSURES; i++) { /* at the first pressure, the law leaves its
+                                                 tangent */
             double p = pressures[i];
             double miss = (at(d, p, T + h).rho - at(d, p, T - h).rho) / (2 * h) - at(d, p, T).by_T;
             sum += miss * miss;
@@ -60,7 +62,7 @@ static double missed(const ff_density *d, double h)
     return sqrt(sum);
 }
 
-/* A law at one temperature. */
+/* A density law at one temperature. */
 typedef struct isotherm {
     const ff_density *law;
     double T;
@@ -86,8 +88,8 @@ static void has_its_slopes(const ff_density *d)
     check_below("drho_dp against differences", worst, 1e-4);
 }
 
-/* rho^n is what expands at ambient pressure, and what pressure adds at `at`: (6.26). One call for
-   all points. */
+/* rho^n must be the sum of the thermal expansion at ambient pressure and the increase with pressure
+   at `at`, (6.26). One call for all points. */
 static void is_a_sum(const ff_density *d, double decay)
 {
     const double hot = 353.15;
@@ -114,8 +116,8 @@ static void is_a_sum(const ff_density *d, double decay)
     check_near("ln K0 falls by the decay", near, decay, 2e-3);
 }
 
-/* Heat at constant volume: compression may not give more than pressure has done, beta^2 T/(rho c)
-   below the compressibility, at any pressure of a film. */
+/* The heat capacity at constant volume must be positive at any pressure of a film: beta^2 T/(rho c)
+   must be below the compressibility. */
 static void has_heat_at_constant_volume(const ff_density *d)
 {
     double worst = 0, before = HUGE_VAL;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Motions by name against the atlas of the same pair: at each fold that ends a stable part the name
-   leads to the branch 0.1 Hz inside and is refused 0.1 Hz outside; `upper` ends at a fold and says
-   so; and stable_motions counts no fewer than the atlas has. */
+/* Compares motions requested by name with the atlas of the same pair: 0.1 Hz from each fold that
+   ends a stable part of a branch, the name must find the branch on one side and fail on the other.
+   `upper` must end at a fold and report it. stable_motions must be at least the number of stable
+   motions in the atlas. */
 #include "check.h"
 #include "pair.h"
 
@@ -51,8 +52,8 @@ static void read_atlas(const pair *p, atlas *a)
     stage_close(s);
 }
 
-/* The branch that is stable next to a fold, its number, and whether it lies above it (1) or below
-   (-1); 0: none is. */
+/* Finds the number of the branch that is stable next to a fold. Returns 1 if the branch lies at
+   higher speeds than the fold, -1 if at lower speeds, 0 if there is none. */
 static int stable_side(const atlas *a, double fold, double *number)
 {
     for (size_t i = 0; i < a->points; i++) {
@@ -94,7 +95,7 @@ static void check_folds(const pair *base, const atlas *a, int *checked)
     }
 }
 
-/* The end of `upper`, from far below, and what it does on either side of that. */
+/* Finds the end of `upper`, from a far lower speed, and checks it on both sides of the end. */
 static void check_upper(const pair *base, const atlas *a, double low)
 {
     pair p = *base;
@@ -121,7 +122,7 @@ static void check_upper(const pair *base, const atlas *a, double low)
     check_true("not outside", fabs(rms[2] / rms[1] - 1) > 0.1);
 }
 
-/* Stable motions of the atlas at a speed: branches whose stable part passes it. */
+/* Returns the number of stable motions in the atlas at a speed. */
 static int count_stable(const atlas *a, double speed)
 {
     int count = 0;
@@ -149,8 +150,9 @@ static void check_counts(const pair *base, const atlas *a)
     }
 }
 
-/* Of what is stable the largest has the largest rms; it and stable_motions are the same whether or
-   not an atlas is asked for, which tells if it has more stable motions than are counted. */
+/* The motion `largest` must have the largest rms of all stable motions. `largest` and
+   stable_motions must not depend on whether the atlas is requested. If the atlas has more stable
+   motions than are counted, the run must report it. */
 static void check_largest(const pair *base, int *told)
 {
     double rms[4], known[2];

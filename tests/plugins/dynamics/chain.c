@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Motions handed from speed to speed: the sweep up stays on the lower branch, the sweep down on the
-   upper one, and each leaves its branch where the atlas has the fold. */
+/* Sweeps in which each speed starts from the motion of the speed before: upwards, the motion must
+   stay on the lower branch, downwards on the upper branch, and leave it at the fold of the
+   atlas. */
 #include "check.h"
 #include "pair.h"
 
@@ -12,11 +13,11 @@ enum { MOST = 8 };
 
 static const char *const models[] = {"dynamics/shooting", "dynamics/harmonic-balance",
                                      "dynamics/time-integration"};
-/* Hz: arc length and Newton's method follow a branch to its end; in time it is lost a little
-   earlier, where its basin gets narrow. */
+/* Hz, distance from the fold: arc length and Newton's method follow a branch to its end;
+   integration in time loses it earlier, where its basin of attraction becomes narrow. */
 static const double reach[] = {0.05, 0.05, 5};
 
-/* rms of the motion at each speed, on from the first one's branch. */
+/* Computes the rms of the motion at each speed; the first is on the given branch. */
 static void walk(const char *model, const char *branch, const double *speed, int count, double *rms)
 {
     pair pairs[MOST];
@@ -35,8 +36,8 @@ static void walk(const char *model, const char *branch, const double *speed, int
     stage_close(last);
 }
 
-/* The end, towards a lower or higher speed, of the atlas's branch with the motion that a model
-   finds at a speed; Hz. */
+/* Returns the speed, Hz, at which the atlas's branch of the motion that a model finds at `speed`
+   ends. */
 static double find_fold(double speed, const char *branch_name)
 {
     double expected, best = INFINITY, own = 0, end = speed;
@@ -89,7 +90,7 @@ static void test_up(void)
     }
 }
 
-/* At one speed the two ways give the pinned states of the two branches. */
+/* At one speed, the sweeps up and down must give the known states of both branches. */
 static void test_hysteresis(void)
 {
     static const double up[] = {2300, 2340, 2375}, down[] = {3400, 3000, 2600, 2375};
@@ -102,7 +103,8 @@ static void test_hysteresis(void)
     }
 }
 
-/* The lower motion takes two mesh cycles between 2117 and 2248 Hz, and one behind. */
+/* The lower motion has a period of two mesh cycles between 2117 and 2248 Hz, and of one mesh cycle
+   above. */
 static void test_doubling(void)
 {
     static const double speed[] = {2090, 2150, 2200, 2260};
@@ -114,7 +116,7 @@ static void test_doubling(void)
     check_near("single again", rms[3], alone[0], 1e-9);
 }
 
-/* A model starts alone when the state is of another kind. */
+/* If the state comes from another kind of model, a model must start without it. */
 static void test_foreign_state(void)
 {
     pair high = pair_trapezoid(2500), low = pair_trapezoid(2375);

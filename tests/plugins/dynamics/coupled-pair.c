@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The geometry of a pair whose centres move: closed forms, derivatives, tooth pairs that come and
-   go. */
+/* The geometry of a gear pair whose centres move: closed forms, derivatives, begin and end of tooth
+   contact. */
 #include "../../../plugins/dynamics/coupled/coupled-pair.h"
 
 #include "check.h"
@@ -14,7 +14,8 @@ static double involute(double angle)
     return tan(angle) - angle;
 }
 
-/* Trapezoid of two levels and rigid shares, contact ratio 1.6; centre distance 2000 units. */
+/* Makes a trapezoidal stiffness with two levels, load fractions that do not depend on the load,
+   contact ratio 1.6 and centre distance 2000 units. */
 static void make(dynamics_excitation *mesh, dynamics_coupled *pair)
 {
     static const double phase[] = {0, 0.6, 0.6, 1}, k[] = {1.2, 1.2, 0.7, 0.7};
@@ -46,7 +47,7 @@ static void test_place(const dynamics_coupled *pair)
     check_near("shift", place.shift, (angle - mounted) * 940 / 118, 1e-10);
 }
 
-/* The force is the gradient of the overlap, so that the mesh keeps its energy. */
+/* The force must be the gradient of the overlap, so that the mesh conserves energy. */
 static void test_gradient(const dynamics_coupled *pair)
 {
     const double v[DYNAMICS_COORDINATES] = {0.3, 0.1, -0.2, 0.25, -0.15}, d = 1e-4;
@@ -78,7 +79,8 @@ static void test_gradient(const dynamics_coupled *pair)
                hypot(driving.gradient[DYNAMICS_X2], driving.gradient[DYNAMICS_Y2]), 1, 1e-14);
 }
 
-/* Nothing changes while the centres stay; further apart a pair comes later and stays shorter. */
+/* With centres at rest, the stiffness must not change; if they move apart, tooth contact must begin
+   later and last for a shorter time. */
 static void test_stiffness_change(const dynamics_coupled *pair)
 {
     const double still[DYNAMICS_COORDINATES] = {0},
@@ -99,8 +101,8 @@ static void test_stiffness_change(const dynamics_coupled *pair)
                 n;
     }
     check_below("change while the centres stay", worst, 1e-15);
-    /* the integral over a cycle of all pairs is that of one pair over its contact: only what lies
-       before the entry is lost, 0.4 of 1.2 there */
+    /* the integral over a cycle for all pairs is that for one pair over its contact: only the part
+       before the entry is lost, where the stiffness is 0.4 of 1.2 */
     check_near("lost stiffness", lost, -0.48 * far.entry, 0.05);
     dynamics_pairs both = dynamics_coupled_pairs(&place, 0.3),
                    one = dynamics_coupled_pairs(&place, 0.8);

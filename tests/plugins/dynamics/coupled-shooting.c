@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The derivatives of a motion on bearings by its start against differences of motions, and motions
-   found by Newton's method against what they are and what a slow sweep of the speed leads to. */
+/* Gears on bearings: compares the derivatives of a motion by its start with differences of motions,
+   and periodic motions found by Newton's method with integrated motions and with a slow sweep of
+   the speed. */
 #include "../../../plugins/dynamics/coupled/coupled-shooting.h"
 #include "../../../plugins/dynamics/coupled/coupled-motion.h"
 
@@ -16,10 +17,12 @@ typedef struct scene {
     const char *name;
     int damping;
     double bearing, half_gap, leap, q, rate; /* leap: of e; q, rate: added to the state at rest */
-    int parts, meets;                        /* contact is lost; the back flanks touch */
+    int parts, meets;                        /* whether contact is lost; whether the back flanks
+                                                touch */
 } scene;
 
-/* Two levels of stiffness, shares that jump as tooth pairs come and go, centres that give way. */
+/* Makes two levels of stiffness, load fractions that jump when tooth pairs begin or end contact,
+   and elastic bearings. */
 static void make(const scene *c, dynamics_excitation *mesh, dynamics_coupled *pair)
 {
     static const double phase[] = {0, 0.3, 0.6, 0.6, 1}, k[] = {1.2, 1.25, 1.2, 0.7, 0.75};
@@ -46,7 +49,7 @@ static void make(const scene *c, dynamics_excitation *mesh, dynamics_coupled *pa
     check_true("stiffness", dynamics_coupled_pair_stiffness(pair, 6, cycle, share));
 }
 
-/* Central differences of the state after a cycle, by component k of the start. */
+/* Computes central differences of the state after a cycle by component k of the start. */
 static void difference(dynamics_coupled_run *run, double T, const double *start, int k, double d,
                        double *by_start)
 {
@@ -69,9 +72,10 @@ static double distance(double a, double b)
     return isfinite(d) ? d : INFINITY;
 }
 
-/* The differences of two distances tell their own error, of second order. Where the stiffness of a
-   tooth pair has a corner the slopes of the columns jump within a step, which the control of the
-   motion, whose slope has a corner there, makes as short as the square root of its tolerance. */
+/* Differences with two step sizes give the error of the differences, of second order. At a kink of
+   a tooth pair's stiffness, the derivatives have a jump of slope within a time step, but the motion
+   only a kink of slope, for which step control makes the step as short as the square root of its
+   tolerance. */
 static void test_columns(const scene *c)
 {
     static const double T = 7, d = 1e-4, tolerance = 1e-13;
@@ -115,7 +119,8 @@ static int go_on(void *self, double share)
     return 0;
 }
 
-/* A motion that Newton's method found is met by integration from rest, and is its own return. */
+/* Integration from rest must reach the motion that Newton's method found, and this motion must
+   repeat itself. */
 static void test_shooting(void)
 {
     static const ff_host host = {.progress = go_on};
@@ -153,9 +158,9 @@ static void test_shooting(void)
     dynamics_excitation_free(&mesh);
 }
 
-/* The slow twin: from rest the speed changes by a small share per cycle to that which is sought,
-   where the motion may settle. Returns the change over `period` of the last cycles; `state` is then
-   the motion at phase 0. */
+/* Integrates from rest while the speed changes slowly to the requested one, then until the motion
+   has settled. Returns the change over the last `period` cycles; `state` is then the motion at
+   phase 0. */
 static double sweep_and_settle(dynamics_coupled_run *run, const dynamics_coupled *pair, double from,
                                double to, int period, double *state)
 {
@@ -179,7 +184,7 @@ static double sweep_and_settle(dynamics_coupled_run *run, const dynamics_coupled
     return change;
 }
 
-/* The distance of a state from the nearest of a motion. */
+/* Returns the distance of a state from the nearest state of a motion. */
 static double distance_from_motion(dynamics_coupled_run *run, double T, int period,
                                    const double *start, const double *state)
 {
@@ -195,14 +200,14 @@ static double distance_from_motion(dynamics_coupled_run *run, double T, int peri
     return nearest;
 }
 
-/* A motion that is reached, against the twin. */
+/* A motion that must be found, compared with the slow sweep. */
 typedef struct reached {
     const char *name;
     dynamics_branch branch;
-    double from; /* frequency at which the motion before it is reached; 0: there is none */
+    double from; /* frequency of the motion to start from; 0: none */
     double frequency;
     int period;
-    double least_parted; /* share of the time */
+    double least_parted; /* smallest fraction of the time without contact */
 } reached;
 
 static void reach(dynamics_coupled_run *run, const dynamics_coupled *pair, const reached *r,

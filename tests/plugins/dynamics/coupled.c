@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* dynamics/coupled where the answer is known, against rigid bearings, and at the edges. */
+/* dynamics/coupled: known solutions, comparison with rigid bearings, and extreme parameters. */
 #include "check.h"
 #include "pair.h"
 
@@ -38,8 +38,9 @@ static double involute(double angle)
     return tan(angle) - angle;
 }
 
-/* Constant stiffness of pairs that come and go softly: shares rise from 0 to 1 and fall again, so
-   that they add up to 1 wherever the contact lies, but for the ends that the path loses. */
+/* Makes a constant mesh stiffness: the load fraction of each tooth pair increases linearly from 0
+   to 1 and decreases again, so that all add up to 1, except if the path of contact becomes
+   shorter. */
 static pair even_pair(double frequency)
 {
     pair p = pair_cosine(frequency, 0, 0, 8);
@@ -52,9 +53,9 @@ static pair even_pair(double frequency)
     return p;
 }
 
-/* The bearings give way along the line of action until they carry F; backlash, angle and contact
-   ratio are those of the new distance of the centres. The ends that are lost take (dC/p)^2 of the
-   stiffness away, 1e-7 at 1e9 N/m. */
+/* The bearings must deflect along the line of action until they carry F; backlash, pressure angle
+   and contact ratio must be those of the new centre distance. Since the path of contact becomes
+   shorter, the stiffness decreases by (dC/p)^2, 1e-7 at 1e9 N/m. */
 static void test_rest(void)
 {
     const double bearings[] = {1e9, 1e10, 1e11};
@@ -86,9 +87,10 @@ static void test_rest(void)
     }
 }
 
-/* Constant stiffness, no damping: frequencies of the mesh and of the two gears on their bearings,
-   from (k/me - w^2)(kb/m + 2 k/m - w^2) = 2 k^2/(me m), and sqrt(kb/m) for what the mesh does not
-   see; the force turns with the line of action, by F/(k C), which is 1e-4. */
+/* Constant stiffness without damping: the natural frequencies of mesh and gears on bearings follow
+   from (k/me - w^2)(kb/m + 2 k/m - w^2) = 2 k^2/(me m), and are sqrt(kb/m) for motions that do not
+   deform the mesh. The rotation of the force with the line of action changes them by about F/(k C),
+   1e-4. */
 static void test_frequencies(void)
 {
     pair p = even_pair(2000);
@@ -110,7 +112,7 @@ static void test_frequencies(void)
     stage_close(s);
 }
 
-/* Times, over the mesh period, and speeds of the landings, likewise. */
+/* Compares the times, over the mesh period, and speeds at which the flanks touch again. */
 static void compare_landings(const pair *p, const stage *stiff, const stage *stiffer,
                              const stage *rigid)
 {
@@ -129,9 +131,10 @@ static void compare_landings(const pair *p, const stage *stiff, const stage *sti
     }
 }
 
-/* The error of stiff bearings falls as their compliance, which moves the resonance by k/kb = 2e-3
-   of its frequency, 0.1 of its width: two of them lead to the single degree of freedom. Returns the
-   share of the time with contact on the back flanks. */
+/* For stiff bearings, the difference to rigid bearings is proportional to their compliance, which
+   shifts the resonance by k/kb = 2e-3 of its frequency, 0.1 of its width: extrapolation from two
+   stiffnesses must give the motion with rigid bearings. Returns the fraction of the time with
+   contact on the back flanks. */
 static double compare_with_rigid(const pair *p, const char *branch, const char *damping)
 {
     static const char *const names[] = {"dte_rms",      "dte_mean",     "dynamic_factor_mesh",
@@ -159,7 +162,8 @@ static double compare_with_rigid(const pair *p, const char *branch, const char *
     check_near("largest multiplier", stage_scalar(stiffer, "floquet_max"), largest, 5e-3);
     check_near("period", stage_scalar(stiffer, "period"), 1, 0);
     check_below("energy balance", stage_quality(stiffer, "energy_balance"), 1e-9);
-    /* back flanks with the curves of the driving ones are outside the range of the model */
+    /* contact on the back flanks with the stiffness of the driving flanks is outside the range of
+       the model */
     bool trusted = pair_is_trusted(stiffer);
     check_true("is trusted", trusted || stage_has_quality(stiffer, "back_flank"));
     double back = stage_scalar(stiffer, "back_contact");
@@ -169,7 +173,8 @@ static double compare_with_rigid(const pair *p, const char *branch, const char *
     return back;
 }
 
-/* Between both flanks of a small backlash, and with loss of contact in a large one. */
+/* Motions with contact on both flanks in a small backlash, and with loss of contact in a large
+   one. */
 static void test_stiff_bearings(void)
 {
     pair p = pair_trapezoid(2900);
@@ -179,7 +184,7 @@ static void test_stiff_bearings(void)
     compare_with_rigid(&p, "upper", "contact");
 }
 
-/* The damper's impulse at a jump of e, both ways. */
+/* The impulse of the damper at a jump of e, in both directions. */
 static void test_jump_on_stiff_bearings(void)
 {
     pair p = pair_trapezoid(1800);
@@ -192,7 +197,8 @@ static void test_jump_on_stiff_bearings(void)
     compare_with_rigid(&p, "lower", "always");
 }
 
-/* Handed on, a motion stays on its branch at a speed where another one is found alone. */
+/* A motion that starts from that of a nearby speed must stay on its branch, at a speed where a run
+   without start finds another branch. */
 static void test_chain(void)
 {
     static const char alone[] = "damping_ratio=0.02 tolerance=1e-7",
@@ -221,7 +227,7 @@ static void test_chain(void)
     stage_close(lower);
 }
 
-/* Bearings as soft as the mesh move the motion. */
+/* Bearings as soft as the mesh must change the motion. */
 static void test_soft_bearings(void)
 {
     const char *dampings[] = {"always", "contact", "clipped"};
@@ -238,7 +244,8 @@ static void test_soft_bearings(void)
     }
 }
 
-/* Where contact is lost the damper pulls, but for one that is clipped. */
+/* When contact is lost, the damper force may be negative, unless it is limited to positive
+   values. */
 static void test_clipped(void)
 {
     for (int clipped = 0; clipped < 2; clipped++) {
@@ -256,7 +263,8 @@ static void test_clipped(void)
     }
 }
 
-/* No gap at all, none and no load, a light load that rattles, very fast: finite, or a reason. */
+/* No backlash, no backlash and no load, a light load with impacts, very high speed: results must be
+   finite, or the run must stop with a reason. */
 static void test_extremes(void)
 {
     pair p = pair_trapezoid(2375);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* dynamics/time-integration at the edges: finite numbers, an honest verdict, an end. The host ends
-   the program at a result that is not finite. */
+/* dynamics/time-integration with extreme parameters: it must give finite numbers and a correct
+   quality verdict, and end. The host ends the program if a result is not finite. */
 #include "check.h"
 #include "pair.h"
 
@@ -25,7 +25,7 @@ static void set_force(pair *p, double force)
         p->tooth_force[i] = force * p->load_share[i];
 }
 
-/* Without load and excitation the flanks stay where they are. */
+/* Without load and excitation, the flanks must stay at rest. */
 static void test_no_load(void)
 {
     pair p = pair_trapezoid(2000);
@@ -42,7 +42,7 @@ static void test_no_load(void)
     stage_close(s);
 }
 
-/* A light load rattles between both flanks. */
+/* Under a light load, the teeth hit both flanks. */
 static void test_light_load(void)
 {
     for (int i = 0; i < 4; i++) {
@@ -72,7 +72,8 @@ static void test_little_damping(void)
     stage_close(s);
 }
 
-/* Overdamped, a gap of a metre, a gap of an atom, a huge force, no stiffness for a while. */
+/* More than critical damping, a backlash of a metre, a backlash of an atom's size, a huge force,
+   zero stiffness in part of the cycle. */
 static void test_sizes(void)
 {
     const struct {
@@ -94,7 +95,8 @@ static void test_sizes(void)
     }
 }
 
-/* Very fast the gears feel the mean stiffness alone; very slow they follow it. */
+/* At very high speed, only the mean stiffness must matter; at very low speed, the motion must be
+   the static deflection. */
 static void test_speeds(void)
 {
     pair p = pair_trapezoid(pair_natural_frequency * 300);
@@ -115,7 +117,7 @@ static void test_speeds(void)
     stage_close(s);
 }
 
-/* Without gap and near twice the natural frequency nothing bounds the motion. */
+/* Without backlash, near twice the natural frequency, the motion grows without limit. */
 static void test_unbounded(void)
 {
     pair p = pair_cosine(2 * pair_natural_frequency, 0.3, 0, 256);
@@ -132,7 +134,7 @@ static void test_unbounded(void)
     stage_close(s);
 }
 
-/* A table whose every line has a kink. */
+/* A stiffness table with a kink at every point. */
 static void test_rough_table(void)
 {
     pair p = pair_trapezoid(2375);
@@ -149,7 +151,7 @@ static void test_rough_table(void)
     stage_close(s);
 }
 
-/* A pitch error wider than the gap throws the teeth from one flank to the other. */
+/* A pitch error larger than the backlash moves the teeth from one flank to the other. */
 static void test_jump_of_error(void)
 {
     const char *dampings[] = {"always", "contact", "clipped"};

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * A film that is wired back: its friction and rolling resistance turn the gears, its thickness lies
- * in series with the teeth. Against both gears followed on their own by small steps, against closed
- * forms, and shooting against time integration in a loop with a film that obeys the load.
- */
+/* A film connected back to the dynamics: its friction and rolling resistance act on the gears as
+   torques, its thickness is in series with the teeth. Compares the motion with a separate
+   integration of both gears in small steps, with closed forms, and shooting with time integration
+   in a loop with a film that depends on the load. */
 #include "check.h"
 #include "pair.h"
 
@@ -16,10 +15,10 @@ enum { STEPS = 4001, TWIN = 10000, MOST = 4096 };
 
 static const double width = 0.02, face = 0.02, sap = 0.25, path = 1.755;
 
-/* Gear 1 of 50 teeth and gear 2, which may be another: teeth, base radii, inertias. */
+/* Gear 1 with 50 teeth, and gear 2: numbers of teeth, base radii, inertias. */
 typedef struct gears {
     double teeth[2], base[2], inertia[2], tangent;
-    int shared; /* whether the shares follow the mesh force */
+    int shared; /* whether load fractions depend on the mesh force */
 } gears;
 
 static gears gears_of(double teeth_2, double inertia_2)
@@ -28,15 +27,15 @@ static gears gears_of(double teeth_2, double inertia_2)
     return g;
 }
 
-/* Radii of curvature at a number of mesh cycles since SAP; their sum is that of both base radii
-   times the tangent of the pressure angle. */
+/* Returns the radius of curvature of a gear, a number of mesh cycles after SAP; both radii add up
+   to the sum of the base radii times the tangent of the pressure angle. */
 static double radius_at(const gears *g, int gear, double cycles)
 {
     double r1 = g->base[0] * (sap + cycles * 2 * M_PI / 50);
     return gear ? (g->base[0] + g->base[1]) * g->tangent - r1 : r1;
 }
 
-/* A film that is given: per width, over the mesh cycles since SAP. */
+/* A prescribed film: traction per width over the mesh cycles since SAP. */
 static double traction_at(double cycles)
 {
     return 3e3 * sin(3 * (cycles - 0.8)) * (1 + 0.3 * cycles);
@@ -104,7 +103,7 @@ static film prescribed(void)
     return f;
 }
 
-/* Share of the pair that began `cycles` ago, as pair.c has it. */
+/* Returns the load fraction of the tooth pair whose contact began `cycles` ago, as in pair.c. */
 static double share_at(double cycles)
 {
     const double at[] = {0, 0.3, 0.5, 0.755}, late[] = {1, 1.3, 1.5, 1.755};
@@ -121,8 +120,8 @@ static double share_at(double cycles)
     return 0.6 - 0.2 * 0.755;
 }
 
-/* Over the mean load: the mesh force that the film bears, and the force of a pair under it. Up to
-   half of the mean both pairs bear alike, at the mean they do as pair.c has it. */
+/* Forces over the mean load: the mesh force that the film carries, and the force of a pair under
+   it. Up to half the mean load, both pairs carry equal loads, at the mean load those of pair.c. */
 static double borne_at(double cycles)
 {
     return 1 + 0.4 * sin(2 * M_PI * cycles);
@@ -147,7 +146,8 @@ static void load(const pair *p, film *f)
     }
 }
 
-/* Levels of a mesh whose stiffness does not depend on the force while its sharing does. */
+/* Gives the force levels of a mesh whose stiffness does not depend on the force, but whose load
+   fractions do. */
 static void give_levels(stage *s, const pair *p)
 {
     enum { LEVELS = 4, PHASES = 6 };
@@ -174,7 +174,8 @@ static void give_levels(stage *s, const pair *p)
     stage_give(s, "stiffness.level_tooth_force", 2, (size_t[]){LEVELS, PAIR_STATIONS}, teeth);
 }
 
-/* Torques against the gears and film in series, of all pairs at a phase. */
+/* Computes the resisting torques and the film thickness in series, from all tooth pairs at a
+   phase. */
 static void sum_pairs(const gears *g, double mesh_frequency, double phase, double against[2],
                       double *thickness)
 {
@@ -192,16 +193,16 @@ static void sum_pairs(const gears *g, double mesh_frequency, double phase, doubl
     *thickness /= borne;
 }
 
-/* Both gears on their own: angle and speed of each, from the start of the motion that was found,
-   by Runge and Kutta's method. Returns the largest distance from its s, over the largest effect of
-   the film on s, which is that from the one-way motion. */
+/* Integrates angle and speed of each gear from the start of the model's motion, by Runge and
+   Kutta's method. Returns the largest difference from the model's s, over the largest effect of the
+   film on s, the difference from the motion without feedback. */
 typedef struct twin {
     const pair *p;
     const gears *g;
     double damper, mean_film, torque[2];
 } twin;
 
-/* Whether a pair leaves, or another enters, between two phases. */
+/* Whether the contact of a tooth pair ends or begins between two phases. */
 static int leaves(double from, double to)
 {
     return (from < path - 1 && to >= path - 1) || to >= 1;
@@ -235,7 +236,7 @@ static void turn(const twin *w, double time, const double y[4], double rate[4])
     rate[3] = (-w->torque[1] + g->base[1] * W - against[1]) / g->inertia[1];
 }
 
-/* Where a pair leaves the thickness of the film jumps, and the damper gives an impulse. */
+/* When a pair's contact ends, the film thickness jumps, and the damper gives an impulse. */
 static void pass_leaving(const twin *w, double y[4])
 {
     double against[2], before, behind;
@@ -299,7 +300,7 @@ static void check_twin(double frequency, const char *branch, double teeth_2, dou
         mean[1] += against[1] / TWIN;
         mean_film += thickness / TWIN;
     }
-    /* the torque of gear 1 is given; that of gear 2 is what is left */
+    /* the torque of gear 1 is given; that of gear 2 follows from the losses */
     double W = p.line_force - mean[0] / g.base[0];
     twin w = {.p = &p,
               .g = &g,
@@ -349,7 +350,8 @@ static void check_twin(double frequency, const char *branch, double teeth_2, dou
     stage_close(both);
 }
 
-/* Without a film the motion is to the bit that of a pair of which no radii and no oil are known. */
+/* Without a film, every bit of the motion must be that of a pair without radii of curvature and
+   oil. */
 static void check_one_way(const char *id)
 {
     gears g = gears_of(50, 4e-3);
@@ -367,7 +369,8 @@ static void check_one_way(const char *id)
     stage_close(known);
 }
 
-/* Each switch off is as good as no film; the books of work and loss close with each alone. */
+/* With all feedback switched off, the motion must be that without a film; with each feedback alone,
+   work and losses must be in balance. */
 static void check_switches(void)
 {
     static const char *const names[] = {"friction", "rolling", "compliance"};
@@ -398,8 +401,8 @@ static void check_switches(void)
     stage_close(one);
 }
 
-/* The film of a load, for loops: h goes with W^-0.13, as (2.3) of Dowson and Higginson has it, and
-   the friction is a twentieth of the load. One pair after the other. */
+/* A film for loops: h is proportional to W^-0.13, as in Dowson and Higginson's (2.3), friction is a
+   twentieth of the load. Only one tooth pair at a time is in contact. */
 typedef struct loop {
     double thickness, friction; /* at the static load */
 } loop;
@@ -433,7 +436,7 @@ static double feed(stage *s, const pair *p, const loop *l, film *f)
     return fmax(moved, most);
 }
 
-/* Runs the loop; the number of rounds, 0: more than `rounds`. */
+/* Runs the loop. Returns the number of rounds, or 0 if it takes more than `rounds`. */
 static int settle(stage *s, const pair *p, const loop *l, double tolerance, int rounds)
 {
     static film f;
@@ -448,15 +451,17 @@ static int settle(stage *s, const pair *p, const loop *l, double tolerance, int 
     return 0;
 }
 
-/* Of a mass behind film, spring and damper in series that e drives: m s'' = -k soft (1 + 2 i zeta
-   r) (s - e), where soft is the stiffness of spring and film over that of the spring. */
+/* Returns the amplitude ratio of a mass that e drives through film and spring in series, with
+   damping: m s'' = -k soft (1 + 2 i zeta r) (s - e). soft: stiffness of spring and film in series
+   over that of the spring. */
 static double gain_of(double soft, double r)
 {
     double damped = 2 * 0.01 * r * soft;
     return hypot(soft, damped) / hypot(soft - r * r, damped);
 }
 
-/* The softness that gives a gain, between 1 and 1 - room, where the gain is monotonic. */
+/* Returns the `soft` that gives an amplitude ratio, between 1 - room and 1, where the ratio is
+   monotonic. */
 static double softness_of(double gain, double r, double room)
 {
     double low = 1 - room, high = 1;
@@ -467,9 +472,10 @@ static double softness_of(double gain, double r, double room)
     return low;
 }
 
-/* A film whose thickness falls by 0.13 h/W per force is a spring of W/(0.13 h) in series: the
-   natural frequency moves down. Small vibration by e(t) of one harmonic, below and above it; the
-   straight lines of e leave out (2 pi/400)^2/12 of it, which is 1e-3 of what the film does. */
+/* A film whose thickness decreases by 0.13 h/W per unit of force is a spring of stiffness W/(0.13
+   h) in series: the natural frequency decreases. Small vibration due to e(t) with one harmonic,
+   below and above the natural frequency. Linear interpolation of e has the relative error (2
+   pi/400)^2/12, 1e-3 of the effect of the film. */
 static void check_compliance(void)
 {
     gears g = gears_of(50, 4e-3);
@@ -490,10 +496,10 @@ static void check_compliance(void)
     }
 }
 
-/* Both ways by two methods, with and without loss of contact. Dry, they share no line of the
-   solution; with oil between parted flanks both take the steps of flow.h, which landing.c holds
-   against a reference and against small steps, and find the periodic motion in their own ways: by
-   Newton's method, and by letting it settle. */
+/* Compares two methods in loops with the film, with and without loss of contact. Without oil
+   between separated flanks, they share no code for the solution. With oil, both use the steps of
+   flow.h, which landing.c compares with references, but find the periodic motion differently: by
+   Newton's method, and by integration until it settles. */
 static void check_methods(int points, int oil)
 {
     gears g = gears_of(50, 4e-3);
@@ -520,7 +526,8 @@ static void check_methods(int points, int oil)
             apart[k] = stage_scalar(s, "contact_loss");
             stage_close(s);
         }
-        if (period[0] != 1 || period[1] != 1) /* the film here is that of one mesh cycle */
+        if (period[0] != 1 || period[1] != 1) /* the film in this test has a period of one mesh
+                                                 cycle */
             continue;
         snprintf(name, sizeof name, "%g Hz %s%s, %d and %d rounds, %.2g apart: rms by both methods",
                  frequency, branch, oil ? " in oil" : "", rounds[0], rounds[1], apart[0]);
@@ -533,8 +540,8 @@ static void check_methods(int points, int oil)
     check_true("some lose contact and some do not", 3 * lost >= points && lost < points);
 }
 
-/* In oil, an engagement that ends in flight and one whose load swells: each counts as it does
-   alone, whichever is the first. */
+/* With oil, an engagement that ends with separated flanks, and one whose load increases: each must
+   have the same effect in any order as alone. */
 static void check_order(void)
 {
     gears g = gears_of(50, 4e-3);
@@ -579,7 +586,7 @@ static void check_bad(void)
     stage_close(s);
 }
 
-/* An argument: at how many points both methods are compared. */
+/* Argument: number of points at which both methods are compared. */
 int main(int argc, char **argv)
 {
     check_twin(1250, "lower", 50, 4e-3, 0);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* dynamics/harmonic-balance where the answer is known: Hill's equation and Mathieu's. */
+/* dynamics/harmonic-balance against known solutions: Hill's and Mathieu's equations. */
 #include "check.h"
 #include "pair.h"
 
@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 
-/* All but the atlas. */
+/* Runs with all outputs except the atlas. */
 static ff_status run_motion(stage *s)
 {
     return stage_run_wanted(
@@ -64,7 +64,8 @@ static void solve(double complex a[SIZE][SIZE], double complex x[SIZE])
     }
 }
 
-/* Harmonics of the trapezoid: one-pair zone of length 0.245 in the middle, ramps of 0.04. */
+/* Returns harmonic n of a trapezoid with a low level of length 0.245 in the middle (single tooth
+   contact) and ramps of 0.04. */
 static double trapezoid(int n)
 {
     double high = 1 / (0.755 + 0.245 * 0.65), step = 0.35 * high;
@@ -107,7 +108,8 @@ static void test_linear(double frequency, const char *samples)
     stage_close(s);
 }
 
-/* Constant stiffness: nothing moves; multipliers exp(-zeta T +- i T sqrt(1 - zeta^2)). */
+/* Constant stiffness: no vibration, and Floquet multipliers exp(-zeta T +- i T sqrt(1 -
+   zeta^2)). */
 static void test_rest(void)
 {
     pair p = pair_cosine(2000, 0, 0, 8);
@@ -149,8 +151,8 @@ static void test_displacement_excitation(void)
     }
 }
 
-/* x'' + (a - 2 q cos 2t) x = 0 in mesh cycles: w = 2/sqrt(a), k = 1 + 2 q/a cos, which so many
-   lines sample that the pieces follow it. */
+/* Makes the pair of x'' + (a - 2 q cos 2t) x = 0 with 2t as mesh phase: w = 2/sqrt(a), k = 1 + 2
+   q/a cos, with enough points for linear interpolation. */
 static pair mathieu(double a, double q)
 {
     pair p = pair_cosine(2 / sqrt(a) * pair_natural_frequency, 2 * q / a, 0, 400);
@@ -168,7 +170,8 @@ static double trace_at(double a, double q)
     return trace;
 }
 
-/* Where the trace passes -2 or 2, off `a`: by a parabola through three values beside it. */
+/* Returns the distance from `a` at which the trace becomes -2 or 2, by a parabola through three
+   values. */
 static double off_boundary(double a, double q, double trace)
 {
     const double at[3] = {-1e-3, 1e-3, 2e-3};
@@ -182,8 +185,8 @@ static double off_boundary(double a, double q, double trace)
     return fabs(root);
 }
 
-/* Characteristic values of Mathieu's equation, given to 1e-6. At those of period pi a forced
-   motion does not exist, but beside them. */
+/* Characteristic values of Mathieu's equation, known to 1e-6. At those with period pi, no forced
+   motion exists, only near them. */
 static void test_mathieu(void)
 {
     check_below("b1(0.1)", off_boundary(0.898766, 0.1, -2), 1e-6);
@@ -195,12 +198,12 @@ static void test_mathieu(void)
     check_below("a2(1)", off_boundary(4.371301, 1, 2), 1e-6);
 }
 
-/* Principal instability with damping 0.01: within [from, to] a disturbance grows. */
+/* Principal instability with damping ratio 0.01: a disturbance must grow within [from, to]. */
 static void test_damped_tongue(void)
 {
     const double tongues[][3] = {
         {0.05, 1.98482, 2.01482}, {0.1, 1.95377, 2.04541}, {0.2, 1.90077, 2.09657}};
-    const double chord = M_PI / 400; /* the straight lines get the exact first harmonic */
+    const double chord = M_PI / 400; /* gives the interpolated stiffness the exact first harmonic */
     for (int i = 0; i < 3; i++)
         for (int side = 0; side < 2; side++)
             for (int inside = 0; inside < 2; inside++) {
@@ -217,9 +220,9 @@ static void test_damped_tongue(void)
             }
 }
 
-/* The backbone of free vibration: the swing of amplitude A F/k on the spring, then the flight,
-   omega T = 2 (pi - acos(1/A)) + 2 sqrt(A^2 - 1), which peaks A + 1 above and (A^2 - 1)/2 below
-   the edge of the gap. A thousandth of F/k shakes it, with hardly any damping. */
+/* The backbone curve of free vibration: contact with amplitude A F/k, then separation, omega T = 2
+   (pi - acos(1/A)) + 2 sqrt(A^2 - 1). The peaks are A + 1 above and (A^2 - 1)/2 below the edge of
+   the gap, in F/k. The excitation is a thousandth of F/k, with hardly any damping. */
 static void test_backbone(void)
 {
     const double amplitudes[] = {1.5, 3, 5};

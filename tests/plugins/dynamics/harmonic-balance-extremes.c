@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* dynamics/harmonic-balance at the edges: finite numbers, an honest verdict, or a reason in words.
-   The host ends the program at a result that is not finite. */
+/* dynamics/harmonic-balance with extreme parameters: it must give finite numbers and a correct
+   quality verdict, or stop with a reason. The host ends the program if a result is not finite. */
 #include "check.h"
 #include "pair.h"
 
@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* All but the atlas. */
+/* Runs with all outputs except the atlas. */
 static ff_status run_motion(stage *s)
 {
     return stage_run_wanted(
@@ -24,13 +24,13 @@ static void set_force(pair *p, double force)
         p->tooth_force[i] = force * p->load_share[i];
 }
 
-/* Scenes without a motion of one mesh cycle that the model finds, and how many there may be: a
-   rattle that never repeats itself, from below and from above, and f_n/1000. */
+/* Number of scenes in which the model finds no motion with a period of one mesh cycle, and the
+   largest number allowed: a chaotic rattle, from below and from above, and f_n/1000. */
 static int refusals;
 static const int known_refusals = 3;
 
-/* The mean of the mesh force over a cycle less the load, over the largest force: a motion that
-   repeats itself gains no speed. */
+/* Returns the mean mesh force over a cycle minus the load, over the largest force; 0 for a periodic
+   motion. */
 static double unbalanced(const stage *s, const pair *p)
 {
     size_t count;
@@ -43,7 +43,7 @@ static double unbalanced(const stage *s, const pair *p)
     return most > 0 ? fabs(sum - p->line_force) / most : 0;
 }
 
-/* Runs; either there is a motion that holds the load, or the reason is said. */
+/* Runs; either there is a motion whose mean force is the load, or a message with the reason. */
 static stage *run(const char *what, const pair *p, double zeta, const char *branch)
 {
     stage *s = pair_open("dynamics/harmonic-balance", p);
@@ -56,7 +56,7 @@ static stage *run(const char *what, const pair *p, double zeta, const char *bran
     if (status == FF_OK) {
         check_below("determinant", stage_quality(s, "determinant"), 1e-9);
         check_below("residual", stage_quality(s, "residual"), 1e-8);
-        /* 4e-5 by the trapezium rule on kinks, 7e-4 where the stiffness vanishes for a while */
+        /* 4e-5 from the trapezium rule at kinks, 7e-4 if the stiffness is 0 in part of the cycle */
         check_below("mean force less the load", unbalanced(s, p), 1e-3);
     }
     refusals += status != FF_OK;
@@ -79,9 +79,9 @@ static void test_damping(void)
     run_both("2375 Hz", &p, 2);
 }
 
-/* Peak to peak of the undamped motion in which the flanks touch only while the stiffness is k: a
-   throw of the speed v at which they part takes 2 v m/F, and the spring turns it round in
-   2 (pi - atan(v w m/F))/w with w = sqrt(k/m). */
+/* Returns the peak-to-peak value of the undamped motion in which the flanks touch only while the
+   stiffness is k: after separation at speed v, they touch again after 2 v m/F, and the spring
+   reverses the motion in 2 (pi - atan(v w m/F))/w with w = sqrt(k/m). */
 static double thrown(const pair *p, double k)
 {
     double m = p->mass, fall = p->line_force / m, w = sqrt(k / m), low = 0, high = 1;
@@ -94,8 +94,8 @@ static double thrown(const pair *p, double k)
     return low * low / (2 * fall) + rest + hypot(rest, low / w);
 }
 
-/* Without damping no motion is trusted as stable. The flanks touch where the stiffness is constant,
-   so that they may do so sooner or later: the motions of one speed are a line. */
+/* Without damping, no motion may be reported as stable. The flanks touch where the stiffness is
+   constant, at any time: at each speed, there is a continuous family of motions. */
 static void test_no_damping(void)
 {
     pair p = pair_trapezoid(2375);
@@ -104,12 +104,13 @@ static void test_no_damping(void)
     check_below("determinant is 1", fabs(mu[0] * mu[2] - mu[1] * mu[3] - 1), 1e-9);
     check_true("is doubtful", stage_verdict(s) == FF_DOUBTFUL);
     double exact = thrown(&p, p.stiffness[0]);
-    /* half of 512 instants to a cycle beside both peaks: A (w/512 f)^2/8 + F/m (1/512 f)^2/8 */
+    /* both peaks lie up to half a sample from one of 512 samples: A (w/512 f)^2/8 + F/m (1/512
+       f)^2/8 */
     check_near("peak to peak", stage_scalar(s, "dte_peak_to_peak") / exact, 1, 2.1e-5);
     stage_close(s);
 }
 
-/* Torques of 0.05 and 5000 N m at a base radius of 70.5 mm; nothing; a light load that rattles. */
+/* Torques of 0.05 and 5000 N m at a base radius of 70.5 mm; no load; a light load with impacts. */
 static void test_load(void)
 {
     const double forces[] = {0.71, 71000, 1e-6, 1e9};
@@ -136,7 +137,7 @@ static void test_load(void)
     stage_close(s);
 }
 
-/* The linear motion is all there is without backlash, and the same from above and from below. */
+/* Without backlash, only the linear motion exists, the same from above and from below. */
 static void test_no_backlash(void)
 {
     double rms[2];
@@ -175,8 +176,8 @@ static void test_speed(void)
     stage_close(s);
 }
 
-/* Jumps of stiffness and of the error, wider than the gap; no stiffness for a while; a table whose
-   every line has a kink. */
+/* Jumps of stiffness, and of transmission error by more than the backlash; zero stiffness in part
+   of the cycle; a table with a kink at every point. */
 static void test_rough_excitation(void)
 {
     pair p = pair_trapezoid(1800);
@@ -205,7 +206,8 @@ static void test_rough_excitation(void)
     stage_close(run("rough table", &p, 0.01, "lower"));
 }
 
-/* Within the tongue near twice the natural frequency the motion of one cycle is unstable. */
+/* In the unstable range near twice the natural frequency, the motion of one mesh cycle must be
+   reported as unstable. */
 static void test_unstable(void)
 {
     pair p = pair_trapezoid(2180);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The analytic Jacobian of the balance against differences of its residual. */
+/* Compares the analytic Jacobian of harmonic balance with differences of the residual. */
 #include "../../../plugins/dynamics/series/harmonics.h"
 
 #include "check.h"
@@ -20,7 +20,7 @@ static dynamics_excitation make_mesh(double half_gap)
     return mesh;
 }
 
-/* A motion that loses contact and meets both flanks when the gap is small. */
+/* Makes a motion that loses contact, and touches both flanks if the gap is small. */
 static void make_motion(double *x)
 {
     for (int i = 0; i < SIZE; i++)
@@ -59,7 +59,7 @@ static void test_jacobian(double half_gap)
     dynamics_excitation_free(&mesh);
 }
 
-/* Samples of a series give it back. */
+/* The harmonics of a series' samples must be those of the series. */
 static void test_analyse(void)
 {
     double x[SIZE], back[SIZE], s[64], slope, worst = 0;
@@ -76,8 +76,8 @@ static void test_analyse(void)
     dynamics_excitation_free(&mesh);
 }
 
-/* The mean force of constant stiffness k = 1 at s = b + cos theta: 1/pi, the kinks included. The
-   trapezium rule would be of second order in the step. */
+/* The mean force with constant stiffness k = 1 at s = b + cos theta must be 1/pi, in spite of the
+   kinks. The trapezium rule would have an error of second order in the step. */
 static void test_edges(void)
 {
     static const double phase[] = {0, 1}, k[] = {1, 1};

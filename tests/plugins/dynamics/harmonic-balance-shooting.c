@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* dynamics/harmonic-balance and dynamics/shooting, which share no equation solver, side by side. */
+/* Compares dynamics/harmonic-balance with dynamics/shooting, which share no equation solver. */
 #include "check.h"
 #include "pair.h"
 
@@ -13,7 +13,7 @@ static stage *open_model(const char *id, const pair *p, const char *branch)
     return s;
 }
 
-/* The motion of a smooth stiffness, to 1e-6 of the half backlash. */
+/* With a smooth stiffness, the motions must agree to 1e-6 of half the backlash. */
 static void test_motion(double frequency, const char *branch, double stiffness_1)
 {
     static const char outputs[] = "phase dte dte_rms mesh_force floquet_max multipliers";
@@ -34,7 +34,7 @@ static void test_motion(double frequency, const char *branch, double stiffness_1
     stage_close(shots);
 }
 
-/* rms of the series on a branch at a frequency. */
+/* Returns the rms of the harmonic balance on a branch at a frequency. */
 static double rms_at(const pair *base, const char *branch, double frequency)
 {
     pair p = *base;
@@ -46,7 +46,8 @@ static double rms_at(const pair *base, const char *branch, double frequency)
     return rms;
 }
 
-/* The folds at which lower, rising, and upper, falling, jump: the series jumps there, too. */
+/* The folds at which `lower` jumps with increasing speed, and `upper` with decreasing speed:
+   harmonic balance must jump there, too. */
 static void test_folds(void)
 {
     pair p = pair_trapezoid(2375);
@@ -60,7 +61,7 @@ static void test_folds(void)
     const double *branch = stage_get(shots, "fold_branch", NULL);
     for (size_t i = 0; i < count; i++) {
         if (branch[i] >= 2000)
-            continue; /* of a motion of two cycles, which this series cannot have */
+            continue; /* a motion of two mesh cycles, which harmonic balance does not have */
         for (int k = 0; k < 2; k++) {
             const char *name = k ? "upper" : "lower";
             double below = rms_at(&p, name, fold[i] - 0.1), above = rms_at(&p, name, fold[i] + 0.1);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* dynamics/harmonic-balance against states that other solvers found, and integration in time. */
+/* Compares dynamics/harmonic-balance with states from other solvers, and with integration in
+   time. */
 #include "check.h"
 #include "pair.h"
 
@@ -7,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* All but the atlas. */
+/* Runs with all outputs except the atlas. */
 static ff_status run_motion(stage *s)
 {
     return stage_run_wanted(
@@ -33,7 +34,7 @@ typedef struct state {
     double x, v, rms, max, min, trace, det;
 } state;
 
-/* Exact pieces with located events; lengths over b, times 1/omega_n. */
+/* States from exact solutions between changes of contact; lengths over b, times in 1/omega_n. */
 static const state states[] = {
     {1250, "lower", 1.198731434212, -0.001317327864, 0.050672794, 1.203284948, 1.056575059,
      -1.467587, 0.721861932},
@@ -61,8 +62,8 @@ static void check_value(const state *pin, const char *what, double value, double
     check_below(name, fabs(value - expected), tolerance);
 }
 
-/* The force has kinks, so that the harmonics of s fall as n^-4 and 80 of them leave 80^-3/3 of the
-   kink: 1e-6 in s; its derivative loses a power. */
+/* Since the force has kinks, the harmonics of s decrease as n^-4; with 80 harmonics, the error is
+   80^-3/3 of the kink: 1e-6 in s, and larger by a factor of 80 in the derivative. */
 static void check_pinned(const state *pin, const char *settings, double tolerance)
 {
     char all[128];
@@ -88,7 +89,7 @@ static void check_pinned(const state *pin, const char *settings, double toleranc
     stage_close(s);
 }
 
-/* Harmonics that are chosen by the model give what its error estimate promises. */
+/* With the number of harmonics chosen by the model, the error must be within the estimate. */
 static void test_chosen_harmonics(void)
 {
     double before = 1;
@@ -108,7 +109,7 @@ static void test_chosen_harmonics(void)
     }
 }
 
-/* A number of samples that its harmonics outgrow is not kept to: they would be aliased. */
+/* The model must use more samples than requested if the harmonics would be aliased. */
 static void test_few_samples(void)
 {
     pair p = pair_trapezoid(2375);
@@ -119,7 +120,7 @@ static void test_few_samples(void)
     stage_close(preset);
 }
 
-/* Smooth k, straight between 256 points, with and without loss of contact. */
+/* Smooth stiffness, linear between 256 points, with and without loss of contact. */
 static void test_against_time(double frequency, const char *branch, double stiffness_1,
                               double error_1, int loses_contact)
 {

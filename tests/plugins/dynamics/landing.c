@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Oil between parted flanks in series with the teeth, in the return map: the momentum that an
- * approach takes in closed form, a reference integration, the derivatives, the balance of energy,
- * and what a periodic motion must return to.
- */
+/* Oil between separated flanks, in series with the teeth, in the return map: checks the momentum
+   that the oil takes up when the flanks approach (closed form), a reference integration, the
+   derivatives, the energy balance, and the return of periodic motions. */
 #include "check.h"
 
 #include "../../../plugins/dynamics/orbits/orbit.h"
@@ -20,8 +18,8 @@ typedef struct fixture {
     dynamics_flow flow;
 } fixture;
 
-/* A pair of 70 um half backlash in units of 10.9 um, the seed's oil (5.006 mPa s) times `oil`, a
-   film of 0.2 um at hand-over, and k(t) with one ramp up and one down. */
+/* Makes a pair with 70 um half backlash in units of 10.9 um, an oil of 5.006 mPa s times `oil`, a
+   film of 0.2 um at contact, and k(t) with a ramp up and a ramp down. */
 static void open_fixture(fixture *f, double oil, int rolling, double zeta, double load,
                          double level)
 {
@@ -51,9 +49,9 @@ static void close_fixture(fixture *f)
     dynamics_excitation_free(&f->mesh);
 }
 
-/* int W dt = int A h^-1.5 dh for any stiffness of the teeth: without load and damper the momentum
-   that an approach takes until the film is at hand-over is 2 A (h_c^-1/2 - h_0^-1/2), A that of the
-   pairs in mesh. The contact ratio is 1, and the radius constant, so that A is. */
+/* int W dt = int A h^-1.5 dh for any stiffness of the teeth: without load and damper, the oil takes
+   up the momentum 2 A (h_c^-1/2 - h_0^-1/2) until the film has the contact thickness h_c. A is
+   constant, because the contact ratio is 1 and the radius constant. */
 static void check_momentum(void)
 {
     const double speed[] = {2, 3.5, 7};
@@ -64,7 +62,7 @@ static void check_momentum(void)
         f.film.radius[1] = f.film.radius[2] = 0;
         double A = dynamics_film_at(&f.film, 0.5, 1).squeeze, h0 = f.film.hand_over + 4;
         double film[2] = {4, 2 * 6.43 - 4};
-        /* the cycle ends soon after the landing: T is sought until y is just at hand-over */
+        /* the cycle ends soon after the contact: finds the T at which y just reaches contact */
         double low = 1 / speed[i], high = 4 / speed[i] + 0.5;
         dynamics_state y = {0};
         for (int n = 0; n < 60; n++) {
@@ -81,8 +79,8 @@ static void check_momentum(void)
     }
 }
 
-/* The reference: (delta, delta', h) by GSL at 1e-13, piece by piece; the film opens at h - h_c = y
-   and obeys h' = -V(W, h) as long as the run lasts. */
+/* The reference: (delta, delta', h) by GSL's integration to 1e-13, piece by piece. The film begins
+   at h = h_c + y, then h' = -V(W, h). */
 typedef struct reference {
     const fixture *f;
     const dynamics_piece *piece;
@@ -132,8 +130,8 @@ static void follow_reference(const fixture *f, double T, double y[3])
     numerics_integrator_free(&gsl);
 }
 
-/* Landings of all kinds against the reference: soft and hard, thin oil and thick, until before the
-   film is at hand-over or the teeth leave it. */
+/* Compares approaching flanks with the reference: soft and hard approaches, thin and thick oil,
+   until just before the film has the contact thickness or the flanks separate. */
 static void check_reference(void)
 {
     static const struct {
@@ -147,7 +145,8 @@ static void check_reference(void)
         open_fixture(&f, cases[i].oil, cases[i].rolling, 0.01, 1, 1);
         double q = -cases[i].gap, T = cases[i].T, film[2] = {-q, 2 * 6.43 + q};
         if (cases[i].rolling) {
-            /* the back film would carry a little: it is far, and left out of the reference */
+            /* the film at the back flank, which the reference leaves out, would carry a small
+               load */
             f.film.supply = 6;
             dynamics_film_place place = dynamics_film_at(&f.film, 0, T);
             film[0] = dynamics_film_quasi_static(&f.film, &place, f.mesh.pieces[0].k[0], q,
@@ -168,10 +167,9 @@ static void check_reference(void)
     }
 }
 
-/* Derivatives of a whole cycle with a landing by central differences. The film behind a flank that
-   lets go starts beside the motion, and with the wedge the load at which it does so changes with
-   the phase; neither is differentiated: 2e-6, and 3e-4 with the wedge, whose film behind is not
-   free. */
+/* Compares derivatives over a whole cycle with central differences. Two effects are not in the
+   derivatives: the film after a separation starts near the motion, and with entrainment, the load
+   of separation depends on the phase. Their errors are 2e-6, and 3e-4 with entrainment. */
 static void check_derivatives(int rolling)
 {
     fixture f;
@@ -210,7 +208,8 @@ static void check_derivatives(int rolling)
     close_fixture(&f);
 }
 
-/* A periodic motion with landings: it returns, wherever phase 0 lies, and its energy balances. */
+/* A periodic motion with contacts through oil must repeat itself for any phase 0, with its energy
+   in balance. */
 static void check_orbit(int rolling)
 {
     fixture f;

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * A mesh force that knows its load (force: shared) against a twin: tooth pairs with relief, each a
- * tooth and a Hertzian contact in series, whose equilibrium is solved anew at every small step in
- * time. The models get the same statics at some forces only. And what holds of any mesh force: its
- * mean, its shares, its energy, a small vibration, a slow motion.
- */
+/* `force: shared`, a mesh force that depends nonlinearly on the deflection: compares motions with a
+   separate integration of tooth pairs with relief, each a tooth and a Hertzian contact in series,
+   whose equilibrium is solved at every small time step. The models get this equilibrium at some
+   forces only. Also checks properties of any mesh force: mean, load fractions, energy, a small
+   vibration, a slow motion. */
 #include "check.h"
 #include "pair.h"
 
@@ -14,10 +13,11 @@
 
 enum { PHASES = 150, MOST_LEVELS = 28, PAIRS = 6, TOP = 9 /* largest level over the mean force */ };
 
-/* Pairs of age q, mesh cycles: compliance, relief towards both ends, Hertzian approach
-   W slope ln(scale/W). */
+/* Tooth pairs at q mesh cycles after the begin of their contact: compliance, relief at both ends,
+   Hertzian approach W slope ln(scale/W). */
 typedef struct teeth {
-    double begin, end, relief; /* ages between which there is none; m per cycle beyond */
+    double begin, end, relief; /* no relief between begin and end, mesh cycles; beyond, it increases
+                                  by `relief`, m per cycle */
 } teeth;
 
 static const double hertz_slope = 1.5e-10, hertz_scale = 1e7;
@@ -33,7 +33,7 @@ static double compliance_of(double age)
     return (1 + 0.15 * cos(2.4 * (age - 0.7))) / 2.6e8;
 }
 
-/* The force of a pair that is pressed by u > 0, by Newton's method, and its slope. */
+/* Returns the force of a pair with overlap u > 0, by Newton's method, and its slope. */
 static double pair_force(double age, double u, double *slope)
 {
     double a = compliance_of(age), W = u / (a + 10 * hertz_slope);
@@ -41,7 +41,7 @@ static double pair_force(double age, double u, double *slope)
         double by_force = a + hertz_slope * (log(hertz_scale / W) - 1);
         double step = (u - W * (a + hertz_slope * log(hertz_scale / W))) / by_force;
         W = fmax(W + step, 0.1 * W);
-        if (fabs(step) < 1e-9 * W) /* of which the square is left */
+        if (fabs(step) < 1e-9 * W) /* the error is then of the order of its square */
             break;
     }
     *slope = 1 / (a + hertz_slope * (log(hertz_scale / W) - 1));
@@ -56,7 +56,7 @@ static double unloaded(const teeth *t, double phase)
     return e;
 }
 
-/* G(phase, s). */
+/* Returns the mesh force G(phase, s). */
 static double mesh_force(const teeth *t, double phase, double s, double *slope)
 {
     double force = 0, k;
@@ -84,7 +84,7 @@ static double loaded(const teeth *t, double phase, double force, double *slope)
     return s;
 }
 
-/* Levels of a mesh, and the pair that is fed with it. */
+/* The force levels of a mesh, and the gear pair with this mesh. */
 typedef struct mesh {
     teeth teeth;
     size_t levels;
@@ -99,7 +99,7 @@ static double station_age(const mesh *m, size_t i)
     return (m->p.roll[i] - m->p.roll[0]) / (2 * M_PI / 50);
 }
 
-/* The force of the pair at a station when the sum is F. */
+/* Returns the force of the tooth pair at a station under the mesh force F. */
 static double tooth_force_at(const mesh *m, size_t station, double F)
 {
     double k, age = station_age(m, station), phase = age - floor(age + 1e-12);
@@ -120,7 +120,7 @@ static void make_mesh(mesh *m, const teeth *t, double frequency, size_t levels)
             size_t at = k * (PHASES + 1) + i;
             m->error[at] = k ? loaded(t, m->p.phase[i], m->force[k], &m->stiffness[at])
                              : unloaded(t, m->p.phase[i]);
-            if (!k) /* next to none */
+            if (!k) /* nearly 0 */
                 loaded(t, m->p.phase[i], 1e-9 * m->p.line_force, &m->stiffness[at]);
         }
         for (size_t i = 0; i < PAIR_STATIONS; i++)
@@ -150,7 +150,7 @@ static stage *open_shared(const char *model, const mesh *m)
     return s;
 }
 
-/* Without maps and counts of motions. */
+/* Runs without maps and counts of motions. */
 static int run_motion(stage *s)
 {
     return stage_run_wanted(s,
@@ -158,7 +158,7 @@ static int run_motion(stage *s)
                             "tooth_force contact_loss back_contact period") == FF_OK;
 }
 
-/* The twin: Runge and Kutta's method of order 4 with STEPS steps a cycle. */
+/* The separate integration: Runge and Kutta's method of order 4 with STEPS steps per cycle. */
 enum { STEPS = 4096 };
 
 static double twin_force(const mesh *m, double zeta, double phase, double s, double rate)
@@ -172,7 +172,7 @@ static double twin_force(const mesh *m, double zeta, double phase, double s, dou
     return force - mesh_force(&m->teeth, x, back, &k);
 }
 
-/* Whether e bends within a step, where the force of the damper jumps. */
+/* Whether e has a kink within a step, where the force of the damper jumps. */
 static int bends_at(const mesh *m, double phase)
 {
     double h = 1.5 / STEPS, x = phase - floor(phase), e = unloaded(&m->teeth, x);
@@ -180,8 +180,8 @@ static int bends_at(const mesh *m, double phase)
     return fabs(behind - before) > 0.05 * (fabs(behind) + fabs(before));
 }
 
-/* Follows the twin over one cycle from a state; the largest distances from the motion that a model
-   shows, over its amplitude, and of the mesh force, over the mean. */
+/* Integrates over a cycle from a state. Finds the largest differences from the motion of a model,
+   over its amplitude, and from its mesh force, over the mean. */
 static void follow_twin(const mesh *m, double zeta, const stage *shown, double off[2])
 {
     size_t count, next = 0;
@@ -217,7 +217,8 @@ static void follow_twin(const mesh *m, double zeta, const stage *shown, double o
 
 static const teeth relieved = {0.44, 1.36, 60e-6}, wide = {0.12, 2.04, 30e-6}, none = {-9, 9, 0};
 
-/* Motions in contact and with contact loss, by three models, of two and of three pairs. */
+/* Motions with and without loss of contact, by three models, with two and with three tooth pairs in
+   contact. */
 static void test_twin(void)
 {
     static const struct {
@@ -252,8 +253,9 @@ static void test_twin(void)
     }
 }
 
-/* The mean of the mesh force over the motion is the line force, by the trapezium rule; at the two
-   stations of one phase the forces of both pairs add up to the mesh force, and none is below 0. */
+/* The mean mesh force over the motion, by the trapezium rule, must be the line force. At two
+   stations with the same phase, the forces of both pairs must add up to the mesh force, and none
+   may be below 0. */
 static void check_shares(const mesh *m, const stage *s, size_t steps, double *highest)
 {
     size_t count;
@@ -263,7 +265,8 @@ static void check_shares(const mesh *m, const stage *s, size_t steps, double *hi
     for (size_t i = 1; i < count; i++)
         mean += (phase[i] - phase[i - 1]) * (force[i] + force[i - 1]) / 2 / cycles;
     check_near("mean force", mean, m->p.line_force, 1e-6);
-    /* stations 1 and 8 have the ages 0.3 and 1.3; 2 and 9 0.5 and 1.5 */
+    /* stations 1 and 8 are 0.3 and 1.3 cycles after the begin of contact, stations 2 and 9 0.5 and
+       1.5 cycles */
     for (size_t i = 1; i <= 2 && stage_scalar(s, "period") == 1; i++) {
         double at = (i == 1 ? 0.3 : 0.5) * (double)steps;
         size_t k = (size_t)at;
@@ -278,8 +281,8 @@ static void check_shares(const mesh *m, const stage *s, size_t steps, double *hi
     }
 }
 
-/* The energy of the spring balances what the damper takes, in contact, in flight and on the back
-   flank, too. */
+/* The work of the spring force must be the loss in the damper, in contact, while separated, and on
+   the back flank. */
 static void test_balances(void)
 {
     enum { STEPS_SHOWN = 32768 };
@@ -304,8 +307,8 @@ static void test_balances(void)
     check_true("pairs that bear more than the mean", highest > 1);
 }
 
-/* Levels that are all on k g leave one line of the spring: folds and motion are those of k alone.
- */
+/* If all levels lie on the line k g, the spring is linear: folds and motion must be those of the
+   stiffness k. */
 static void test_linear(void)
 {
     static double error[4 * 6], stiffness[4 * 6], loaded_error[6];
@@ -341,8 +344,8 @@ static void test_linear(void)
     check_true("its fold, to 1e-6 Hz", fabs(fold[1] - fold[0]) < 1e-6);
 }
 
-/* Levels that bend back are no spring of lines: the line from 1 to 1.3 goes on to 5.33 F at 2.3,
-   where 3 F are given, and the quality says so. */
+/* Levels with decreasing slope cannot be a spring of stiffening lines: the line through levels 1
+   and 1.3 reaches 5.33 F at 2.3, where 3 F are given. The quality record must report this. */
 static void test_bent_back(void)
 {
     static const double deflection[4] = {0, 1, 1.3, 2.3};
@@ -365,8 +368,8 @@ static void test_bent_back(void)
     stage_close(s);
 }
 
-/* A slope below the chord from the force before is that of no mesh that stiffens: the chord stands
-   for it, and the line says so. */
+/* A slope below the secant from the level before is impossible for a mesh that stiffens: the secant
+   replaces it, and the quality line must report this. */
 static void test_soft_slope(void)
 {
     static double error[3 * 6], slope[3 * 6], loaded_error[6];
@@ -393,8 +396,9 @@ static void test_soft_slope(void)
     }
 }
 
-/* Without relief at a constant phase: e moves by a thousandth of the deflection, and the answer is
-   that of the slope of the mesh at the mean force, m z'' + c z' + k z = -m e''. */
+/* Without relief, with a mesh that does not depend on phase: e varies by a thousandth of the
+   deflection, and the response must be that of the slope k at the mean force, m z'' + c z' + k z =
+   -m e''. */
 static void test_small_vibration(void)
 {
     static mesh m;
@@ -428,7 +432,8 @@ static void test_small_vibration(void)
     }
 }
 
-/* What every second level changes is within what the line of the fewer levels states. */
+/* The difference between all levels and every second level must be within the error stated with
+   every second level. */
 static void test_half(void)
 {
     static mesh m;
@@ -451,7 +456,8 @@ static void test_half(void)
         check_below("tooth force", fabs(W[1][i] - W[0][i]) / m.p.line_force, stated);
 }
 
-/* A motion that leaves the levels is doubtful, and the line covers what the missing ones change. */
+/* A motion beyond the levels must be doubtful, with a stated error that covers the effect of the
+   missing levels. */
 static void test_beyond(void)
 {
     static mesh m;
@@ -473,7 +479,8 @@ static void test_beyond(void)
     check_true("more than between the levels", stated > 0.1);
 }
 
-/* At less than a hundredth of the natural frequency the motion is the loaded error. */
+/* Below a hundredth of the natural frequency, the motion must be the transmission error under
+   load. */
 static void test_slow(void)
 {
     static mesh m;
@@ -493,7 +500,7 @@ static void test_slow(void)
     stage_close(s);
 }
 
-/* A level that is not what it says, or none, is refused with its row. */
+/* A wrong or missing level must be reported with its row. */
 static void test_refusals(void)
 {
     static mesh m;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The spring that bends: flight begins and ends at the unloaded e, and a slow motion is the loaded
-   transmission error whether the stiffness is the chord or the slope. */
+/* The nonlinear mesh spring: contact must end and begin at the transmission error e without load,
+   and a slow motion must be the loaded transmission error, whether the stiffness is a secant or a
+   slope. */
 #include "check.h"
 #include "pair.h"
 
@@ -15,7 +16,8 @@
 
 enum { LINES = 200 };
 
-/* A mesh whose slope and loaded error e_l are constant: with F = 1 the offset is k e_l - 1. */
+/* A mesh with constant slope k and constant loaded error e_l: with F = 1, the force line has the
+   offset k e_l - 1. */
 typedef struct constant_mesh {
     dynamics_excitation mesh;
     dynamics_flow flow;
@@ -45,7 +47,8 @@ static void close_mesh(constant_mesh *c)
     dynamics_excitation_free(&c->mesh);
 }
 
-/* The time from touching with the speed v to the knee, and the speed there: z'' = F - chord z. */
+/* Returns the time from contact at speed v to the knee of the spring; *at_knee: speed there. z'' =
+   F - chord z. */
 static double time_to_knee(const constant_mesh *c, double v, double *at_knee)
 {
     double w = sqrt(c->chord), rest = c->load / c->chord;
@@ -57,7 +60,7 @@ static double time_to_knee(const constant_mesh *c, double v, double *at_knee)
     return t;
 }
 
-/* The time from touching with the speed v to parting again, through both bands. */
+/* Returns the time from contact at speed v to separation, through both parts of the spring. */
 static double time_in_contact(const constant_mesh *c, double v)
 {
     double u, down = time_to_knee(c, v, &u), w = sqrt(c->k);
@@ -65,8 +68,8 @@ static double time_in_contact(const constant_mesh *c, double v)
     return 2 * down + 2 * atan2(u / w, -(rest - knee)) / w;
 }
 
-/* Without damping a flank that parts with the speed v lands with it after 2 v/F, and parts again
-   when its way through the bands is over. */
+/* Without damping, flanks that separate at speed v touch again at this speed after 2 v/F, and
+   separate again after time_in_contact. */
 static void test_flight(void)
 {
     const double speeds[] = {1.2, 2.5, 0.9};
@@ -89,7 +92,8 @@ static void test_flight(void)
     }
 }
 
-/* At rest under F the deflection is e_l, and the force never falls where the deflection rises. */
+/* At rest under F, the deflection must be e_l. The force must not decrease with increasing
+   deflection. */
 static void test_law(void)
 {
     constant_mesh c;
@@ -110,7 +114,8 @@ static void test_law(void)
     close_mesh(&c);
 }
 
-/* The monodromy through both bands and flight, against differences. */
+/* Compares the monodromy matrix, over both parts of the spring and a separation, with
+   differences. */
 static void test_variation(void)
 {
     constant_mesh c;
@@ -134,7 +139,7 @@ static void test_variation(void)
     close_mesh(&c);
 }
 
-/* The energy of the spring at a deflection, by midpoints of its force. */
+/* Returns the energy of the spring at a deflection, by the midpoint rule. */
 static double energy_of_force(const dynamics_piece *p, double since, double bend)
 {
     enum { PARTS = 20000 };
@@ -144,9 +149,9 @@ static double energy_of_force(const dynamics_piece *p, double since, double bend
     return sum;
 }
 
-/* What flanks that never pull lose, from a fine record alone: the integral of c rate^2 while they
-   press, and what the spring has stored where they let go, less that where they press again.
-   `high` counts how often they let go beyond the knee. */
+/* Returns the energy that flanks without pulling force lose, from a fine record: the integral of c
+   rate^2 during contact, and the spring energy at each end of contact minus that at each begin.
+   *high: number of ends of contact beyond the knee. */
 static double account(const dynamics_motion *motion, int *high)
 {
     const dynamics_excitation *mesh = motion->excitation;
@@ -173,7 +178,7 @@ static double account(const dynamics_motion *motion, int *high)
     return loss;
 }
 
-/* With a strong damper and a fast e the flanks let go while the spring is beyond its knee. */
+/* With strong damping and fast changes of e, contact ends while the spring is beyond its knee. */
 static void test_energy(void)
 {
     static const double phase[] = {0, 0.2, 0.45, 0.7, 1}, slope[] = {1, 1.2, 0.8, 1.1, 1};
@@ -214,8 +219,8 @@ static void test_energy(void)
     dynamics_excitation_free(&mesh);
 }
 
-/* One harmonic of the slope and of the loaded error, of other sizes: at 1 % of the natural
-   frequency the motion is the loaded error at every point. */
+/* Slope and loaded error with one harmonic each: at 1 % of the natural frequency, the motion must
+   be the loaded error at every point. */
 static void test_slow_motion(void)
 {
     static const char *const models[] = {"dynamics/shooting", "dynamics/time-integration",
@@ -249,8 +254,8 @@ static void test_slow_motion(void)
     }
 }
 
-/* A loaded error that belongs to the chord changes nothing, to the last bit; one without which the
-   stiffness would soften is told, and so is one below e. */
+/* A loaded error that agrees with the secant stiffness must not change any bit. A loaded error for
+   which the stiffness would decrease with force, or which is below e, must be reported. */
 static void test_sources(void)
 {
     static double loaded[PAIR_MAX_PHASES];
@@ -279,8 +284,9 @@ static void test_sources(void)
     }
 }
 
-/* The landings of a motion against where its dte comes back to the edge of the gap, and its
-   velocity there; two models agree, and a motion in full contact has none. */
+/* Compares the reported ends of separations with the points where dte returns to the edge of the
+   gap, and with the velocity there. Two models must agree; a motion in permanent contact must have
+   none. */
 static void test_landings(void)
 {
     static const char *const models[] = {"dynamics/shooting", "dynamics/time-integration"};
@@ -299,7 +305,8 @@ static void test_landings(void)
             last = dte[i - 1] < p.backlash / 2 && dte[i] >= p.backlash / 2 ? i : last;
         check_true("one landing", landings == 1 && last > 0);
         double step = (phase[last] - phase[last - 1]) / p.mesh_frequency;
-        double back = (dte[last] - p.backlash / 2) / rate[last]; /* little curved from there */
+        double back = (dte[last] - p.backlash / 2) / rate[last]; /* the motion is nearly straight
+                                                                    from there */
         check_near("time", time[0], phase[last] / p.mesh_frequency - back, 1e-4);
         double x = 1 - back / step;
         check_near("speed", speed[0], rate[last - 1] * (1 - x) + rate[last] * x, 1e-3);
@@ -314,8 +321,8 @@ static void test_landings(void)
     }
 }
 
-/* Where e falls at a jump the flanks of a motion in flight meet at once, with the speed that they
-   have there. */
+/* If e decreases in a jump during a separation, the flanks touch at once, with their speed at that
+   time. */
 static void test_landing_at_jump(void)
 {
     pair p = pair_trapezoid(2375);
@@ -344,9 +351,9 @@ static void test_landing_at_jump(void)
 
 enum { LEVELS = 5 };
 
-/* Gives a stiffness that knows, at five forces, a slope that is twice itself above `knee` times the
-   mean force and a tooth force that is a line over the mesh force, so that the share of a pair is
-   off by d (1/F_1 - 1/F) between two of them. */
+/* Gives data of the mesh at five forces: a slope that doubles above `knee` times the mean force,
+   and a tooth force that is linear in the mesh force, so that the load fraction of a pair has the
+   error d (1/F_1 - 1/F) between two forces. */
 static const double knee = 1.05;
 
 static void give_levels(stage *s, const pair *p, double d, size_t rows)
@@ -371,7 +378,8 @@ static void give_levels(stage *s, const pair *p, double d, size_t rows)
     stage_give(s, "stiffness.level_tooth_force", 2, stations, teeth);
 }
 
-/* The lines sharing_change and slope_change against the forces that the motion shows. */
+/* Compares the quality lines sharing_change and slope_change with values from the motion's
+   forces. */
 static void test_sharing(void)
 {
     static const char *const models[] = {"dynamics/shooting", "dynamics/time-integration",
@@ -408,8 +416,8 @@ static void test_sharing(void)
     stage_close(s);
 }
 
-/* A frozen motion has no line where no spring can be made of the levels: more than it takes lines,
-   or errors that do not rise. */
+/* A run with a constant stiffness must have no quality line if the levels cannot make a spring: too
+   many levels, or errors that do not increase. */
 static void test_useless_levels(void)
 {
     enum { MANY = 40 };
@@ -431,8 +439,8 @@ static void test_useless_levels(void)
     }
 }
 
-/* A motion that stays near the mean force, which is a level itself, has an error, too: the mesh
-   G = g^1.5 of ten levels is off by what its tangent at the mean force is. */
+/* A motion near the mean force, which is a level, must have a stated error, too: that of the
+   tangent at the mean force to the mesh G = g^1.5 with ten levels. */
 static void test_near_a_level(void)
 {
     enum { COUNT = 10 };

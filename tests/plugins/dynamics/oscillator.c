@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The integrator by itself: energy, reversal in time, grazing, and what its tolerance means. */
+/* The integrator: energy, reversal in time, grazing contact, and errors for given tolerances. */
 #include "check.h"
 
 #include "../../../plugins/dynamics/oscillator/oscillator.h"
@@ -8,7 +8,7 @@
 
 static const double low_phase[] = {0, 0.1, 0.4, 0.4, 1}, low_k[] = {1, 1.3, 0.7, 0.9, 1};
 
-/* Constant stiffness 1, or the table above: kinks, a jump. */
+/* Makes a constant stiffness 1, or the table above with kinks and a jump. */
 static dynamics_excitation make_mesh(int table, double zeta, double load, double half_gap)
 {
     static const double phase[] = {0, 1}, one[] = {1, 1};
@@ -22,12 +22,12 @@ static dynamics_excitation make_mesh(int table, double zeta, double load, double
     return mesh;
 }
 
-/* A ball on a spring: half an oscillation about b + F, then a throw of 2 v/F. After a whole number
-   of them it is where it was, up to 1e-12 for each of about 5000 steps. */
+/* A ball that bounces on a spring: half an oscillation about b + F, then a flight of 2 v/F. After a
+   whole number of bounces, it must be at its start, to 1e-12 for each of about 5000 steps. */
 static void test_bounces(void)
 {
     dynamics_excitation mesh = make_mesh(0, 0, 0.5, 10);
-    double v = 1.2; /* at the surface, inwards */
+    double v = 1.2; /* speed at the surface, inwards */
     double contact = 2 * (M_PI - atan2(v, 0.5)), flight = 2 * v / 0.5;
     dynamics_oscillator *o = dynamics_oscillator_new(&mesh, 1e-12, 1, DYNAMICS_MOTION);
     dynamics_oscillator_start(o, contact + flight, mesh.half_gap, v);
@@ -42,9 +42,8 @@ static void test_bounces(void)
     dynamics_excitation_free(&mesh);
 }
 
-/* An oscillation about b + F with an amplitude of F, and a little more or less: it touches the
-   surface, and the flight is as short as sqrt(excess): an error of the energy of 1e-11 counts as an
-   excess. */
+/* An oscillation about b + F with amplitudes near F, which grazes the surface: the flight time is
+   proportional to sqrt(excess), so that an error of 1e-11 in the energy acts as an excess. */
 static void test_grazing(void)
 {
     const double excess[] = {0, 1e-15, 1e-12, 1e-8, 1e-5, -1e-15, -1e-12, -1e-8};
@@ -56,7 +55,7 @@ static void test_grazing(void)
         double energy = dynamics_oscillator_energy(o);
         for (int k = 0; k < 20; k++)
             check_true("goes on", dynamics_oscillator_cycle(o, 5, NULL));
-        /* v^2 = (1 + x)^2 - 1 at the surface, a flight of 2 v each 2 pi */
+        /* v^2 = (1 + x)^2 - 1 at the surface, a flight time of 2 v in each 2 pi */
         double x = fmax(excess[i], 0), flight = 2 * sqrt(x * (2 + x)) * 16;
         check_below("energy", fabs(dynamics_oscillator_energy(o) - energy), 1e-11);
         check_below("time in flight", fabs(dynamics_oscillator_clocks(o).parted - flight),
@@ -67,8 +66,7 @@ static void test_grazing(void)
     dynamics_excitation_free(&mesh);
 }
 
-/* Without damping the motion runs back along itself when k(t), e(t) and the rate are turned round.
- */
+/* Without damping, the motion must return to its start if k(t), e(t) and the rate are reversed. */
 static void test_reversal(void)
 {
     double phase[5], k[5], e[5];
@@ -87,7 +85,7 @@ static void test_reversal(void)
     dynamics_oscillator_start(o, T, 3.5, 0.4);
     for (int i = 0; i < 10; i++)
         dynamics_oscillator_cycle(o, T, NULL);
-    /* s' is continuous, delta' is counted from the piece before the start, which is another one */
+    /* s' is continuous, delta' refers to e' of the piece before the start, which differs */
     const double *y = dynamics_oscillator_state(o);
     double slope_turned = -0.2 / 0.1 / T;
     dynamics_oscillator_start(r, T, y[DYNAMICS_DELTA],
@@ -104,7 +102,7 @@ static void test_reversal(void)
     dynamics_excitation_free(&back);
 }
 
-/* The error follows the tolerance down to the accuracy of the longest step. */
+/* The error must decrease with the tolerance, down to the error of the longest step. */
 static void test_tolerance(void)
 {
     dynamics_excitation mesh = make_mesh(1, 0.05, 0.5, 2);

@@ -8,7 +8,8 @@ const double pair_natural_frequency = 3242;
 
 static const double mean_stiffness = 3.6e8, half_gap = 70e-6, contact_ratio = 1.755;
 
-/* Shares of a rigid pair; the change of pairs stands twice. */
+/* Adds load fractions of rigid tooth pairs; the phase at which the number of pairs changes has two
+   rows. */
 static void add_stations(pair *p)
 {
     static const double cycles[PAIR_STATIONS] = {0,   0.3, 0.5, 0.755, 0.755, 0.9,

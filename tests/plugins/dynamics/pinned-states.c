@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Both branches of the trapezoid against states that another solver found: exact Taylor pieces with
- * located events, agreed with rk8pd and CVODE at 1e-8. Lengths over b, times 1/omega_n.
- */
+/* Compares both branches of the trapezoid with states from another solver: Taylor series between
+   located changes of contact, which agreed with the integrators rk8pd and CVODE to 1e-8. Lengths
+   over b, times in 1/omega_n. */
 #include "check.h"
 #include "pair.h"
 
@@ -42,7 +41,7 @@ static void check_value(const state *pin, const char *what, double value, double
     check_near(name, value, expected, tolerance / fmax(fabs(expected), 1e-3));
 }
 
-/* The printed digits are the limit: 1e-9 in lengths, 1e-6 in the trace. */
+/* The tolerance is that of the digits below: 1e-9 in lengths, 1e-6 in the trace. */
 static void check_state(const state *pin, const stage *s, double tolerance)
 {
     double b = 70e-6, omega = 2 * M_PI * pair_natural_frequency, low = 1e9, high = -1e9;
@@ -73,7 +72,7 @@ static void check_run(const state *pin, stage *s)
     stage_close(s);
 }
 
-/* The trapezoid as a user would give it, as lists of stiffness/table. */
+/* Opens stiffness/table with the trapezoid as lists. */
 static stage *open_table(const pair *p)
 {
     static const double teeth[2] = {50, 73};

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-/* e_l = a + c phase: mean a + c/2, rms c/sqrt(12). */
+/* For e_l = a + c phase, the mean must be a + c/2, and the rms c/sqrt(12). */
 static void test_statistics(void)
 {
     pair p = pair_trapezoid(2000);

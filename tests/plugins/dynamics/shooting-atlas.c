@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The atlas of dynamics/shooting: its branches agree with single motions, with one another and with
-   what must hold on each. */
+/* The atlas of dynamics/shooting: its branches must agree with single motions and with each other,
+   and satisfy identities. */
 #include "check.h"
 #include "pair.h"
 
@@ -35,7 +35,7 @@ static table read_table(const stage *s)
     return t;
 }
 
-/* The point at the middle speed of a branch. */
+/* Returns the point at the middle speed of a branch. */
 static size_t central(const table *t, size_t first, size_t last)
 {
     double low = t->frequency[first], high = low;
@@ -50,8 +50,8 @@ static size_t central(const table *t, size_t first, size_t last)
     return at;
 }
 
-/* Every branch at a point in its middle, as a motion of its own: the point's rms and multiplier
-   there, det M and the energy balance. */
+/* Solves a single motion in the middle of every branch, and compares its rms and multiplier with
+   the branch, and det M and the energy balance with their exact values. */
 static void check_branches(const pair *base, const table *t, int max_period, int starts)
 {
     size_t checked = 0;
@@ -81,7 +81,8 @@ static void check_branches(const pair *base, const table *t, int max_period, int
     check_true("a dozen branches at least", checked >= 12);
 }
 
-/* Where the motion of one mesh cycle doubles its period one branch of two ends, and no more. */
+/* At each period doubling of a motion of one mesh cycle, exactly one branch of two mesh cycles must
+   end. */
 static void check_doublings(const stage *s, const table *t)
 {
     size_t count;
@@ -116,7 +117,7 @@ static void test_branches(void)
     stage_close(s);
 }
 
-/* The motions of both sweeps lie on branches of the atlas. */
+/* The motions of sweeps upwards and downwards must lie on branches of the atlas. */
 static void test_sweeps_are_found(void)
 {
     for (int i = 0; i < 2; i++) {
@@ -129,8 +130,8 @@ static void test_sweeps_are_found(void)
     }
 }
 
-/* Within the window in which the period doubles the lower motion takes two mesh cycles, and is that
-   of the branch that leaves at the edge of the window. */
+/* In the speed range with doubled period, the lower motion must have a period of two mesh cycles,
+   and lie on the branch that begins at the end of the range. */
 static void test_doubled_window(void)
 {
     pair p = pair_trapezoid(2150);
@@ -150,8 +151,8 @@ static void test_doubled_window(void)
     stage_close(s);
 }
 
-/* What a branch has at a speed: the point of it where the rms is nearest to `rms`, straight between
-   its points; 1: there is one. */
+/* Finds the point of a branch at a speed with the rms nearest to `rms`, by linear interpolation.
+   Returns 1 if there is one. */
 static int branch_at(const table *t, double branch, double frequency, double rms, double found[2])
 {
     double best = INFINITY;
@@ -169,8 +170,8 @@ static int branch_at(const table *t, double branch, double frequency, double rms
     return isfinite(best);
 }
 
-/* How many branches are another one once more: at their middle speed the same rms and multiplier.
- */
+/* Returns the number of branches found twice, with the same rms and multiplier at the middle
+   speed. */
 static int twins(const table *t)
 {
     int count = 0;
@@ -197,7 +198,8 @@ static int twins(const table *t)
     return count;
 }
 
-/* Isolated branches: the search finds some that rest does not lead to, and none twice. */
+/* Isolated branches: the search must find branches that a start from rest does not reach, and none
+   twice. */
 static void test_search(void)
 {
     pair p = pair_trapezoid(2375);
@@ -213,7 +215,8 @@ static void test_search(void)
     stage_close(s);
 }
 
-/* What a search of 6 starts says that it may have missed, and one of 768. */
+/* The number of possibly missed motions that a search with 6 starts reports, and one with 768
+   starts. */
 static void test_unseen(void)
 {
     pair p = pair_trapezoid(2375);
@@ -255,7 +258,7 @@ static void test_names(void)
     stage_close(s);
 }
 
-/* What is not asked for is not computed. */
+/* Outputs that are not requested must not be computed. */
 static void test_wanted(void)
 {
     pair p = pair_trapezoid(2375);

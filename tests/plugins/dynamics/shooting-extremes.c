@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* dynamics/shooting at the edges: finite numbers, identities that hold, and an answer or a reason
-   in words. The host ends the program at a result that is not finite. */
+/* dynamics/shooting with extreme parameters: it must give finite numbers that satisfy identities,
+   or stop with a reason. The host ends the program if a result is not finite. */
 #include "check.h"
 #include "pair.h"
 
@@ -21,7 +21,7 @@ static void set_force(pair *p, double force)
         p->tooth_force[i] = force * p->load_share[i];
 }
 
-/* The error of the teeth at a phase. */
+/* Returns the transmission error without load at a phase. */
 static double error_at(const pair *p, double phase)
 {
     size_t i = 1;
@@ -32,8 +32,8 @@ static double error_at(const pair *p, double phase)
     return p->error[i - 1] + part * (p->error[i] - p->error[i - 1]);
 }
 
-/* Shares of the series' points without contact and on the back flanks, against those of time: they
-   may differ by a point for each time that contact begins or ends. */
+/* Compares the fractions of points without contact, and with contact on the back flanks, with the
+   fractions of time: they may differ by a point for each begin or end of contact. */
 static void check_shares(const stage *s, const pair *p)
 {
     size_t count, ends = 1;
@@ -54,8 +54,8 @@ static void check_shares(const stage *s, const pair *p)
                 fabs(points[1] / (double)(count - 1) - stage_scalar(s, "back_contact")), within);
 }
 
-/* Runs both branches. Periodic motions close, keep the identities, and are trusted when stable; a
-   motion that is not periodic is never trusted. Gives the period of the upper branch. */
+/* Runs both branches. Periodic motions must repeat themselves, satisfy the identities, and be good
+   if stable; other motions must be doubtful. Returns the period of the upper branch. */
 static double check_scene(const pair *p, const scene *c)
 {
     double period = 0;
@@ -96,13 +96,14 @@ static void test_damping(void)
             scene c = {"damping", zetas[z], dampings[(z + f) % 3]};
             check_scene(&p, &c);
         }
-    /* without damping the motion without separation is exact */
+    /* without damping, the motion in permanent contact is exact */
     pair p = pair_trapezoid(1250);
     scene c = {"undamped", 0, "always"};
     check_true("undamped motion is periodic", check_scene(&p, &c) >= 1);
 }
 
-/* A curve that bends within a step: its series converges later, or the step is too long for it. */
+/* A curve with strong curvature within a step: its Taylor series converges more slowly, or not in
+   this step. */
 static void test_bent(void)
 {
     const double speeds[] = {3000, 4000, 4800, 5318, 6500, 8270};
@@ -115,7 +116,7 @@ static void test_bent(void)
     }
 }
 
-/* Thousands of radians in a mesh cycle, where the round-off of all steps is not 1e-12. */
+/* Thousands of radians per mesh cycle, where rounding errors of all steps exceed 1e-12. */
 static void test_slow(void)
 {
     const double speeds[] = {3, 10, 40}, zetas[] = {0.01, 0.05, 0.2};
@@ -151,7 +152,8 @@ static void test_torque(void)
     stage_close(s);
 }
 
-/* Pairs in mesh: never two, hardly two, two or three; with jumps instead of ramps. */
+/* Numbers of tooth pairs in contact: one, rarely two, two or three; with jumps of stiffness instead
+   of ramps. */
 static void test_contact_ratio(void)
 {
     const double ratios[] = {1.0, 1.2, 2.3}, speeds[] = {1500, 2375};
@@ -171,7 +173,8 @@ static void test_contact_ratio(void)
         }
 }
 
-/* A table of 1000 knots, each with a kink, and one with no stiffness for a while. */
+/* A table of 1000 points, each with a kink, and a table with zero stiffness in part of the
+   cycle. */
 static void test_tables(void)
 {
     pair p = pair_trapezoid(2375);
@@ -206,7 +209,8 @@ static void test_speeds(void)
     stage_close(s);
 }
 
-/* An error larger than the static deflection throws the teeth from one flank to the other. */
+/* A transmission error larger than the static deflection moves the teeth from one flank to the
+   other. */
 static void test_errors(void)
 {
     const double sizes[] = {1e-5, 5e-5, 2e-4};
@@ -231,7 +235,7 @@ static void test_gaps(void)
     }
 }
 
-/* Without gap and near twice the natural frequency nothing bounds the motion. */
+/* Without backlash, near twice the natural frequency, the motion grows without limit. */
 static void test_unbounded(void)
 {
     pair p = pair_cosine(2 * pair_natural_frequency, 0.3, 0, 256);
@@ -244,8 +248,8 @@ static void test_unbounded(void)
     stage_close(s);
 }
 
-/* A rattling pair that never repeats itself is called so, whether or not it could move otherwise.
- */
+/* A motion with impacts that never repeats itself must be reported as aperiodic, whether or not
+   other motions exist. */
 static void test_aperiodic(const char *model, double damping, double error, double others)
 {
     pair p = pair_cosine(1400, 0.25, error, 32);
@@ -261,7 +265,8 @@ static void test_aperiodic(const char *model, double damping, double error, doub
     stage_close(s);
 }
 
-/* Both sweeps end in a motion of their own, and so many at least are stable. */
+/* Sweeps upwards and downwards must end in different motions, and stable_motions must be at least
+   their number. */
 static void test_coexistence(void)
 {
     pair p = pair_trapezoid(2375);
@@ -279,7 +284,7 @@ static void test_coexistence(void)
     check_near("the same for both models", count[1], count[0], 0);
 }
 
-/* Atlases at light and heavy loads, with little and no damping, come to an end. */
+/* Atlases under light and heavy loads, with little and no damping, must end. */
 static void test_atlases(void)
 {
     const double zetas[] = {0, 1e-4, 0.01, 0.2}, forces[] = {0.7, 3547, 70000};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The exact way through a mesh cycle, by cases with a closed form and by what must not change. */
+/* The exact motion through a mesh cycle: closed forms and invariants. */
 #include "check.h"
 
 #include "../../../plugins/dynamics/orbits/orbit.h"
@@ -29,7 +29,7 @@ static void close_mesh(fixture *f)
     dynamics_excitation_free(&f->mesh);
 }
 
-/* The trapezoid of pair.c with a gap of 1, and its mirror image in time. */
+/* Makes the trapezoid of pair.c with half backlash 1; symmetric in time. */
 static void trapezoid(fixture *f, double zeta, double load, int damping)
 {
     const double two = 0.755, ramp = 0.04, edge = two / 2, high = 1 / (two + (1 - two) * 0.65);
@@ -40,8 +40,8 @@ static void trapezoid(fixture *f, double zeta, double load, int damping)
     open_mesh(f, 6, phase, k, NULL);
 }
 
-/* k = mean + first cos(2 pi phase) by `n` straight lines, which are so many that the pieces follow
-   the cosine. */
+/* Makes k = mean + first cos(2 pi phase) from `n` straight lines, enough for the smooth pieces to
+   follow the cosine. */
 static void cosine(fixture *f, double mean, double first, double zeta, size_t n)
 {
     static double phase[MOST + 1], k[MOST + 1];
@@ -73,7 +73,7 @@ static double trace_less(double q, double a, double trace)
     return y.m[0] + y.m[3] - trace;
 }
 
-/* By false position (Illinois). */
+/* Returns a characteristic value by false position (Illinois). */
 static double characteristic(double q, double low, double high, double trace)
 {
     double f_low = trace_less(q, low, trace), f_high = trace_less(q, high, trace), a = low;
@@ -104,7 +104,7 @@ static void test_mathieu(void)
     }
 }
 
-/* Edges of the damped principal instability, by another program to the digits printed. */
+/* Limits of the damped principal instability, from another program, to the digits below. */
 static void test_damped_tongue(void)
 {
     const double edges[][3] = {{0.05, 1.98482, 2.01482},
@@ -127,7 +127,7 @@ static void test_damped_tongue(void)
     }
 }
 
-/* x'' + 2 z x' + k x = load over a time t, in closed form. */
+/* Advances x'' + 2 z x' + k x = load by a time t, in closed form. */
 static void spring(double z, double k, double load, double t, double y[2])
 {
     double w = sqrt(k - z * z), x = y[0] - load / k, c = cos(w * t), s = sin(w * t);
@@ -136,8 +136,8 @@ static void spring(double z, double k, double load, double t, double y[2])
     y[1] = decay * (w * (b * c - a * s) - z * (a * c + b * s));
 }
 
-/* Without separation the return map is affine: two levels of k in closed form, and the fixed point
-   in one step. */
+/* Without separation, the return map is affine: with two levels of k, it must agree with the closed
+   form, and Newton's method must find the fixed point in one step. */
 static void test_affine(void)
 {
     const double phase[] = {0, 0.6, 0.6, 1}, k[] = {1.1, 1.1, 0.85, 0.85};
@@ -167,9 +167,9 @@ static void test_affine(void)
     }
 }
 
-/* Duration of a free vibration of x'' + g(x) = load with its highest point a over the static
-   deflection: an arc of a circle on the driving flank, a parabola through the gap, and when that is
-   passed an arc on the back flank. */
+/* Returns the period of a free vibration x'' + g(x) = load with its highest point a above the
+   static deflection: in the phase plane, an arc of a circle on the driving flank, a parabola in the
+   gap, and, for large a, an arc on the back flank. */
 static double backbone(double a, double load, double b)
 {
     if (a <= load)
@@ -189,7 +189,7 @@ static void test_backbone(void)
         open_mesh(&f, 2, phase, k, NULL);
         double x = 1 + 0.14 + amplitudes[i], T = backbone(amplitudes[i], 0.14, 1);
         for (int cycles = 1; cycles <= 3; cycles++) {
-            /* one free vibration over 1, 2, 3 mesh cycles of the pair */
+            /* one free vibration takes 1, 2 or 3 mesh cycles */
             dynamics_state y = pass(&f, T / cycles, x, 0, cycles);
             check_below("free vibration returns", hypot(y.delta - x, y.rate) / x, 1e-12);
             check_near("det", y.det, 1, 1e-13);
@@ -198,8 +198,8 @@ static void test_backbone(void)
     }
 }
 
-/* Without damping, and with an excitation that is its own mirror image, the way back is the way
-   forth with the rate turned round. */
+/* Without damping, and with an excitation symmetric in time, a motion must return to its start
+   after its rate is reversed. */
 static void test_time_reversal(void)
 {
     fixture f;
@@ -215,8 +215,8 @@ static void test_time_reversal(void)
     close_mesh(&f);
 }
 
-/* Derivatives against differences of the motion, whatever the damper does, with an error that bends
-   and jumps. */
+/* Compares derivatives with differences of the motion, for every kind of damping, with a
+   transmission error that has kinks and jumps. */
 static void test_derivatives(void)
 {
     const double phase[] = {0, 0.3, 0.3, 0.7, 1}, k[] = {1.2, 1.1, 0.8, 0.9, 1.2};
@@ -247,7 +247,8 @@ static void test_derivatives(void)
     }
 }
 
-/* A touch of depth d^2 at x = 0.4 must be seen down to round-off, and no touch invented. */
+/* A contact of depth d^2 at x = 0.4 must be found down to rounding errors, and no contact where
+   there is none. */
 static void test_grazing(void)
 {
     for (int i = 1; i <= 6; i++) {
@@ -262,15 +263,15 @@ static void test_grazing(void)
     check_near("comes back", dynamics_taylor_first_exit(again, 3, 1e-15), 1 - sqrt(0.5), 1e-14);
 }
 
-/* Start points that just touch and just miss the edge of the gap lie on one smooth motion: the
-   return map is continuous across the graze. */
+/* The return map must be continuous between start points whose motions just touch, and just miss,
+   the edge of the gap. */
 static void test_graze_of_motion(void)
 {
     fixture f;
     trapezoid(&f, 0.01, 0.14, DYNAMICS_DAMPING_ALWAYS);
     double last[2] = {0};
     for (int i = -50; i <= 50; i++) {
-        double a = 0.14 / 1.0937 * (1 + 1e-9 * i); /* amplitude about the static deflection */
+        double a = 0.14 / 1.0937 * (1 + 1e-9 * i); /* amplitude */
         dynamics_state y = pass(&f, 4, 1 + 0.14 / 1.0937 + a, 0, 1);
         if (i > -50)
             check_below("no leap", hypot(y.delta - last[0], y.rate - last[1]), 1e-8);
@@ -279,7 +280,8 @@ static void test_graze_of_motion(void)
     close_mesh(&f);
 }
 
-/* Follows the motion of large amplitude down in speed to its fold, to `step` of lambda. */
+/* Follows the motion of large amplitude to lower speeds, to its fold, which is found to `step` of
+   lambda. */
 static dynamics_orbit fold_of(const fixture *f, double step)
 {
     dynamics_orbit o = {.period = 1, .lambda = log(0.8)}, next;
@@ -299,8 +301,8 @@ static dynamics_orbit fold_of(const fixture *f, double step)
     return o;
 }
 
-/* A motion that repeats itself after a shorter period to 1e-6 has that period. Its own start stays
-   where Newton's method finds no better one, as just beyond a fold, where there is no motion. */
+/* A motion that repeats itself after a shorter period to 1e-6 must get this period. If Newton's
+   method does not converge with this period, as just beyond a fold, the start must not change. */
 static void test_reduce(void)
 {
     fixture f;
@@ -322,8 +324,8 @@ static void test_reduce(void)
     close_mesh(&f);
 }
 
-/* Without a load and a damper a motion between the flanks passes the gap of 2 b twice, and turns
-   back from each flank in half a period of the spring: period 4 b/v + 2 pi. */
+/* Without load and damping, a motion between the flanks crosses the gap 2 b twice, and reverses at
+   each flank in half a period of the spring: period 4 b/v + 2 pi. */
 static void test_between_flanks(void)
 {
     const double speeds[] = {0.1, 1, 7};

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * dynamics/shooting on both branches of the trapezoid against states that another program found:
- * Taylor pieces with located events, agreed with rk8pd and CVODE. Lengths over b, times 1/omega_n;
- * the printed digits are the limit. Also Abel's identity, the energy balance and the folds.
- */
+/* Compares dynamics/shooting, on both branches of the trapezoid, with states from another program:
+   Taylor series between located changes of contact, which agreed with the integrators rk8pd and
+   CVODE. Lengths over b, times in 1/omega_n; the tolerance is that of the digits below. Also checks
+   Abel's identity, the energy balance and the folds. */
 #include "check.h"
 #include "pair.h"
 
@@ -103,7 +102,8 @@ static stage *open_atlas(const pair *p, const char *arc_step)
     return s;
 }
 
-/* The other program's folds, to the 1 Hz it states; and our own by steps that differ by 4. */
+/* Compares folds with those of the other program, to its accuracy of 1 Hz, and between two step
+   lengths of ratio 4. */
 static void test_folds(void)
 {
     static const double folds[] = {527, 428,  796, 734,  1034, 544,   1480,
@@ -127,8 +127,8 @@ static void test_folds(void)
     stage_close(fine);
 }
 
-/* A stiffness that jumps at phase 0 does work there, which is neither behind the start of the cycle
-   nor before its end: with parted flanks and without, what comes in is what the damper takes. */
+/* A stiffness that jumps at phase 0 does work there, at the border of two cycles: the work must
+   balance the loss in the damper, with and without separation. */
 static void check_jump_at_start(void)
 {
     const char *const branches[] = {"lower", "upper"};

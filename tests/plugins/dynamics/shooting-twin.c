@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The same motion by dynamics/shooting and by dynamics/time-integration at 1e-10, which share the
-   equation but neither steps nor events nor the way to the periodic motion. */
+/* Compares motions by dynamics/shooting and dynamics/time-integration at a tolerance of 1e-10. They
+   share the equation, but not time steps, detection of contact changes, or the search for the
+   periodic motion. */
 #include "check.h"
 #include "pair.h"
 
@@ -72,7 +73,7 @@ int main(void)
         light.tooth_force[i] *= 0.3;
     for (int i = 0; i < 3; i++)
         compare(&light, "upper", dampings[i]);
-    /* an error that jumps: the teeth of the next pair stand forward */
+    /* a transmission error that jumps: a pitch error of the next tooth pair */
     pair step = pair_trapezoid(1800);
     step.error[1] = step.error[2] = 2e-6;
     step.error[3] = -1e-6;

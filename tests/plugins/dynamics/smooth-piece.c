@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Smooth pieces in place of the straight lines of a table: they are the curve that was sampled, and
- * corners, jumps and short or rough tables stay as they are. */
+/* Smooth pieces instead of the straight lines of a table: they must reproduce the sampled curve,
+   and leave kinks, jumps, and short or rough tables unchanged. */
 #include "check.h"
 
 #include "../../../plugins/dynamics/excitation/excitation.h"
@@ -53,7 +53,8 @@ static double roof(double phase)
     return phase < 0.375 ? 1 + sin(phase) : 1 + sin(0.375) - 0.5 * (phase - 0.375);
 }
 
-/* The largest distance of the pieces from the curve between its nodes, and of their slope. */
+/* Finds the largest difference of the pieces, and of their slopes, from the curve between its
+   nodes. */
 static void distances(const dynamics_excitation *x, double (*k)(double), double (*slope)(double),
                       double distance[2])
 {
@@ -69,7 +70,7 @@ static void distances(const dynamics_excitation *x, double (*k)(double), double 
     }
 }
 
-/* Lines leave the curve by k'' h^2/8, 7e-5 here, the pieces by a thousandth of that. */
+/* Straight lines have the error k'' h^2/8, 7e-5 here, the smooth pieces a thousandth of it. */
 static void test_curve(void)
 {
     static table t;
@@ -105,7 +106,7 @@ static void test_corner(void)
     dynamics_excitation_free(&x);
 }
 
-/* Two nodes at 0.25, where k falls by 0.3. */
+/* Two nodes at 0.25, where k decreases by 0.3. */
 static void test_jump(void)
 {
     static table t, u;
@@ -124,7 +125,7 @@ static void test_jump(void)
     dynamics_excitation_free(&x);
 }
 
-/* A table whose every node is off by 1e-5, and one of 10 lines. */
+/* A table with an error of 1e-5 at every node, and a table of 10 lines. */
 static void test_lines_that_stay(void)
 {
     static table t;

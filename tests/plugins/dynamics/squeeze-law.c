@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The load of a rigid, isoviscous line contact that rolls and approaches: its closed form against
-   the complementarity problem solved on a grid, against its limits, and the table against it. */
+/* The load of a rigid, isoviscous line contact with rolling and approach: compares its closed form
+   with the complementarity problem solved on a grid and with limits, and the table with the closed
+   form. */
 #include "check.h"
 
 #include "../../../plugins/dynamics/oil/squeeze-law.h"
@@ -10,10 +11,10 @@
 
 enum { CELLS = 4000 };
 
-/* The obstacle problem p >= 0 of Reynolds' equation on X = tan(gamma), with p in units of 12 eta u
-   sqrt(2 R h)/h^2, on `cells` cells of even gamma: (H^3 p_X)_X = 2 X - beta where p > 0. Finite
-   volumes, and elimination from the inlet to the end of the film, which is moved until p and its
-   slope vanish there. Returns w = 24 int p dX. */
+/* Solves Reynolds' equation with p >= 0 on X = tan(gamma), with p in units of 12 eta u sqrt(2 R
+   h)/h^2, on `cells` cells of equal gamma: (H^3 p_X)_X = 2 X - beta where p > 0. Finite volumes,
+   and elimination from the inlet to the end of the film, which is moved until p and its slope
+   vanish there. Returns w = 24 int p dX. */
 static double obstacle(double beta, int cells)
 {
     static double x[CELLS + 1], c[CELLS], s[CELLS + 1], lower[CELLS + 1], right[CELLS + 1],
@@ -33,7 +34,7 @@ static double obstacle(double beta, int cells)
         lower[i] = c[i] / diagonal;
         right[i] = (-s[i] + (i > 1 ? c[i - 1] * right[i - 1] : 0)) / diagonal;
     }
-    int end = cells; /* the largest end from which the pressure is nowhere negative */
+    int end = cells; /* the largest end of the film for which the pressure is nowhere negative */
     for (; end > 1; end--)
         if (right[end - 1] > 0)
             break;
@@ -57,8 +58,8 @@ static double load_at(double beta)
     return w;
 }
 
-/* The grid is of second order: the value of two grids, extrapolated. What the end of the film,
-   which lies on a node, leaves is below 5e-5. */
+/* Extrapolates from two grids with second order. The error from the end of the film, which lies on
+   a node, is below 5e-5. */
 static void check_obstacle(void)
 {
     const double betas[] = {-20, -5, -1, 0, 0.3, 1, 4, 30};
@@ -72,7 +73,7 @@ static void check_obstacle(void)
     }
 }
 
-/* The pressure of the full film is counted up to the middle alone. */
+/* Returns the load of the full film's pressure in the front half of the contact only. */
 static double half_sommerfeld(double beta)
 {
     return 4 + 3 * beta * (M_PI / 2 + atan(3 * beta / 4));
@@ -104,7 +105,7 @@ static void check_table(void)
     for (int i = 1; i < 20000; i++) {
         double delta = M_PI * i / 20000;
         dynamics_squeeze_point(delta, &beta, &w);
-        if (w < 7e-6) /* where the curve is left for a straight line */
+        if (w < 7e-6) /* where the table continues as a straight line */
             continue;
         double got = dynamics_squeeze_beta(&table, w, &slope);
         worst = fmax(worst, fabs(got - beta) / (1 + fabs(beta)));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* dynamics/time-integration where the answer is known in closed form, and its invariants. */
+/* dynamics/time-integration: closed forms and invariants. */
 #include "check.h"
 #include "pair.h"
 
@@ -18,7 +18,7 @@ static stage *run(const pair *p, const char *settings)
     return s;
 }
 
-/* Constant stiffness: nothing moves; the flanks stand at b + F/k. */
+/* Constant stiffness: no vibration, with the flanks at b + F/k. */
 static void test_rest(void)
 {
     pair p = pair_cosine(2000, 0, 0, 8);
@@ -40,7 +40,7 @@ static void test_rest(void)
     stage_close(s);
 }
 
-/* Of a motion that is trusted every line that says so lies within the limit beside it. */
+/* If a motion is good, every quality line must be within its limit. */
 static void test_limits(void)
 {
     static const char *const lines[] = {"energy_balance", "determinant", "state_error",
@@ -68,8 +68,8 @@ static void test_small_stiffness_variation(void)
     }
 }
 
-/* Constant k, s/e = (1 + 2 i zeta r)/(1 - r^2 + 2 i zeta r); e of straight lines is short by
-   (2 pi/n)^2/12 in its first harmonic. */
+/* Constant k: s/e = (1 + 2 i zeta r)/(1 - r^2 + 2 i zeta r). With straight lines, the first
+   harmonic of e is smaller by the fraction (2 pi/n)^2/12. */
 static void test_displacement_excitation(void)
 {
     const double zetas[] = {0.01, 0.3}, ratios[] = {0.5, 1.0, 2.0};
@@ -87,8 +87,8 @@ static void test_displacement_excitation(void)
     }
 }
 
-/* Far below resonance inertia adds r^2 only. The straight lines pass at 5 times the natural
-   frequency. */
+/* Far below resonance, inertia changes the motion by r^2 only. The straight lines follow each other
+   at 5 times the natural frequency. */
 static void test_low_frequency(void)
 {
     pair p = pair_cosine(pair_natural_frequency / 200, 0.2, -2e-6, 1024);
@@ -105,7 +105,8 @@ static void test_low_frequency(void)
     stage_close(still);
 }
 
-/* det M = exp(-2 zeta t) over the time in which the damper acts; energy in = energy lost. */
+/* det M must be exp(-2 zeta t), t: time in which the damper acts; the work done must be the energy
+   lost. */
 static void test_invariants(void)
 {
     const char *dampings[] = {"always", "contact", "clipped"};
@@ -126,7 +127,7 @@ static void test_invariants(void)
     }
 }
 
-/* In free flight the rate obeys v' = F/m, and with the damper v' = F/m - 2 zeta omega v. */
+/* While the flanks are separated, v' must be F/m, or with damping F/m - 2 zeta omega v. */
 static void test_flight(void)
 {
     for (int damped = 0; damped < 2; damped++) {
@@ -151,8 +152,8 @@ static void test_flight(void)
     }
 }
 
-/* Both pairs at one phase carry the mesh force together; over a period of two mesh cycles the
-   second pair belongs to the row before. */
+/* The forces of both tooth pairs at a phase must add up to the mesh force; if the period is two
+   mesh cycles, the second pair is in the row before. */
 static void test_tooth_force(double frequency, size_t period)
 {
     pair p = pair_trapezoid(frequency);
@@ -177,7 +178,7 @@ static void test_tooth_force(double frequency, size_t period)
     stage_close(s);
 }
 
-/* A stiffness that jumps: the tooth force jumps where the number of pairs does. */
+/* A stiffness with jumps: the tooth force must jump where the number of pairs changes. */
 static void test_step_stiffness(void)
 {
     pair p = pair_trapezoid(4200);
@@ -204,7 +205,7 @@ static void test_step_stiffness(void)
     stage_close(s);
 }
 
-/* Without gap the system is linear in F: twice the force, twice the motion. */
+/* Without backlash, the system is linear: twice the force must give twice the motion. */
 static void test_no_backlash(void)
 {
     double rms[2];

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * The slow and obvious twin: eq. 3 of Li & Kahraman 2011 as it stands, classical Runge-Kutta with
- * fixed steps straight through all kinks, 20000 to a mesh cycle.
- */
+/* A simple and slow reference: integrates eq. 3 of Li & Kahraman 2011 by the classical Runge-Kutta
+   method with 20000 fixed steps per mesh cycle, regardless of kinks. */
 #include "check.h"
 #include "pair.h"
 
@@ -64,9 +62,9 @@ static void cycle(const twin *w, int steps, double *s, double *v)
         step(w, i * h, h, s, v);
 }
 
-/* One mesh cycle from the model's start: same motion, same force, back to the start. Where the
-   damping jumps at contact, the twin is off by a step times the jump, 4e-4 * 2 zeta v. The samples
-   lie beside the nodes, where the force of the damper jumps with e'. */
+/* Compares motion and force over a mesh cycle from the model's start, and the return to the start.
+   At a jump of the damping, the reference has the error of a step times the jump, 4e-4 * 2 zeta v.
+   The samples do not lie at the nodes, where the force of the damper jumps with e'. */
 static void check_cycle(const twin *w, const stage *model)
 {
     const pair *p = w->pair;
@@ -90,8 +88,8 @@ static void check_cycle(const twin *w, const stage *model)
     check_below("twin returns: v", fabs(v - rate[0]) / unit / w->omega, limit);
 }
 
-/* The monodromy by central differences of the twin, with steps so short that its error at a jump
-   of the damping does not show. */
+/* Compares the monodromy matrix with central differences of the reference, with steps so short that
+   the error at jumps of the damping is negligible. */
 static void check_multipliers(const twin *w, const stage *model)
 {
     double s = stage_get(model, "dte", NULL)[0], v = stage_get(model, "dte_velocity", NULL)[0];
@@ -129,7 +127,7 @@ static void compare(pair *p, int damping, const char *branch)
     stage_close(s);
 }
 
-/* The twin settles by itself from the static deflection on the same motion. */
+/* The reference, started at the static deflection, must settle on the same motion. */
 static void compare_settled(pair *p)
 {
     stage *model = pair_open("dynamics/time-integration", p);

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Where the pressure makes the oil stiff, the reduced equation d(rho h)/dt + u_r d(rho h)/dx = 0 is
- * left: the waves of the film are carried unchanged at the mean speed, though the flank that made
- * them moves at another one.
- */
+/* Where high pressure makes the oil so viscous that no pressure flow is left, Reynolds' equation
+   becomes d(rho h)/dt + u_r d(rho h)/dx = 0: the waves of the film travel unchanged at the mean
+   speed u_r, although the rough flank that caused them moves at another speed. */
 #include "check.h"
 #include "flank.h"
 
@@ -12,9 +10,10 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* Waves of half a Hertz half-width, `parts` steps to a cell, flank 1 faster than flank 2 by `slide`
-   of the mean speed: how far the film of the middle is off what it was a quarter of the half-width
-   before, over the height of its waves. */
+/* Flank 1, with waves half a Hertz half-width long, is faster than flank 2 by `slide` mean speeds;
+   the oil takes `parts` steps through a cell. Returns by how much the film in the middle of the
+   contact differs from the film a quarter of the half-width upstream at the time when the oil was
+   there, over the height of the film's waves. */
 static double off_its_way(double slide, size_t cells, size_t parts)
 {
     const size_t shift = cells / 16; /* a quarter of the half-width */
@@ -52,10 +51,10 @@ static double off_its_way(double slide, size_t cells, size_t parts)
 
 int main(void)
 {
-    /* 32 steps that are each converged to 1e-5 of the pressure */
+    /* 32 steps, each of which converges to 1e-5 of the pressure */
     check_below("pure rolling, a cell a step", off_its_way(0, 512, 1), 3.2e-4);
     check_below("sliding, a cell a step", off_its_way(0.5, 512, 1), 3.2e-4);
-    /* the nodes ride with the oil: parts of a cell smear nothing */
+    /* the nodes move with the oil: steps shorter than a cell do not smear the waves */
     check_below("sliding, three steps a cell", off_its_way(0.5, 512, 3), 3 * 3.2e-4);
     check_below("sliding, three steps a coarse cell", off_its_way(0.5, 256, 3), 3 * 1.6e-4);
     return check_done();

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Anderson acceleration of a linear relaxation: as many steps as unknowns, and one, end it. */
+/* Anderson acceleration of a linear relaxation: it must end after one step more than there are
+   unknowns. */
 #include "../../../plugins/ehl/solvers/anderson.h"
 
 #include "check.h"
@@ -28,15 +29,15 @@ static double size_of(const double *g, size_t n)
     return sqrt(sum);
 }
 
-/* Without round-off the least residual over the changes so far is that of GMRES (Walker & Ni 2011,
-   theorem 2.2), which vanishes after n steps; changes that lie closer than 1e-6 to others are left
-   out. */
+/* Without rounding errors, Anderson acceleration reaches the residual of GMRES (Walker & Ni 2011,
+   theorem 2.2), which vanishes after n steps. Changes that are linearly dependent on others to
+   within 1e-6 are left out. */
 static void test_linear(size_t n)
 {
     static double a[MOST][MOST], b[MOST], y[MOST], g[MOST], change[MOST];
     ehl_anderson m;
     check_true("made", ehl_anderson_create(&m, n));
-    for (int round = 0; round < 2; round++) { /* nothing is left of what was solved before */
+    for (int round = 0; round < 2; round++) { /* the second solution must not depend on the first */
         for (size_t i = 0; i < n; i++) {
             for (size_t k = 0; k < n; k++)
                 a[i][k] = 0.5 * ((double)rand() / RAND_MAX - 0.5) + 3 * (i == k);

@@ -11,7 +11,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* A row of the history at a time: the straight line between the two around it. */
+/* Interpolates the values `row` of a history linearly at a time. */
 static double at_time(const line *c, const double *row, double time)
 {
     size_t i = c->count - 1;
@@ -28,7 +28,7 @@ static double time_of(const line *c, size_t k)
     return c->count > 1 ? line_value(c, "time", k) : c->time[0];
 }
 
-/* The rows of an output of the film at one instant. */
+/* Returns the values of an output of the film at instant k. */
 static const double *field(const line *c, const char *output, size_t k, size_t *nodes)
 {
     size_t n;
@@ -60,7 +60,8 @@ double balance_load(const line *c, size_t k)
     return off / most;
 }
 
-/* The flanks may fly, on one side of a jump at least. */
+/* Whether the load is so small at a time, or on one side of a jump of the load, that the flanks may
+   separate. */
 static int is_light(const line *c, double time)
 {
     double load = at_time(c, c->load, time), most = 0;
@@ -122,7 +123,7 @@ typedef struct oil {
     const ff_rheology *flow; /* NULL: Newtonian */
 } oil;
 
-/* m = rho h at the nodes, and q, the flow of mass through the face behind each. */
+/* Computes m = rho h at each node, and q, the mass flow through the face downstream of the node. */
 static void flows(const line *c, const oil *o, size_t k, double *m, double *q)
 {
     size_t n;
@@ -160,7 +161,7 @@ static size_t centre_of(const double *x, size_t n)
     return centre;
 }
 
-/* u rho0 h in the middle */
+/* Returns the mass flow u rho0 h_central. */
 static double passing(const line *c, const oil *o, size_t k)
 {
     size_t n;

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * One instant of a film against the equations that it is to solve, from the outputs alone: the
- * sums, the deflection and the flows are taken here once more, the flows by other differences than
- * the models'. The run must have asked for "film pressure x time", and with rough flanks none of it
- * holds.
- */
+/* Checks whether the outputs of a film model satisfy the equations of the film at an instant. The
+   load, the deflection and the flows are computed here again, the flows with other differences than
+   in the models. The run must request "film pressure x time". The functions are valid for smooth
+   flanks only. */
 #ifndef TEST_EHL_BALANCE_H
 #define TEST_EHL_BALANCE_H
 
@@ -13,34 +11,35 @@
 /* int p dx, N/m */
 double balance_carried(const line *c, size_t k);
 
-/* That, with what the oil in front of the domain carries, less the load of the history, straight
-   between its rows, over the largest load; at a jump, less the nearer of both. */
+/* Returns the load that the film carries, including the oil in front of the domain, minus the load
+   of the history, over the largest load. The load of the history is interpolated linearly; at a
+   jump, the nearer of both loads is taken. */
 double balance_load(const line *c, size_t k);
 
-/* How far h - x^2/(2 R) - v(p) is from one number h00 for all nodes, over the least film. */
+/* Returns by how much h - x^2/(2 R) - v(p), which should be h00 at every node, varies over the
+   nodes, over the smallest film thickness. v: deflection. */
 double balance_shape(const line *c, size_t k);
 
-/* The larger of both over `count` instants spread evenly over the results, the last among them.
-   Where the load is below 1 % of the largest the flanks may fly: a force of 1 % is no error there.
- */
+/* Returns the largest of balance_load and balance_shape over `count` evenly spaced instants,
+   including the last. Where the load is below 1 % of the largest load, the flanks may separate: a
+   difference of 1 % in the load is no error there. */
 double balance_of_instants(const line *c, size_t count);
 
-/*
- * What flows into the domain less what flows through a face, over u rho0 h_central, in a steady
- * film: the mean between the first node with 1 % of the highest pressure and the last. The flows
- * are those of central differences, so that what a converged film leaves falls as dx^2.
- */
+/* Returns, for a steady film, the mass flow into the domain minus the flow through a face, over u
+   rho0 h_central, as the mean from the first to the last node with at least 1 % of the highest
+   pressure. Since the flows come from central differences, the result of a converged film decreases
+   as dx^2. */
 double balance_flow(const line *c);
 
-/* Cells over the inlet's pressure rise: min(a (3 h R/(2 sqrt(2) a^2))^(2/3), sqrt(2 R h))/dx. */
+/* Returns the number of cells over which the pressure rises in the inlet: min(a (3 h R/(2 sqrt(2)
+   a^2))^(2/3), sqrt(2 R h))/dx. */
 double balance_cells(const line *c);
 
-/*
- * The same through a history: what has flowed in less what has flowed through a face of the front
- * half and what is stored before it, the largest since the start, over what has passed in all.
- * Flows between two instants are the mean of those of both: it falls as dx^2 and, behind a kink of
- * the load, as dt.
- */
+/* Returns the error of the mass balance over a history: the mass that has flowed into the domain,
+   minus the mass that has flowed through a face in the front half, minus the increase of mass
+   between inlet and face; the largest value since the start, over the total mass that has passed.
+   The flow between two instants is the mean of their flows: the result decreases as dx^2 and, after
+   a kink of the load, as dt. */
 double balance_history(const line *c);
 
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The banded matrices solve what they stand for, for a kernel that is even behind their reach: the
-   balances by the pressures and by all that they deflect, and the load. */
+/* Solutions with the banded matrices satisfy the linear system of the balances, with the effect of
+   the pressures and of the deflection, and the load, if the kernel of the deflection is constant
+   outside the band. */
 #include "../../../plugins/ehl/equations/reynolds.h"
 #include "../../../plugins/ehl/solvers/band.h"
 #include "../../../plugins/ehl/solvers/line.h"
@@ -17,7 +18,8 @@ static double share(void)
 }
 
 typedef struct scene {
-    size_t before, last; /* first node of a row's stencil is so many upstream; see reynolds.h */
+    size_t before, last; /* before: number of nodes from the first node of a row's stencil to the
+                            row; see reynolds.h */
     double kernel[NODES], by_p[EHL_STENCIL][NODES], by_h[EHL_STENCIL][NODES], residual[NODES];
     unsigned char full[NODES];
     ehl_reynolds r;
@@ -47,7 +49,7 @@ static void make(scene *s, size_t reach, size_t before, size_t last, int dry)
     }
 }
 
-/* Largest balance that dp, what it deflects, and dh00 leave. */
+/* Returns the largest residual of a balance after the changes dp, its deflection, and dh00. */
 static double left(const scene *s, const double *dp, double dh00)
 {
     double worst = 0, v[NODES];
@@ -93,7 +95,7 @@ static void test_line(int loaded, int dry)
     ehl_line_destroy(m);
 }
 
-/* With a matrix that is made at once, and with one of which the rows from 19 on are made anew. */
+/* Checks a matrix that is set up at once, and a matrix whose rows from 19 on are set up again. */
 static void test_band(size_t last, int loaded, int dry)
 {
     enum { FROM = 19 };
@@ -123,7 +125,8 @@ int main(void)
     for (int loaded = 0; loaded < 2; loaded++)
         for (int dry = 0; dry < 2; dry++) {
             test_line(loaded, dry);
-            for (size_t last = 41; last < 46; last++) /* rows that fill vectors, and do not */
+            for (size_t last = 41; last < 46; last++) /* numbers of rows that fill whole vector
+                                                         registers, and numbers that do not */
                 test_band(last, loaded, dry);
         }
     return check_done();

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * What is stated of the errors by the cells at each instant, against the film on twice as many: of
- * a load that falls to a thirtieth and comes back within a passage, and of flanks that stop under
- * load and go on, of both discretisations. Of a load on a film that hardly moves the highest
- * pressure is known from below alone, unless it settles on more cells. Where the load is below 2 %
- * of the largest, the film is off by as much as those before and behind. On cells that are longer
- * than the inlet nothing is known.
- */
+/* Compares the error bars for the finite number of cells, at each instant, with the film on twice
+   as many cells, for both discretisations. Scenes: a load that falls to a thirtieth and rises again
+   while the oil passes the contact, and flanks that stop under load and move again. If the load
+   squeezes a film that hardly moves, only a lower bound of the highest pressure is known, unless
+   the pressure converges on more cells. Where the load is below 2 % of the largest, the error bar
+   is that of the instants before and after. If cells are longer than the inlet, no error is
+   known. */
 #include "check.h"
 #include "line.h"
 
@@ -60,8 +59,8 @@ static void run(line *c, const scene *s, const char *model, double cells)
     run_in(c, s, model, cells, 4, 2);
 }
 
-/* Nearly all bars hold, and none is short by more than `most` of the value: under the least load
-   the contact is a few cells wide. */
+/* At nearly all instants, the error is within the error bar, and nowhere above it by more than
+   `most` of the value: under the smallest load, the contact is only a few cells wide. */
 static void check_bars(const line *c, const line *fine, const char *output, double most)
 {
     char error[40];
@@ -106,9 +105,9 @@ static void test_not_known(const char *model)
     line_close(&c);
 }
 
-/* Peaks of a squeezed film, some um wide, of which 512 cells show 92 and 80 %: those of more cells
-   are near the pressures that 16384 have on the same domain, and their bars hold them. Where the
-   outlet is short one peak is missing. */
+/* A squeezed film has pressure peaks that are a few um wide. On 512 cells, they reach only 92 and
+   80 % of their height. The model must find p_max from more cells, near that of 16384 cells on the
+   same domain, with the error within its error bar. If the outlet is short, one peak is missing. */
 static void test_squeezed(double outlet, double truth, double within)
 {
     line c;
@@ -124,7 +123,8 @@ static void test_squeezed(double outlet, double truth, double within)
     line_close(&c);
 }
 
-/* A film of few cells in front of the contact: what twice as many make of it is no measure. */
+/* With few cells in front of the contact, the difference to twice as many cells does not measure
+   the error. */
 static void test_few_cells(const char *model)
 {
     line c, fine;

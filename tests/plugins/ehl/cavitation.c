@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The film with its mass conserved where it is cavitated, through loss of contact. */
+/* Films with `cavitation: conserve`, in which cavitated oil keeps its mass, during a loss of
+   contact. */
 #include "check.h"
 #include "line.h"
 
 #include <math.h>
 #include <string.h>
 
-static const char *model; /* each in turn */
+static const char *model; /* the model that is tested */
 
 enum { CELLS = 128 };
 
-/* The load goes, a gap of 3 um opens and closes, and the load comes back. */
+/* Removes the load, opens a gap of 3 um, closes it, and applies the load again. */
 static void separate(line *c)
 {
     line_open(c, model);
@@ -22,30 +23,32 @@ static void separate(line *c)
         c->gap[i] = t > 0.35 && t < 0.6 ? 3e-6 * (t - 0.35) * (0.6 - t) / (0.125 * 0.125) : 0;
     }
     stage_set(c->film, "cells", CELLS);
-    stage_set_text(c->film, "steps", "auto"); /* all of them are results */
+    stage_set_text(c->film, "steps", "auto"); /* each step is in the results */
     stage_set_text(c->film, "time_tolerance", "0.1");
     stage_set(c->film, "tolerance", 1e-9);
     stage_set_text(c->film, "cavitation", "mass-conserving");
 }
 
-/* theta rho h at one node */
+/* Returns theta rho h at a node. */
 static double content(const line *c, size_t k, size_t i)
 {
     size_t at = k * (CELLS + 1) + i;
     return line_value(c, "film", at) * line_value(c, "film_fraction", at) * 917.8;
 }
 
-/* What flows in a time dt through the face behind node i, without a pressure there. */
+/* Returns the mass that flows in dt through the face downstream of node i, if there is no
+   pressure. */
 static double passing(const line *c, size_t k, size_t i, double dt)
 {
-    int around = strcmp(model, "ehl/finite-volume") == 0; /* the node; else the face is a node */
+    int around = strcmp(model, "ehl/finite-volume") == 0; /* 1: the face is between two nodes; 0: at
+                                                             a node */
     int full = around && line_value(c, "film_fraction", k * (CELLS + 1) + i - 1) >= 1;
     double here = content(c, k, i), before = content(c, k, i - 1);
     return c->u1[0] * dt * (full ? 1.5 * here - 0.5 * before : here);
 }
 
-/* The oil between the last film with pressure and the outlet: what it gains in an Euler step is
-   what enters less what leaves. */
+/* The mass of oil between the film with pressure and the outlet must increase in a step of the
+   Euler method by what enters minus what leaves. */
 static double void_gain(const line *c, size_t k, double *flow)
 {
     size_t first = CELLS - 1;
@@ -91,7 +94,8 @@ static void test_conservation(void)
     line_close(&c);
 }
 
-/* In a steady contact nothing forms again: the film is that of the clip. */
+/* In a steady contact, no cavitated oil forms a full film again: the film must be that of
+   `cavitation: clip`. */
 static void test_steady(void)
 {
     line a, b;

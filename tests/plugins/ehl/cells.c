@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * What a run of many instants states of its errors by the cells, against the same on eight times as
- * many: of a contact that does not change, where the bound of the steady film is two to five times
- * too large and is measured; of one that swells, whose spike moves with the outlet at more than
- * half the speed of the oil and is another one than that of the steady film; and of one whose load
- * falls within a thirtieth of a passage, through which the film carries a dip that few
- * cells fill. Films below 2 % of the largest load are off as those before and behind.
- */
+/* Compares the errors that a run over many instants states for its finite number of cells with a
+   run on eight times as many cells. Scenes: a contact that does not change, where the bound of the
+   steady film would be two to five times too large, so that the error is measured; a contact that
+   grows, where the pressure spike moves with the outlet at more than half the speed of the oil, and
+   is not that of the steady film; and a load that falls in a thirtieth of the time in which the oil
+   passes the contact, so that the film carries a dip only a few cells wide. A film under less than
+   2 % of the largest load has the error of the films before and after. */
 #include "check.h"
 #include "line.h"
 
@@ -16,7 +15,7 @@
 
 enum { FINER = 8 };
 
-/* A bar of h_min or h_central over its estimate. */
+/* The error bar of h_min or h_central over the estimated error. */
 static const double CAUTION = 1.5;
 
 static const char *const outputs = "time h_min h_central p_max h_central_error";
@@ -43,21 +42,21 @@ static void check_within(const char *what, double is, double says, double factor
     check_below("what is stated over it", says / is, factor);
 }
 
-/* An error by the cells is told where its estimate is within a fifth of it. */
+/* Checks that the estimated error, bar/CAUTION, agrees with the true error to a factor of 1.2. */
 static void check_told(const char *what, double is, double bar)
 {
     check_within(what, is, bar / CAUTION, 1.2);
 }
 
-/* Sets the cells of a domain that begins `inlet` half-widths in front of the contact: inlet: auto
-   would be shorter with few cells than with many. */
+/* Sets the number of cells, and the inlet in Hertz half-widths: `inlet: auto` would depend on the
+   number of cells. */
 static void set_cells(line *c, double cells, double inlet)
 {
     stage_set(c->film, "cells", cells);
     stage_set(c->film, "inlet", inlet);
 }
 
-/* Finds the error of the lowest film of all, and its bar. */
+/* Computes the true error of h_min_lowest, and its error bar. */
 static void find_lowest(const char *what, void (*run)(line *c, double cells), double cells,
                         double *is, double *bar)
 {
@@ -78,7 +77,7 @@ static void check_lowest(const char *what, void (*run)(line *c, double cells), d
     check_told("h_min_lowest", is, bar);
 }
 
-/* A bar of an error that does not fall by four as the cells are halved. */
+/* Checks the error bar of an error that does not decrease to a quarter with half the cell size. */
 static void check_bar(const char *what, void (*run)(line *c, double cells), double cells)
 {
     double is, bar;
@@ -88,7 +87,8 @@ static void check_bar(const char *what, void (*run)(line *c, double cells), doub
     check_below("the bar over it", bar / is, 2.5);
 }
 
-/* By the peak on 32 times the cells, Pa, which a run of the same scene on these has given. */
+/* Checks the error bar of p_max_highest with the result for 32 times as many cells, Pa, found
+   beforehand. */
 static void check_highest(const char *what, void (*run)(line *c, double cells), double cells,
                           double highest)
 {
@@ -153,22 +153,23 @@ static void swelling_by(line *c, double M, double L, double most, double inlet, 
     check_true("runs", line_run(c, "p_max_highest") == FF_OK);
 }
 
-/* By the change in time on twice the cells 0.65 of what is missing would be told; the peak still
-   climbs by a tenth from 8 to 32 times the cells. */
+/* An estimate from the change in time on twice as many cells would be 0.65 of the true error. The
+   peak still rises by a tenth from 8 to 32 times as many cells. */
 static void swelling(line *c, double cells)
 {
     swelling_by(c, 4, 9, 1.6, 21.68, cells);
 }
 
-/* A bound between half of the limit and the limit, 1.7 times as large as what is true. */
+/* The bound of the error is between half the quality limit and the limit, and 1.7 times the true
+   error. */
 static void swelling_slowly(line *c, double cells)
 {
     swelling_by(c, 3, 6, 1.3, 33.93, cells);
 }
 
-/* A spike that moves to and fro at up to 0.8 of the speed of the oil. By the change in time on
-   twice the cells 0.107 to 0.141 of p_max would be told for 0.158, as the films of that run are
-   solved. */
+/* The pressure spike moves to and fro at up to 0.8 of the speed of the oil. An estimate from the
+   change in time on twice as many cells would be 0.107 to 0.141 of p_max instead of 0.158,
+   depending on the solver's settings. */
 static void beating(line *c, double cells)
 {
     enum { ROWS = 321 };
@@ -186,7 +187,7 @@ static void falling_of(line *c, const char *model, const char *cavitation, doubl
                        double steps, double share, const char *wanted)
 {
     line_open(c, model);
-    line_last(c, 4, 160e-6); /* a passage takes 78 us */
+    line_last(c, 4, 160e-6); /* the oil passes the contact in 78 us */
     c->time[1] = 40e-6;
     c->time[2] = 42.5e-6;
     c->load[2] = c->load[3] = share * c->load[0];
@@ -201,9 +202,9 @@ static void falling(line *c, double cells, double share, const char *wanted)
     falling_of(c, "ehl/finite-volume", "clip", cells, 640, share, wanted);
 }
 
-/* The largest of what twice the cells tell at each instant, by second order: that the worst
-   instants of both differ, and the fourth order, leave a fifth. The bound is twice what is true of
-   h_min. */
+/* The stated error is the largest estimate over the instants, from twice as many cells and second
+   order. It is within a fifth of the true error, because the worst instants of estimate and error
+   differ, and because of terms of fourth order. The error bar is twice the true error of h_min. */
 static void test_carried(void)
 {
     line c, fine;
@@ -218,9 +219,9 @@ static void test_carried(void)
     line_close(&fine);
 }
 
-/* A load that swings in a hundred thousand passages: in a step the oil goes a thousand times
-   through the contact, and what the film carries is of the last. Added up over all of them it would
-   be ten times the film. */
+/* A load that oscillates once while the oil could pass the contact a hundred thousand times, a
+   thousand times per step: the film carries the error of the last passage only. Summed over all
+   passages, the error would be ten times the film. */
 static void slow(line *c, double cells)
 {
     line_open(c, "ehl/finite-volume");
@@ -232,7 +233,8 @@ static void slow(line *c, double cells)
     check_true("runs", line_run(c, outputs) == FF_OK);
 }
 
-/* A passage is a part of a step, and the transport of errors states all rows but two. */
+/* The oil passes the contact in less than a step. For all rows except two, the stated errors come
+   from the transport of the error with the oil. */
 static void test_slow(void)
 {
     line c, fine;
@@ -246,7 +248,8 @@ static void test_slow(void)
     line_close(&fine);
 }
 
-/* Number by number the same as in the lines, which have the worst by the cells and by the steps. */
+/* The error series p_max_error must agree with the quality lines, which have the largest error due
+   to the cells and due to the steps. */
 static void test_series_of_peaks(void)
 {
     line c;
@@ -263,8 +266,9 @@ static void test_series_of_peaks(void)
     line_close(&c);
 }
 
-/* A load that falls to a tenth and comes back within a passage: between two looks at peaks that are
-   high there is one that is low, which is off by no more than its bound. */
+/* The load falls to a tenth and rises again while the oil passes the contact: between two instants
+   with a high peak at which the error is measured, there is an instant with a low peak, whose error
+   must be within its bound. */
 static void test_valley_of_peaks(void)
 {
     enum { ROWS = 161 };
@@ -288,8 +292,8 @@ static void test_valley_of_peaks(void)
     line_close(&c);
 }
 
-/* Control volumes of which a node may be cavitated carry the film at first order: half of the error
-   is left on twice the cells. */
+/* Control volumes with cavitated nodes carry the film with first order: on twice as many cells,
+   half the error remains. */
 static void test_carried_by_volumes(void)
 {
     line c, fine;
@@ -314,8 +318,8 @@ static void light(line *c, double cells)
     check_true("runs", line_run(c, "time h_central h_central_error") == FF_OK);
 }
 
-/* A load of 1 % for a twentieth of a passage, amid instants that are measured: the film is still
-   that of the larger load, and its error with it. */
+/* A load of 1 % lasts for a twentieth of the oil's passage, between instants whose error is
+   measured: the film and its error are still those of the larger load. */
 static void test_light(void)
 {
     const double cells = 128, within = 41e-6, before = 40e-6;
@@ -331,8 +335,8 @@ static void test_light(void)
     line_close(&fine);
 }
 
-/* The contact is lost to a gap so wide that the film between the flanks has no pressure, and found
-   again: there is no peak that would be off. */
+/* The flanks separate by a gap so wide that the film has no pressure, and touch again: where there
+   is no pressure peak, there is no error of p_max. */
 static void test_lost(void)
 {
     static const double at[] = {0, 20e-6, 30e-6, 60e-6, 80e-6, 120e-6};
@@ -375,14 +379,14 @@ static void unloading(line *c, double cells)
     unloading_to(c, 0.2, 40e-6, cells);
 }
 
-/* The film is lowest where the load is below 2 %, of which no error is bounded: an eighth of it
-   would be told. */
+/* The film is lowest where the load is below 2 % of the largest, for which no error is bounded: the
+   estimate would be an eighth of the error. */
 static void emptying(line *c, double cells)
 {
     unloading_to(c, 0.005, 60e-6, cells);
 }
 
-/* The oil comes nearly to rest, at a hundredth of its speed, and the flanks squeeze it. */
+/* The oil slows down to a hundredth of its speed, and the flanks squeeze it. */
 static void slowing(line *c, double cells)
 {
     static const double speed[] = {1, 0.5, 0.01, 0.01};
@@ -410,8 +414,8 @@ static void test_slowing(void)
     line_close(&fine);
 }
 
-/* A load that falls and rises again: while the end of the contact moves at two thirds of the speed
-   of the oil the film becomes low, and lowest where it stands still again. */
+/* A load that falls and rises again: the film becomes thin while the end of the contact moves at
+   two thirds of the speed of the oil, and is thinnest when this end stops. */
 static void rising(line *c, double cells)
 {
     static const double at[] = {0, 20e-6, 22.5e-6, 140e-6, 160e-6, 200e-6};
@@ -439,24 +443,24 @@ static void vibrating_by(line *c, double share, double period, double steps, dou
     check_true("runs", line_run(c, "h_min_lowest") == FF_OK);
 }
 
-/* A load that vibrates ten times in a passage: steps of a fifth of a cell make another film of it
-   than the run's own, of a fortieth, and the bound would stand, 4.7 times as large as what is true.
- */
+/* A load with ten vibrations while the oil passes the contact: with steps of a fifth of a cell, the
+   film differs from that of the run, with steps of a fortieth, and the bound would be 4.7 times the
+   true error. */
 static void vibrating(line *c, double cells)
 {
     vibrating_by(c, 0.2, 8e-6, 3200, 5.092, cells);
 }
 
-/* The outlet moves at up to five times the speed of the oil, and the error does not fall by four as
-   the cells are halved: it would be 2.5 % by twice the cells where 2.1 is true, and the verdict
-   hangs on the order. */
+/* The outlet moves at up to five times the speed of the oil, and the error does not decrease to a
+   quarter with half the cell size. The estimate from twice as many cells would be 2.5 % instead of
+   2.1 %; the quality verdict depends on the order of convergence. */
 static void swaying(line *c, double cells)
 {
     vibrating_by(c, 0.6, 16e-6, 1600, 4.352, cells);
 }
 
-/* A sudden load on a film of Barus' oil that stands nearly still: its peak, far from the outlet, is
-   some cells wide on any grid, and 7 to 9 % higher with each halving of them. */
+/* A sudden load on a nearly resting film of oil with Barus' law: the pressure peak, far from the
+   outlet, is a few cells wide on any grid, and 7 to 9 % higher whenever the cell size is halved. */
 static void blown(line *c, double cells)
 {
     line_open(c, "ehl/finite-volume");
@@ -472,7 +476,7 @@ static void blown(line *c, double cells)
     check_true("runs", line_run(c, "p_max_highest") == FF_OK);
 }
 
-/* As long as it climbs its error is not known. */
+/* As long as the peak rises with the number of cells, its error is not known. */
 static void test_narrow(void)
 {
     line c[3];
@@ -490,9 +494,9 @@ static void test_narrow(void)
         line_close(&c[k]);
 }
 
-/* Where no error of a film is estimated the cells of the inlet are told: without a film. A lowest
- * film of oil that becomes slow and fast again, under a load of 1 % of the largest, has an error.
- */
+/* If no film thickness is requested, no error of a film is estimated, and the quality line
+   film_resolution, the number of cells in the inlet, replaces it. The error of h_min_lowest is
+   known for an oil that becomes slow and fast again under a load of 1 % of the largest. */
 static void test_resolution(void)
 {
     static const char *const wanted[] = {"rolling_loss", "h_min_lowest"}, *const told[] = {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The heated channel against its closed forms, and the table of it against its solutions. */
+/* Compares solutions for the heated channel with closed forms, and the table with the solutions. */
 #include "../../../plugins/ehl/estimates/channel.h"
 
 #include "../../../plugins/ehl/estimates/inlet-heat.h"
@@ -7,7 +7,8 @@
 
 #include <math.h>
 
-/* R = 1 - (3/7) F - S/12 where both are small; the rest falls as their squares. */
+/* For small F and S, R = 1 - (3/7) F - S/12, with an error that decreases as the squares of F and
+   S. */
 static void test_limits(void)
 {
     for (double small = 1e-3; small > 1e-5; small /= 10) {
@@ -19,9 +20,10 @@ static void test_limits(void)
     }
 }
 
-/* Nahme's problem (Nahme 1940): with x = sqrt(S/8) the stress is asinh(x)/(x sqrt(1 + x^2)) of the
-   cold one, and the middle exp(beta dT) = 1 + x^2. The formulas are of fourth order in the cells
-   across: (e^theta)^2/(16 N^4) at the middle, some 1e-7 at S = 300. */
+/* Nahme's problem (Nahme 1940): with x = sqrt(S/8), the stress over that of the cold film is
+   asinh(x)/(x sqrt(1 + x^2)), and in the middle exp(beta dT) = 1 + x^2. The differences are of
+   fourth order in the number N of cells across: the error in the middle is (e^theta)^2/(16 N^4),
+   theta = beta dT, about 1e-7 at S = 300. */
 static void test_nahme(void)
 {
     const double S[] = {0.01, 0.1, 1, 10, 100, 300};
@@ -34,7 +36,7 @@ static void test_nahme(void)
     }
 }
 
-/* Published to three digits: the channel's own solution, and not the fit of Wilson & Sheu. */
+/* Values published to three digits: solutions for the channel, not the fit of Wilson & Sheu. */
 static void test_sliding_alone(void)
 {
     check_near("S = 0.1", ehl_heat_ratio(0, 0.1), 0.992, 6e-4);
@@ -43,8 +45,8 @@ static void test_sliding_alone(void)
     check_near("S = 10", ehl_heat_ratio(0, 10), 0.583, 6e-4);
 }
 
-/* Between the rows of the table, by a cubic in steps of 0.1: worst where F and S are
-   some 500 and 6000, 1e-4, and 1.5e-3 there with steps of 0.2. */
+/* Cubic interpolation in the table, with steps of 0.1: the largest error is 1e-4, near F = 500 and
+   S = 6000; with steps of 0.2, it would be 1.5e-3 there. */
 static void test_table(void)
 {
     ehl_channel first = {.b = 0};

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the coarse system takes off the balances, against sums over the blocks of its own. */
+/* Checks the residual that remains after a solution of the coarse system, with sums over the blocks
+   computed here. */
 #include "check.h"
 
 #include "../../../plugins/ehl/equations/deflection.h"
@@ -24,7 +25,8 @@ typedef struct scene {
     unsigned char full[NODES];
 } scene;
 
-/* Transport and diffusion that vary from node to node; dry behind LAST and in places in front. */
+/* Sets up transport and diffusion that vary from node to node; nodes downstream of LAST and some
+   upstream are dry. */
 static void make(scene *s)
 {
     memset(s, 0, sizeof *s);
@@ -53,7 +55,8 @@ static size_t block_of(size_t i)
     return (corner < 1 ? 1 : corner > BLOCKS ? BLOCKS : corner) - 1;
 }
 
-/* Sums over blocks of the residual less the balances of dp and dh, over the largest of them. */
+/* Returns the largest sum over a block of the residual minus the balances of dp and dh, over the
+   largest sum of the residual. */
 static double left(const scene *s)
 {
     double sum[BLOCKS] = {0}, whole[BLOCKS] = {0}, worst = 0, most = 0;
@@ -70,16 +73,16 @@ static double left(const scene *s)
     return worst / most;
 }
 
-/* Largest difference of dh from the deflection of dp and dh00, over the largest change; dh is
-   linear between the corners. */
+/* Returns the largest difference of dh from the deflection of dp and dh00, over the largest change;
+   dh is linear between the corners. */
 static double bend_error(const scene *s)
 {
     static double v[NODES], p[NODES];
     double worst = 0, most = 0;
     memcpy(p, s->dp, LAST * sizeof *p);
-    for (size_t i = 100; i <= 102; i++) /* the corners do not know of dry nodes */
+    for (size_t i = 100; i <= 102; i++) /* the linear dh ignores dry nodes */
         p[i] = p[99] + (p[103] - p[99]) * (double)(i - 99) / 4;
-    for (size_t i = LAST; i < (BLOCKS + 1) * STRIDE; i++) /* nor of the end of the film */
+    for (size_t i = LAST; i < (BLOCKS + 1) * STRIDE; i++) /* and the end of the film */
         p[i] = p[BLOCKS * STRIDE] * (double)((BLOCKS + 1) * STRIDE - i) / STRIDE;
     ehl_kernel_direct(NODES, s->kernel, p, v);
     for (size_t i = 0; i < LAST; i += STRIDE) {
@@ -110,7 +113,7 @@ static void test_balances(int loaded)
     ehl_coarse_destroy(c);
 }
 
-/* A block in which all is dry. */
+/* Checks a block in which all nodes are dry. */
 static void test_singular(void)
 {
     static scene s;

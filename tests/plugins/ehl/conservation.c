@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * What the balances of mass and the formula in time leave alone, over unequal steps with restarts:
- * plates at rest, plates that take their oil along, and a rigid parabola at rest; and that they add
- * up: what plates that close squeeze out is what the gap loses. Also the balance where only states
- * of nodes have turned.
- */
+/* Checks that plates at rest, plates that carry their oil along, and a rigid parabola at rest have
+   no residual in the mass balances, over unequal time steps with restarts. If plates approach, the
+   oil that leaves must be the oil that the gap loses. Also checks the balances after only the
+   states of nodes have changed. */
 #include "check.h"
 #include "stage.h"
 
@@ -15,7 +13,7 @@
 
 enum { CELLS = 64, STEPS = 24, RESTART = 7 };
 
-/* A film without pressure in a gap that is given, and its two last masses. */
+/* A film without pressure in a given gap, and its masses at the last two times. */
 typedef struct scene {
     ehl_grid grid;
     ehl_oil oil;
@@ -47,7 +45,7 @@ static void make(scene *s, const ehl_laws *laws, int wedge)
         s->march.state[k].mass = s->mass[k];
 }
 
-/* Keeps the mass of the film that was evaluated last. */
+/* Stores the mass of the film that was evaluated last. */
 static void keep(scene *s, double time)
 {
     s->march.state[1].time = s->march.state[0].time;
@@ -58,9 +56,9 @@ static void keep(scene *s, double time)
     }
 }
 
-/* A way through time: steps that differ up to threefold, some of them the first behind a break. The
-   largest residual of a node, but for the oil of a gap that closes, and of all of them together
-   with what flows through both ends, over the mass in a cell per step. */
+/* Runs through time with steps that differ by up to a factor of three, and some restarts. Finds the
+   largest residual of a node, without the oil that a closing gap squeezes out, and the largest sum
+   of all residuals and of the flow through both ends, over the mass in a cell per step. */
 static void pass(scene *s, double radius, double speed, double closing, double *node, double *all)
 {
     const ehl_reynolds *r = &s->reynolds;
@@ -91,8 +89,8 @@ static void pass(scene *s, double radius, double speed, double closing, double *
     }
 }
 
-/* Nodes whose state alone has turned have the residual that all laws, asked anew, give: the short
-   way of ehl_reynolds_turned against ehl_reynolds_evaluate. */
+/* After a change of only the states of nodes, ehl_reynolds_turned must find the same residuals as
+   ehl_reynolds_evaluate, which evaluates all laws again. */
 static void test_turned(const ehl_laws *laws)
 {
     static scene s;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the film dissipates: against published solutions, other integrals and other domains. */
+/* Compares the dissipation in the film with published solutions, other integrals and other
+   domains. */
 #include "check.h"
 #include "flank.h"
 
@@ -13,8 +14,9 @@ static double loss(line *c, const char *output)
     return line_value(c, output, 0);
 }
 
-/* The flow that the cells balance dissipates what the entrainment puts in: in steady flow their
-   difference, which is all of the squeeze loss, is the error of the cells alone. */
+/* In a steady film, the pressure flow dissipates the work of the entrainment: the squeeze loss,
+   which is their difference, is only the error of the discretisation. Returns squeeze loss over
+   rolling loss. */
 static double difference(const char *model, size_t cells)
 {
     line c;
@@ -44,8 +46,8 @@ static void test_order(const char *model)
 }
 
 /* Rolling force of Biboulet & Houpert (2010, Proc. IMechE J 224) for Barus' and Dowson &
-   Higginson's laws: their fit to solutions with M 0.2 to 200 and L 4 to 16, "few per cent". The
-   models without a pressure solution take it. */
+   Higginson's laws: their fit to solutions with M 0.2 to 200 and L 4 to 16, within a "few per
+   cent". The models without a pressure solution use this fit. */
 static void test_published(double M, double L)
 {
     const double U = 1e-11;
@@ -66,7 +68,7 @@ static void test_published(double M, double L)
     check_near("published rolling force", rolling[0], rolling[1], 0.15);
 }
 
-/* Where the domain begins is no matter of the loss: 5 a, 16 a. */
+/* The loss must not depend on the inlet, here of 5 and 16 Hertz half-widths a. */
 static void test_inlet(const char *model)
 {
     double rolling[2];
@@ -83,7 +85,7 @@ static void test_inlet(const char *model)
     check_near("rolling: inlet of 5 a and 16 a", rolling[0], rolling[1], 0.01);
 }
 
-/* The load at a step, of a history whose rows lie evenly. */
+/* Returns the load at a step of a history with equally spaced rows. */
 static double load_at(const line *c, size_t step, size_t steps)
 {
     double at = (double)step / (double)steps * (double)(c->count - 1);
@@ -91,9 +93,9 @@ static double load_at(const line *c, size_t step, size_t steps)
     return c->load[i] + (at - (double)i) * (c->load[i + 1] - c->load[i]);
 }
 
-/* Over a period of the load nothing is stored, so that all of the squeeze loss is the work of the
-   load on the way of the bodies, which `separation` has: their difference, over the loss that goes
-   to and fro. */
+/* Over a period of the load, the film stores no energy, and the squeeze loss is the work of the
+   load on the approach of the bodies, from `separation`. Returns the difference of both integrals,
+   over the integral of the loss's absolute value. */
 static double off_the_way(const line *c, size_t steps)
 {
     double work = 0, taken = 0, moved = 0;
@@ -108,11 +110,9 @@ static double off_the_way(const line *c, size_t steps)
     return fabs(work - taken) / moved;
 }
 
-/*
- * An incompressible film under a load that swings: what the pressure flow dissipates beyond rolling
- * is -int p dh/dt dx, here from the fields at three instants. Largest distance over the largest
- * loss. It has both signs, and all that is dissipated is positive.
- */
+/* An incompressible film under an oscillating load: the squeeze loss must be -int p dh/dt dx, here
+   from the fields at three instants. Returns the largest difference over the largest squeeze loss.
+   The squeeze loss has both signs, but the total dissipation is positive. */
 static double off_the_work(const char *model, size_t cells, size_t steps, double *way)
 {
     static line c;

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * What the default inlet leaves out of the film, at the same distance of the nodes: less than 0.1 %
- * of it under every load, and no more than the quality record says, within a third. Where few cells
- * cannot have both that inlet and the shortest of the films, a shorter one begins with the pressure
- * of the longer one. The default outlet is long enough where a contact swells faster than the oil
- * leaves, and a short one is told.
+ * Checks that the default inlet changes the film by less than 0.1 % under every load, compared
+ * with a longer domain with equal cells, and by at most the value in the quality record, within
+ * a third. If the cells are too few for this inlet and a resolved film at all instants, a
+ * shorter inlet begins with the pressure of the longer inlet. The default outlet must be long
+ * enough for a contact that grows faster than the oil leaves; the quality record must report an
+ * outlet that is too short.
  *
  *   test-ehl-domain [print]      print: as a table for the documentation
  */
@@ -20,7 +21,8 @@ static const double loads[] = {4, 1, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4};
 enum { LOADS = sizeof loads / sizeof loads[0] };
 
 typedef struct domain {
-    double missing, stated, lengths; /* shares of the film; S = sqrt(2 R h) */
+    double missing, stated, lengths; /* missing, stated: over the film thickness; lengths: inlet
+                                        over sqrt(2 R h) */
 } domain;
 
 /* inlet 0: auto */
@@ -101,8 +103,8 @@ static double off_at(const line *c, const line *fine, size_t k)
     return fabs(line_value(c, "h_central", k) / line_value(fine, "h_central", k) - 1);
 }
 
-/* What the oil in front of a short domain carries at the first instant, whose film is steady: as
-   much as the film on a domain that is long enough has there. */
+/* Checks load_ahead, the load of the oil in front of a short domain, at the first, steady instant,
+   with the film on a longer domain. */
 static void check_load_ahead(const line *tooth)
 {
     line whole;
@@ -126,9 +128,10 @@ static void check_load_ahead(const line *tooth)
     line_close(&whole);
 }
 
-/* An inlet of 0.1 % at the tip leaves too few cells to SAP: on 512 of them that film would be 60 %
-   too thin. The shorter one would leave 2.3 % of the film at the tip out, if it did not begin with
-   the pressure of a longer one. R grows along the tooth, or shrinks. */
+/* An inlet long enough for an error of 0.1 % at the tip leaves too few cells for the contact at
+   SAP: with 512 cells, the film there would be 60 % too thin. A shorter inlet would make the film
+   at the tip 2.3 % too thin if it did not begin with the pressure of a longer inlet. The radius R
+   increases along the tooth, or decreases. */
 static void test_both_ends(int backwards)
 {
     const double inlet = 20, cells = 512;
@@ -138,7 +141,7 @@ static void test_both_ends(int backwards)
     double first = off_at(&few, &fine, 0), last = off_at(&few, &fine, 200), worst = 0;
     for (size_t k = 0; k <= 200; k++)
         worst = fmax(worst, off_at(&few, &fine, k));
-    if (backwards) /* at SAP too little is in front */
+    if (backwards) /* at SAP, the domain begins too close to the contact */
         check_load_ahead(&few);
     printf("first %.4f, last %.4f, worst %.4f of the film\n", first, last, worst);
     check_below("at SAP", backwards ? last : first, 0.01);
@@ -151,8 +154,8 @@ static void test_both_ends(int backwards)
     line_close(&fine);
 }
 
-/* A load that squeezes a film faster than the oil moves: the film that its outlet draws in. inlet,
-   outlet 0: auto. Returns the film there, at x = 117 um, 0.8 of the half-width. */
+/* A load squeezes a film faster than the oil moves, and the contact draws in oil at the outlet.
+   inlet, outlet 0: auto. Returns the film at x = 117 um, 0.8 of the half-width. */
 static double drawn_in(double inlet, double outlet, double cells, double *told)
 {
     static const double time[] = {0, 50e-6, 120e-6}, load[] = {2e3, 150e3, 150e3};

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Slowly, and with valleys that are open sideways, the oil carries nothing: the pressure is that of
- * the dry rough contact, a convex problem with one solution, elastic or with a hardness that no
- * pressure exceeds (Almqvist et al. 2007). It is solved here by projected gradients.
- */
+/* At low speed, with valleys from which oil escapes sideways, the oil carries no load: the pressure
+   is that of the dry rough contact, elastic, or plastic with a hardness that no pressure exceeds
+   (Almqvist et al. 2007). This convex problem with one solution is solved here by projected
+   gradients. */
 #include "check.h"
 #include "flank.h"
 
@@ -24,7 +23,7 @@ static double log_integral(double s)
     return fabs(s) > 0 ? s * log(fabs(s)) - s : 0;
 }
 
-/* Mean over a cell of the record, linear between its points. */
+/* Returns the mean height over a cell; the record is linear between its points. */
 static double mean_height(const flank *f, double x, double dx)
 {
     enum { PARTS = 200 };
@@ -40,7 +39,8 @@ static double mean_height(const flank *f, double x, double dx)
     return sum / PARTS;
 }
 
-/* p = what of 0 <= q - shift <= most sums to the load, in units of load/dx. */
+/* Computes p = q - shift, limited to 0 <= p <= most, with the shift for which p adds up to `sum`,
+   load/dx. */
 static void project(const double *q, double most, double sum, double *p)
 {
     double low = -2 * most, high = 2 * most;
@@ -52,13 +52,13 @@ static void project(const double *q, double most, double sum, double *p)
     }
 }
 
-/* Least of p K p/2 + gap p over 0 <= p <= most with that load, by projected gradients with momentum
-   (Beck & Teboulle 2009) that begins anew where it points uphill. Returns
-   the last change of p over its largest. */
+/* Minimises p K p/2 + gap p for 0 <= p <= most and a given load, by projected gradients with
+   momentum (Beck & Teboulle 2009), restarted if the momentum points uphill. K: kernel. Returns the
+   last change of p over the largest p. */
 static double solve_dry(dry *d, double load, double dx, double most)
 {
     double rest[NODES], next[NODES] = {0}, ahead[NODES], longest = 0, t = 1, moved, highest;
-    for (size_t i = 0; i < NODES; i++) /* constants do no work at a given load */
+    for (size_t i = 0; i < NODES; i++) /* a constant in the kernel has no effect at a given load */
         longest += 2 * fabs(d->kernel[i] - d->kernel[NODES / 2]);
     memset(d->p, 0, sizeof d->p);
     project(d->p, most, load / dx, d->p);
@@ -102,8 +102,8 @@ static ff_status run_slowly(line *c, const flank *f, double hardness)
     return line_run(c, "pressure film plastic_depth asperity_load_share yield_share x");
 }
 
-/* The dry contact of these flanks, on the nodes x; what closes the gap beyond elastic flanks is its
-   plastic part. */
+/* Solves the dry contact of these flanks at the nodes x. The plastic depth is the part of the
+   overlap that elastic deflection does not remove. */
 static void find_dry(dry *d, const line *c, const flank *f, const double *x, double hardness)
 {
     double dx = x[1] - x[0], contact = HUGE_VAL, most = hardness > 0 ? hardness : 1e12;
@@ -123,7 +123,7 @@ static void find_dry(dry *d, const line *c, const flank *f, const double *x, dou
         d->plastic[i] = d->p[i] < most ? 0 : d->plastic[i] + contact;
 }
 
-/* Difference of two arrays over the second, L2. */
+/* Returns the L2 norm of the difference of two arrays over the norm of the second. */
 static double distance(const double *y, const double *right)
 {
     double off = 0, all = 0;
@@ -134,8 +134,9 @@ static double distance(const double *y, const double *right)
     return sqrt(off / all);
 }
 
-/* How far the film is from one distance to the gap that the model's pressure and plastic part
-   leave. Behind 0.2 mm the flanks are made smooth, to begin with. */
+/* Returns by how much the film, minus the gap, deflection and plastic depth from the model's
+   pressure, varies over the nodes. Nodes beyond 0.2 mm are left out, where the model smooths the
+   flanks at the start. */
 static double off_the_gap(const dry *d, const line *c)
 {
     const double *x = stage_get(c->film, "x", NULL), *h = stage_get(c->film, "film", NULL);

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Temperature and flow across a film of parallel flanks, against closed forms. */
+/* Compares temperature and flow across a film between parallel flanks with closed forms. */
 #include "../../../plugins/ehl/heat/thermal.h"
 #include "check.h"
 
 #include <math.h>
 #include <string.h>
 
-/* An oil whose viscosity falls with exp(-beta (T - T0)), and Eyring's flow. */
+/* An oil with the viscosity eta0 exp(-beta (T - T0)) and Eyring's law of flow. */
 static double beta, T0 = 350, eta0 = 0.05, tau0 = 5e6, expansion;
 
 static ff_status viscosity(const void *self, size_t n, const double *p, const double *T,
@@ -59,8 +59,8 @@ typedef struct bench {
     unsigned char full[LINE];
 } bench;
 
-/* Flanks with that B, at speeds u; nodes so far apart that nothing is carried along, unless dx is
-   set later. */
+/* Sets up flanks with thermal effusivity B and speeds u. The nodes are so far apart that the flow
+   carries no heat between them, unless dx is set later. */
 static void open_bench(bench *b, size_t nodes, size_t across, double B, double u1, double u2,
                        double h)
 {
@@ -96,7 +96,7 @@ static int turns_to_settle(bench *b)
     return turns;
 }
 
-/* Constant viscosity: T - T0 = eta (u_s/h)^2 z (h - z)/(2 k), with k at 1 GPa, too. */
+/* Constant viscosity: T - T0 = eta (u_s/h)^2 z (h - z)/(2 k), also with k at 1 GPa. */
 static void test_couette(void)
 {
     static bench b;
@@ -127,7 +127,8 @@ static void test_couette(void)
     ehl_energy_destroy(&b.e);
 }
 
-/* A pressure that grows where it is heats the oil by expansion T dp/dt in each volume: (4.1). */
+/* A pressure that increases in time heats the oil by expansion T dp/dt per volume, equation
+   (4.1). */
 static void test_compression_in_time(void)
 {
     static bench b;
@@ -141,13 +142,14 @@ static void test_compression_in_time(void)
         double z = b.e.across.z[k] * h, exact = source * z * (h - z) / (2 * b.e.conductivity);
         worst = fmax(worst, fabs(b.T[8 + k] - T0 - exact) / (source * h * h));
     }
-    /* expansion T dp/dt, not T0, which is 1 % more where it is warmest */
+    /* expansion T dp/dt with T, not T0; T is 1 % above T0 where it is highest */
     check_below("parabola of the heat of compression", worst * 8 * b.e.conductivity, 0.012);
     expansion = 0;
     ehl_energy_destroy(&b.e);
 }
 
-/* Nahme's problem: the stress over that of the cold film, with na = beta eta u_s^2/k. */
+/* Nahme's problem: returns the shear stress over that of the cold film, with na = beta eta
+   u_s^2/k. */
 static double stress_of_nahme(double na, size_t across, int *turns)
 {
     static bench b;
@@ -180,8 +182,8 @@ static void test_nahme(void)
     check_below("with 8 nodes", off[2], 5e-5);
 }
 
-/* A film of one temperature has the mobility of rheology/1, h^3 rho psi/12, psi = sqrt(1/eta^2 +
-   (u_s/(tau0 h))^2), and the flow of both flanks. */
+/* A film of uniform temperature must have the pressure flow of an isothermal film, with the factor
+   h^3 rho psi/12, psi = sqrt(1/eta^2 + (u_s/(tau0 h))^2), and the flow that both flanks drag. */
 static void test_eyring(void)
 {
     static bench b;
@@ -202,7 +204,7 @@ static void test_eyring(void)
     ehl_energy_destroy(&b.e);
 }
 
-/* Temperature of the middle column at zeta: the polynomial through its nodes. */
+/* Returns the temperature of the middle column at zeta, from the polynomial through its nodes. */
 static double temperature_at(const bench *b, double zeta)
 {
     const ehl_across *a = &b->e.across;
@@ -216,9 +218,9 @@ static double temperature_at(const bench *b, double zeta)
     return sum;
 }
 
-/* The flow of Eyring's oil across the middle column by its law itself, not by the tangent at the
-   stress without a gradient: tau_m by Newton's method, integrals by Simpson's rule. Returns
-   int u dz/h; *tau_m: first guess, and the stress found. */
+/* Returns the mean velocity int u dz/h in the middle column by Eyring's law, not by the law's
+   tangent at the stress without a pressure gradient. Finds the mean stress tau_m by Newton's
+   method, the integrals by Simpson's rule. *tau_m: first guess, then the result. */
 static double exact_flow(const bench *b, double stress, double *tau_m)
 {
     enum { STEPS = 200 };
@@ -240,8 +242,9 @@ static double exact_flow(const bench *b, double stress, double *tau_m)
     return b->film.speed[1] - h * moment;
 }
 
-/* By how much the law's own flow that a pressure gradient drives differs from that of the tangent,
-   relative, at s = h p_x/tau0 and sliding speed u; and the same of the stress. */
+/* Returns the relative difference of the pressure flow by Eyring's law from that by the law's
+   tangent, at s = h p_x/tau0 and sliding speed u; *stress: the relative difference of the
+   stresses. */
 static double tangent_error(double s, double u, double *stress)
 {
     static bench b;
@@ -261,12 +264,10 @@ static double tangent_error(double s, double u, double *stress)
     return (exact - flow) / driven;
 }
 
-/*
- * One temperature, with sinh(m_0) = eta u_s/(tau0 h): the flow that is driven, over that of the
- * tangent, is 12 (cosh(s/2) - sinh(s/2)/(s/2))/s^2 cosh(m)/cosh(m_0), sinh(m) = sinh(m_0)
- * (s/2)/sinh(s/2), or 1 + s^2 (1/40 - tanh(m_0)^2/24) + O(s^4). Of a heated film, whose middle is
- * thinner than its rims, it is of second order, too.
- */
+/* At uniform temperature, with sinh(m_0) = eta u_s/(tau0 h), the pressure flow over that by the
+   tangent is 12 (cosh(s/2) - sinh(s/2)/(s/2))/s^2 cosh(m)/cosh(m_0), sinh(m) = sinh(m_0)
+   (s/2)/sinh(s/2), or 1 + s^2 (1/40 - tanh(m_0)^2/24) + O(s^4). In a heated film, which is less
+   viscous in the middle, the error of the tangent must also be of second order in s. */
 static void test_tangent(void)
 {
     double stress, unwanted;
@@ -288,7 +289,7 @@ static void test_tangent(void)
     check_below("nor is the stress", fabs(stress), 0.25 / 24);
 }
 
-/* Heats a film of that thickness for a few steps; oil flows back in it. */
+/* Heats a film of thickness h for some steps; part of the oil flows backwards. */
 static void heat_up(bench *b, size_t count, double h)
 {
     const double p_x = 16 * eta0 * 8 / (h * h);
@@ -303,7 +304,7 @@ static void heat_up(bench *b, size_t count, double h)
     }
 }
 
-/* What is kept of one film does not reach the next one. */
+/* Data stored for a film must not affect the next film. */
 static void test_restart(void)
 {
     enum { ACROSS = 10 };
@@ -337,8 +338,9 @@ static void test_restart(void)
     ehl_energy_destroy(&two.e);
 }
 
-/* What the oil has taken along, and the flanks, is what was dissipated: of second order in x,
-   since heat that the oil carries is a difference of its content at the ends here. */
+/* The heat that leaves with the oil and into the flanks must be the dissipated heat, with an error
+   of second order in dx, since the heat in the oil is computed here from temperatures at both
+   ends. */
 static double open_balance(size_t nodes)
 {
     static bench b;
@@ -370,8 +372,9 @@ static void test_balance(void)
     check_true("falls with the cells", coarse > 3 * fine);
 }
 
-/* Oil in a void comes from the film at the mean speed of the flanks: within a step far shorter than
-   its way from node to node its temperature stays, and in a long one it is that of the film. */
+/* Oil in a void comes from the film at the mean speed of the flanks: in a time step far shorter
+   than its travel from node to node, its temperature must stay; in a long step, it must become that
+   of the film. */
 static void test_void(void)
 {
     static bench b;
@@ -394,8 +397,9 @@ static void test_void(void)
     }
 }
 
-/* Behind a film that ends at node 0, and whose density the heat of one step lowers by 1 %, the mass
-   that a void holds stays, whichever way the step is: what the flanks carry off it comes in. */
+/* A film ends at node 0, and heating in a step lowers its density by 1 %. The mass in the void
+   downstream must not change, in a time step or a steady one: as much oil flows in as the flanks
+   carry off. */
 static void test_void_behind(void)
 {
     static bench b;

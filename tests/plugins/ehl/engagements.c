@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Engagements that follow one another in a history are films of their own, whatever their order. */
+/* Successive engagements in a history must have the same films in any order. */
 #include "check.h"
 #include "models.h"
 
@@ -14,7 +14,7 @@ static const char wanted[] =
     "h_min_lowest_spread engagements_judged";
 static const double duration = 1e-4, largest = 177.4e3;
 
-/* A load that swells, or one that falls off and is gone for a while. */
+/* Returns a load that rises and falls, or a load that falls to 0 for some rows. */
 static double load_of(int which, size_t i)
 {
     double t = (double)i / (EACH - 1);
@@ -34,8 +34,9 @@ static void take(const line *c, const char *output, double *to, size_t *n)
     memcpy(to, from, *n * sizeof *to);
 }
 
-/* Largest distance of the load that the film bears from that of the contact, over the largest;
-   above 2 % of it, where no film lands. */
+/* Returns the largest difference between the load that the film carries and that of the contact,
+   over the largest load; only where the load is above 2 % of the largest, away from flanks that
+   touch again. */
 static double unborne(const line *c)
 {
     size_t n, at = 0;
@@ -53,7 +54,8 @@ static double unborne(const line *c)
     return off / largest;
 }
 
-/* The engagements that `order` names, one after the other; told apart or not. */
+/* Runs the engagements that `order` names in succession, with or without the input that separates
+   them. */
 static int run(const film_model *m, const char *order, const char *steps, int apart, films *f)
 {
     double number[LINE_INSTANTS];
@@ -65,7 +67,7 @@ static int run(const film_model *m, const char *order, const char *steps, int ap
         c.time[i] = duration * ((double)part + (double)within / (EACH - 1));
         c.load[i] = load_of(order[part] - 'A', within);
         c.gap[i] = c.load[i] > 0 ? 0 : 1e-7;
-        double more = order[part] == 'A' ? 0.1 * c.u1[i] : 0; /* of sliding alone */
+        double more = order[part] == 'A' ? 0.1 * c.u1[i] : 0; /* changes only the sliding */
         c.u1[i] += more;
         c.u2[i] -= more;
         number[i] = (double)part;
@@ -104,7 +106,8 @@ static double distance(size_t n, const double *x, const double *y)
     return most > 0 ? worst / most : worst;
 }
 
-/* Largest difference between the steps of `all` from row `at` on and `one`. */
+/* Returns the largest difference between the steps of `all`, from row `at` on, and those of
+   `one`. */
 static double departure(const films *all, size_t at, const films *one)
 {
     double worst = distance(one->n, all->h_min + at, one->h_min);
@@ -112,8 +115,8 @@ static double departure(const films *all, size_t at, const films *one)
     return fmax(worst, distance(one->n, all->traction + at, one->traction));
 }
 
-/* same: rounding of the times, which begin later, in the differences that the solver makes of them,
-   and in the steps that it chooses. */
+/* same: differences from rounding alone, since times that begin later give slightly different time
+   steps. */
 static void check_model(const film_model *m, const char *steps, double same)
 {
     static films a, b, ab, ba, jump;
@@ -145,8 +148,8 @@ static void check_model(const film_model *m, const char *steps, double same)
 
 enum { LANDS = 35, TOP = 50, ROWS = 60 };
 
-/* A load that goes and comes back, to swell up to its first maximum, while a gap opens and closes;
-   the second engagement begins at that row (0: there is one). */
+/* Makes a load that falls to 0, returns and rises to its first maximum, and a gap that opens and
+   closes. second: row at which the second engagement begins, or 0 if there is only one. */
 static void open_landing(line *c, size_t second)
 {
     double number[ROWS];
@@ -168,8 +171,8 @@ static void open_landing(line *c, size_t second)
     stage_set_text(c->film, "steps", "auto");
 }
 
-/* The film where the gap closes, and the largest pressure from there to the load's maximum, each
-   with the error of its instant. */
+/* Compares the film where the gap closes, and the largest pressure from there to the load's
+   maximum, each with the error stated at its instant. */
 static void test_landing(void)
 {
     static const char outputs[] = "time h_min p_max h_min_error p_max_error film_at_landing "

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * What steady films say of their errors against solutions on 16384 cells and with a far inlet, on
- * random scenes: M 0.1 to 200, L 0 to 15, four laws of viscosity, Newtonian or Eyring's, 128 to
- * 2048 cells. The constants of the estimates were found on other scenes, of the first two laws.
+ * Compares the errors that steady films state with solutions on 16384 cells and with a far inlet,
+ * on random scenes: M 0.1 to 200, L 0 to 15, four viscosity laws, Newtonian or Eyring's, 128 to
+ * 2048 cells. The constants of the estimates were fitted to other scenes, with the first two laws.
  *
- *   test-ehl-errors [count [first]]      with a count: prints each scene and the sum
+ *   test-ehl-errors [count [first]]      with a count: prints each scene and the totals
  */
 #include "check.h"
 #include "line.h"
@@ -17,7 +17,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* Limits of the quality record, above which a line is doubtful. */
+/* Limits of the quality record: an error above the limit is reported as doubtful. */
 static const double film_limit = 0.02, peak_limit = 0.1;
 
 static const char *const schemes[][2] = {
@@ -29,7 +29,7 @@ static const char *const schemes[][2] = {
 enum { SCHEMES = sizeof schemes / sizeof schemes[0], REFERENCE = 16384 };
 
 typedef struct scene {
-    double M, L, eyring, lengths; /* lengths: of the near inlet, sqrt(2 R h) */
+    double M, L, eyring, lengths; /* lengths: inlet of the short domain, over sqrt(2 R h) */
     int law, scheme;
     double cells;
 } scene;
@@ -116,7 +116,7 @@ static int solve(const scene *s, int scheme, double cells, double inlet, double 
                     .first = -x[0] / a,
                     .last = x[nodes - 1] / a};
         double opening = sqrt(2 * c.radius[0] * f->h_central) / a;
-        if (!(inlet > 0)) /* where a near inlet would be */
+        if (!(inlet > 0)) /* inlet of the short domain */
             f->first = 1 + s->lengths * opening;
     } else
         fprintf(stderr, "M %g L %g law %d %s %g cells: %s\n", s->M, s->L, s->law,
@@ -130,7 +130,8 @@ typedef struct counters {
     double worst_film;
 } counters;
 
-/* The limit is at what is stated; a false alarm is one at less than half of it. */
+/* Counts large errors, errors above the limit that the stated error does not report, and false
+   alarms, which are stated above the limit with a true error below half of it. */
 static void count(double error, double stated, double limit, int *large, int *silent, int *alarm)
 {
     *large += error > limit;
@@ -144,7 +145,8 @@ static void judge_cells(const scene *s, counters *t, int print)
     if (!solve(s, s->scheme, s->cells, 0, 0, &f) || !solve(s, 0, REFERENCE, 0, 0, &fine) ||
         !solve(s, 0, REFERENCE / 2, 0, 0, &half))
         return;
-    double p_max = fine.p_max + fmax(0, fine.p_max - half.p_max); /* a tip comes at first order */
+    double p_max = fine.p_max + fmax(0, fine.p_max - half.p_max); /* the tip of the spike converges
+                                                                     with first order */
     double least = fabs(f.h_min / fine.h_min - 1), central = fabs(f.h_central / fine.h_central - 1),
            peak = fabs(p_max / f.p_max - 1);
     t->scenes++;
@@ -164,11 +166,11 @@ static void judge_cells(const scene *s, counters *t, int print)
                                                                   : "");
 }
 
-/* A near inlet against one that is 10 domains farther, at the same distance of the nodes. */
+/* Compares a short inlet with one that is longer by 10 domains, with the same cell size. */
 static void judge_inlet(const scene *s, counters *t, int print)
 {
     enum { CELLS = 384, FARTHER = 10 };
-    const double least = 2e-4; /* below that both are as good as nothing */
+    const double least = 2e-4; /* smaller errors are not judged */
     film whole, near, far;
     if (!solve(s, 0, CELLS, 0, 0, &whole))
         return;
@@ -188,7 +190,8 @@ static void judge_inlet(const scene *s, counters *t, int print)
                s->M, s->L, s->law, s->lengths, missing, near.starved, ratio, off ? " off" : "");
 }
 
-/* A missed peak makes nobody doubt who asks for the film alone. */
+/* If only film thicknesses are requested, an unresolved pressure peak must not make the run
+   doubtful. */
 static void test_wanted(void)
 {
     static const char *const wanted[] = {"h_min", "p_max", "traction"};
@@ -203,7 +206,7 @@ static void test_wanted(void)
     }
 }
 
-/* A passage from a heavy load at low speed to a light one at high speed. */
+/* Runs a history from a heavy load at low speed to a light load at high speed. */
 static void pass(line *c, double cells, const char *outputs)
 {
     line_open(c, "ehl/finite-volume");
@@ -214,13 +217,13 @@ static void pass(line *c, double cells, const char *outputs)
         c->load[i] *= i == 0 ? 2 : 0.2;
     }
     stage_set(c->film, "cells", cells);
-    stage_set(c->film, "inlet", 4); /* auto would be shorter on few cells */
+    stage_set(c->film, "inlet", 4); /* `inlet: auto` would be shorter with few cells */
     stage_set(c->film, "steps", 120);
     check_true("runs", line_run(c, outputs) == FF_OK);
 }
 
-/* Of an extreme asked for alone the error holds against four times the cells, and what is off at
-   other instants does not count. */
+/* If only an extreme over time is requested, the stated error must cover the difference to four
+   times as many cells, and errors at other instants must have no effect. */
 static void test_extreme(const char *extreme, const char *series, const char *name, double limit)
 {
     static line c, all, fine;
@@ -242,7 +245,8 @@ int main(int argc, char **argv)
 {
     enum { FEW = 12 };
     unsigned number = argc > 1 ? (unsigned)atoi(argv[1]) : FEW;
-    unsigned first = argc > 2 ? (unsigned)atoi(argv[2]) : 224; /* where peaks are missed */
+    unsigned first = argc > 2 ? (unsigned)atoi(argv[2]) : 224; /* scenes with unresolved pressure
+                                                                  peaks */
     counters t = {0};
     for (unsigned k = first; k < first + number; k++) {
         scene s = draw(k);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What both models without a pressure solution must do: extremes, contact loss, fields, mirrors,
-   refusals. */
+/* Both models without a pressure solution: extremes, contact loss, fields, reversed motion,
+   errors. */
 #include "check.h"
 #include "line.h"
 
@@ -75,7 +75,8 @@ static void test_traction(const char *model, double alpha)
     line_close(&c);
 }
 
-/* Load 1, none from row 20 to 30 with a gap, and 1 again; sudden: from one time to the next. */
+/* Makes load 1, then 0 with a gap from row 20 to 30, then 1 again; sudden: with two rows at one
+   time. */
 static void separate(line *c, const char *model, int sudden)
 {
     line_open(c, model);
@@ -119,7 +120,7 @@ static void test_unloaded_start(const char *model)
     line_close(&c);
 }
 
-/* A stop of the surfaces, and a load that stands in for smaller ones. */
+/* Surfaces that stop, and the smallest load, which replaces smaller ones. */
 static void test_stop(const char *model)
 {
     line c;
@@ -131,7 +132,7 @@ static void test_stop(const char *model)
     line_close(&c);
 }
 
-/* Entrainment from the other side: the same numbers, the fields mirrored. */
+/* With reversed entrainment, the numbers must be the same and the fields mirrored. */
 static void test_mirror(const char *model)
 {
     line a, b;
@@ -150,7 +151,7 @@ static void test_mirror(const char *model)
     line_close(&b);
 }
 
-/* The Hertzian pressure on the grid carries the load. */
+/* The Hertzian pressure on the grid must carry the load. */
 static void test_fields(const char *model)
 {
     line c;
@@ -162,7 +163,8 @@ static void test_fields(const char *model)
     double sum = 0;
     for (size_t i = 0; i < n; i++)
         sum += p[i] * (x[1] - x[0]);
-    /* the root at the edges costs (dx/a)^1.5 of the sum */
+    /* the sum has a relative error of order (dx/a)^1.5, because the pressure ends with a square
+       root */
     check_near("pressure carries the load", sum, c.load[0], 2e-3);
     size_t centre = 0;
     for (size_t i = 0; i < n; i++)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Steady films from a cold start, far from the nominal contact, with every law: each is put to the
-   equations again. */
+/* Steady films far from the nominal contact, with every law, solved without an earlier film: checks
+   whether each satisfies its equations (balance.h). */
 #include "balance.h"
 #include "check.h"
 
@@ -41,14 +41,15 @@ static void test_case(int law, double load, double speed, size_t cells)
              status == FF_OK ? "load and deflection" : stage_why(c.film));
     if (check_true(text, status == FF_OK && line_value(&c, "h_min", 0) > 0)) {
         check_below(text, balance_of_instants(&c, 1), 1e-9);
-        /* 0.1 to 2 of the squared distance of the nodes, from heavy loads to rigid flanks */
+        /* the difference is 0.1 (heavy loads) to 2 (rigid flanks) times the square of the relative
+           cell size */
         check_below("flow, over what differences of second order leave",
                     balance_flow(&c) * pow(balance_cells(&c), 2), 2.2);
     }
     line_close(&c);
 }
 
-/* A grid on which no film exists: a sentence, no crash and no number. */
+/* If no film exists on a grid, the model must fail with a message. */
 static void test_too_coarse(void)
 {
     line c;

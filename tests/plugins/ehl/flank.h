@@ -11,11 +11,11 @@ typedef struct flank {
     double position[FLANK_POINTS], height[2][FLANK_POINTS], period, rq[2], origin;
 } flank;
 
-/* Waves of random phase with amplitudes as their length, from `longest` to `shortest`; the record
-   repeats after 2 mm. */
+/* Makes waves of random phase, with amplitudes proportional to their lengths from `longest` to
+   `shortest`. The record repeats after 2 mm. */
 void flank_random(flank *f, unsigned seed, double rq, double shortest, double longest);
 
-/* Flank 1 is a sine of that amplitude and length, flank 2 is flat. */
+/* Makes flank 1 a sine, flank 2 flat. */
 void flank_sine(flank *f, double amplitude, double length);
 
 void flank_give(const flank *f, stage *film);

@@ -43,7 +43,7 @@ static double film_of(const worked *w, const char *formula, const char *output)
     return h;
 }
 
-/* Printed with three digits: half of the last. */
+/* The published values have three digits: the tolerance is half a unit of the last digit. */
 static void test_examples(void)
 {
     const double half = 0.00055;
@@ -76,7 +76,8 @@ static void test_moes_spots(void)
         check_near("Moes", moes(spot[k][0], spot[k][1]), spot[k][2], 5e-6);
 }
 
-/* Rigid-isoviscous, elastic-isoviscous, rigid-piezoviscous, elastic-piezoviscous. */
+/* The limits of Moes' formula: rigid-isoviscous, elastic-isoviscous, rigid-piezoviscous and
+   elastic-piezoviscous. */
 static void test_moes_regimes(void)
 {
     check_near("rigid, isoviscous", moes(1e-4, 0), 3 / 1e-4, 1e-3);
@@ -111,7 +112,7 @@ static const char *const formulas[] = {"moes", "dowson-higginson", "dowson-toyod
 
 enum { FORMULAS = 4 };
 
-/* Distances from a full solution, relative, of every formula for that contact. */
+/* Relative differences of every formula from a full solution for a contact. */
 typedef struct distance {
     double least, central, stated_least, stated_central;
 } distance;
@@ -132,7 +133,7 @@ static void compare(int barus, double M, double L, distance d[FORMULAS])
     line_close(&full);
 }
 
-/* The stated scatter covers the distance from full solutions. */
+/* The difference from full solutions must be within the scatter that the model states. */
 static void test_scatter(void)
 {
     static const double Ms[] = {2, 5, 20, 200}, Ls[] = {0, 2.5, 5, 15};
@@ -155,7 +156,7 @@ static void test_scatter(void)
             }
 }
 
-/* The worst over M and L of each formula, as a table for the documentation. */
+/* Prints the largest difference of each formula over M and L, as a table for the documentation. */
 static void print_scatter(void)
 {
     static const double Ms[] = {2, 3, 5, 10, 20, 50, 100, 200}, Ls[] = {0, 1, 2.5, 5, 10, 15};

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The work of a time step hardly depends on the number of cells, apart from that of each cell. */
+/* The number of iterations of a time step must hardly depend on the number of cells. */
 #include "check.h"
 #include "line.h"
 
 #include <math.h>
 #include <stdio.h>
 
-/* The load rises and falls by a twentieth. */
+/* Counts iterations for a load that rises and falls by a twentieth. */
 static void test_counts(size_t cells)
 {
     enum { STEPS = 150 };
@@ -42,8 +42,8 @@ static double steady(double M, double L, size_t cells, double *newton)
     return h;
 }
 
-/* The first film needs few steps of Newton's method on a fine grid; 1023 cells have no coarser grid
-   to begin with, and the same film. */
+/* On a fine grid, the first film must need few steps of Newton's method. With 1023 cells, there is
+   no coarser grid to start from, but the film must be the same. */
 static void test_start(double M, double L)
 {
     double newton, plain, nested = steady(M, L, 1024, &newton);
@@ -73,9 +73,9 @@ static double soft(const char *model, double load, size_t cells)
     return h;
 }
 
-/* Blocks of 16 cells are four times as wide as these contacts: the long waves must not be taken for
-   found, at any of many loads. The film of dense-newton follows the load smoothly and is computed
-   at every REACH-th of them: between, ln(h) is the cubic through four of these. */
+/* Contacts a quarter as wide as the coarse system's blocks of 16 cells: at none of many loads may
+   the solver stop before long waves have converged. The reference is ehl/dense-newton at every
+   REACH-th load; ln(h) is interpolated by a cubic through four of these. */
 static void test_soft(size_t cells)
 {
     enum { LOADS = 116, REACH = 6, KNOWN = LOADS / REACH + 2 };

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The flank as a moving half-space, against the closed forms of constant and of moving heat. */
+/* Compares the temperature of a flank, a moving half-space, with closed forms for constant and
+   moving heat sources. */
 #include "../../../plugins/ehl/heat/half-space.h"
 #include "check.h"
 
@@ -14,7 +15,7 @@ typedef struct strip {
     double T[MOST_NODES]; /* T - T_bulk */
 } strip;
 
-/* The steady temperature under `flux` of n nodes from x = 0 over `length`, at speed u. */
+/* Computes the steady temperature under `flux` at n nodes over `length`, from x = 0, at speed u. */
 static void heat(strip *s, double B, double u, double length, size_t n, const double *flux)
 {
     ehl_half_space f;
@@ -31,8 +32,9 @@ static void heat(strip *s, double B, double u, double length, size_t n, const do
     }
 }
 
-/* A band 2 a of constant flux q: T = 2 q sqrt(x/u)/(sqrt(pi) B), highest at its end, 1.1284 q
-   sqrt(2 a/u)/B; behind it less that of a band that begins there. The flux falls over a cell. */
+/* A band of width 2 a with constant flux q: T = 2 q sqrt(x/u)/(sqrt(pi) B), highest at its end,
+   1.1284 q sqrt(2 a/u)/B; downstream of the end, minus the temperature from a band that begins
+   there. The flux falls to 0 over a cell. */
 static void test_uniform_band(void)
 {
     enum { N = 1024 };
@@ -53,8 +55,8 @@ static void test_uniform_band(void)
     check_below("along a band of constant flux", worst, 1e-3);
 }
 
-/* Blok's flash under Hertz's distribution of heat q sqrt(1 - x^2/a^2) over -a to a, by the integral
-   with the substitution x - xi = y^2. */
+/* Returns Blok's flash temperature under the heat flux q sqrt(1 - x^2/a^2) from -a to a, by
+   quadrature after the substitution x - xi = y^2. */
 static double hertz_exact(double x, double B, double u)
 {
     enum { STEPS = 20000 };
@@ -99,7 +101,8 @@ static void test_hertz(void)
     check_true("falls with the cells, order 1.5 at the root of the edge", coarse > 4 * middle);
 }
 
-/* Constant flux on a flank at rest: 2 q sqrt(t/pi)/B; backward Euler, of first order. */
+/* Constant flux on a flank at rest, T = 2 q sqrt(t/pi)/B. The backward Euler method is of first
+   order. */
 static double error_rest(int steps, double u)
 {
     ehl_half_space f;
@@ -112,7 +115,7 @@ static double error_rest(int steps, double u)
         double next[EHL_MODES];
         for (size_t j = 0; j < f.count; j++)
             past[j] = -modes[j] / dt;
-        /* the same all along the flank: the node before has the modes of this one, now */
+        /* the temperature is uniform along the flank: the node upstream has the same modes */
         double ahead[EHL_MODES];
         for (size_t j = 0; j < f.count; j++)
             ahead[j] = (modes[j] / dt + q) / (f.lambda[j] + 1 / dt);
@@ -133,7 +136,7 @@ static void test_constant_flux(void)
     }
 }
 
-/* The kernel itself, where a step response would hide it. */
+/* Checks the kernel itself, since a step response would average its errors. */
 static void test_kernel(void)
 {
     ehl_half_space f;

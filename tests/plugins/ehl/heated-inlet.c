@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-/* A film that heats itself: 0.1 Pa s at 10 m/s and 20 % of slip. */
+/* Opens a contact whose film heats itself: 0.1 Pa s, 10 m/s, slide-roll ratio 0.2. */
 static void open_hot(line *c, const char *model, const char *thermal)
 {
     line_open(c, model);
@@ -29,8 +29,8 @@ static double central(const char *model, const char *thermal, double cells)
     return h;
 }
 
-/* The same model of the heat in an analysis of the inlet alone, which shares the table and nothing
-   else, has films within 10 % of full solutions, and so is what the heat takes off. */
+/* ehl/inlet-analysis, which shares only the table with the full solution, must have films, and
+   losses of film by heat, within 10 % of the full solution. */
 static void test_factors(void)
 {
     double of[3];
@@ -43,14 +43,14 @@ static void test_factors(void)
     check_near("the formula takes it from there", of[2], of[1], 0.02);
 }
 
-/* The solvers of one set of equations. */
+/* Two solvers of the same equations must have the same film. */
 static void test_twins(void)
 {
     double h = central("ehl/finite-volume", "inlet", 256);
     check_near("by a dense Jacobian", central("ehl/dense-newton", "inlet", 256), h, 1e-4);
 }
 
-/* Second order in the cells, although R is computed at some of the nodes. */
+/* The error must be of second order in the cell size, although R is computed at some nodes only. */
 static void test_order(void)
 {
     double h1 = central("ehl/finite-volume", "inlet", 1024),
@@ -59,8 +59,8 @@ static void test_order(void)
     check_true("the error falls by 3 or more", fabs(h1 - h2) > 3 * fabs(h2 - h3));
 }
 
-/* Little heat: without sliding R = 1 - (3/7) F, and h goes as R^0.7 or so of the inlet. The loss of
-   film is then proportional to beta/k. */
+/* With little heat and no sliding, R = 1 - (3/7) F, and h is about proportional to R^0.7 in the
+   inlet. The decrease of the film is then proportional to beta/k. */
 static double lost_at(const char *model, double speed)
 {
     double h[2];
@@ -81,8 +81,8 @@ static void test_little_heat(void)
     check_true("as the square of the speed", two / one > 3.3 && two / one < 4.2);
 }
 
-/* Constant conditions in time keep the steady film to the change at which the heat counts as
-   settled, 1e-4, and the balances of what was solved hold. */
+/* Under constant conditions, the film must stay steady to 1e-4, the tolerance of the heat
+   iteration, and satisfy the balances. */
 static void test_time(void)
 {
     line c;
@@ -99,7 +99,8 @@ static void test_time(void)
     line_close(&c);
 }
 
-/* An oil of which one measurement is known does not tell what heat makes of it. */
+/* Opens a contact with an oil measured at one temperature, whose viscosity at other temperatures is
+   not known. */
 static void open_one_temperature(line *c, const char *model, const char *thermal)
 {
     open_hot(c, model, thermal);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Heights of the flanks in the cells: no metal is lost at any shift, they move with the flank, and
-   waves that the cells do not resolve are taken off. */
+/* Mean roughness heights in the cells: their sum must not depend on the shift of the flank, they
+   must move with the flank, and waves that the cells do not resolve must be filtered out. */
 #include "check.h"
 
 #include "../../../plugins/ehl/contact/roughness-check.h"
@@ -22,7 +22,7 @@ static double sum_of(const double *y)
     return sum;
 }
 
-/* The largest distance to the same heights by sums over the samples, m. */
+/* Returns the largest difference to heights computed by sums over the samples, m. */
 static double off_traces(const ehl_roughness *r, const ehl_grid *g, double time, const double *y)
 {
     double most = 0;
@@ -33,7 +33,7 @@ static double off_traces(const ehl_roughness *r, const ehl_grid *g, double time,
     return most;
 }
 
-/* Flanks that run towards -x, and roughness that enters with the oil. */
+/* Flanks that move towards -x, and roughness that enters the contact with the oil. */
 static void test_mirrored(const double *time, const double *u1, const double *u2,
                           const double *position, const double height[2][POINTS], const ehl_grid *g)
 {
@@ -58,8 +58,9 @@ static void test_mirrored(const double *time, const double *u1, const double *u2
     ehl_roughness_destroy(&s);
 }
 
-/* What is left of two waves on either flank, and of their variance: 2^-(cutoff/length)^2 of each
-   amplitude. The record has no power of 2 points, so that the filter runs beyond its ends. */
+/* The filter must reduce the amplitude of each wave to 2^-(cutoff/length)^2, and the variance
+   accordingly. The number of points in the record is no power of 2, so that the filter extends
+   beyond its ends. */
 static void test_cut_of_waves(const ehl_history *h)
 {
     enum { COUNT = 60 };
@@ -95,9 +96,9 @@ static void test_cut_of_waves(const ehl_history *h)
     ehl_roughness_destroy(&r);
 }
 
-/* A Gaussian bump between flat ends becomes a wider one of the same area, part of it beyond the
-   record: both widths add up in squares, that of the weighting function being
-   cutoff sqrt(ln 2/2)/pi. */
+/* A Gaussian bump between flat ends becomes a wider bump of the same area, part of it beyond the
+   record: both widths add up in squares, that of the weighting function being cutoff sqrt(ln
+   2/2)/pi. */
 static void test_cut_of_bump(const ehl_history *h)
 {
     enum { COUNT = 41 };

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What holds for the film of every model through time: rest at constant conditions, the same film
-   after every way to them, and, where the pressure is solved for, second order in time under
-   sinusoidal and ramped loads and away from a jump. */
+/* Properties that the film of every model must have in time: it stays steady under constant
+   conditions, and has the same film after every way to them, and, where the pressure is solved for,
+   second order in time under sinusoidal and ramped loads and away from a jump. */
 #include "balance.h"
 #include "check.h"
 #include "models.h"
@@ -24,7 +24,8 @@ static double steady(const film_model *m, const char *output, double tolerance)
     return h;
 }
 
-/* 1.5 times the load, 1 from a fifth of the time on, and four passages more. */
+/* Makes 1.5 times the load, which changes to 1 at a fifth of the time, and four passages of the oil
+   more. */
 static void test_rest(const film_model *m, int falls)
 {
     const double tolerance = 1e-8;
@@ -52,8 +53,8 @@ static const char *const load_name[] = {"sine", "ramp", "jump"};
 
 enum { INSTANTS = 321, TIMES = 40, FINEST = 32 };
 
-/* The load over five passages: a cosine; a ramp from a tenth to seven tenths of the time; the
-   cosine with a jump at a quarter, between two instants of one time. */
+/* Makes a load over five passages of the oil: a cosine; a ramp from a tenth to seven tenths of the
+   time; or the cosine with a jump at a quarter, between two instants at the same time. */
 static void vary(line *c, load what)
 {
     size_t jump = (INSTANTS - 1) / 4;
@@ -67,7 +68,7 @@ static void vary(line *c, load what)
         c->time[jump + 1] = c->time[jump];
 }
 
-/* h_min at TIMES times with `fold` steps between them. */
+/* Computes h_min at TIMES times, with `fold` steps between them. */
 static void films_of(const film_model *m, load what, size_t fold, double *h)
 {
     line c;
@@ -79,7 +80,7 @@ static void films_of(const film_model *m, load what, size_t fold, double *h)
     ff_status status = line_run(&c, "h_min film pressure x time load_ahead");
     check_true(status == FF_OK ? m->name : stage_why(c.film), status == FF_OK);
     check_below("load and deflection", balance_of_instants(&c, TIMES), 1e-8);
-    /* 0.8 of the squared distance of the nodes; a jump moves oil in no time */
+    /* 0.8 of the squared cell size; not for a jump, which moves oil in no time */
     if (what != JUMP && fold == FINEST)
         check_below("oil that has come, gone and stayed, over what nodes leave",
                     balance_history(&c) * pow(balance_cells(&c), 2), 1);
@@ -88,8 +89,9 @@ static void films_of(const film_model *m, load what, size_t fold, double *h)
     line_close(&c);
 }
 
-/* Root mean square over the times; behind a kink or a jump from when the film that
-   saw it has left, and up to the next: the passage is 2 a/u at the load of that time. */
+/* Returns the root mean square of the difference over the times. After a kink or a jump, the times
+   begin when the film affected by it has left the contact, after 2 a/u at the load of that time,
+   and end at the next kink or jump. */
 static double distance(const double *a, const double *b, load what)
 {
     double sum = 0;

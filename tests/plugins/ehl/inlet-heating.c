@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The line of the quality record that says what an isothermal film leaves out. */
+/* The quality line inlet_heating, the effect of heat that an isothermal film neglects. */
 #include "../../../plugins/ehl/estimates/inlet.h"
 #include "check.h"
 
@@ -20,7 +20,8 @@ static void test_factor(void)
     check_true("a number at its limit", isfinite(ehl_gupta_factor(1e40, 1e-3, 1e300, 1e300)));
 }
 
-/* Share that is lost at the pitch point of the gear pair of Li & Kahraman 2011. */
+/* Returns the fraction of the film lost by heating at the pitch point of the gear pair of Li &
+   Kahraman 2011. */
 static double lost(const char *model, const char *param, double value)
 {
     line c;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* ehl/inlet-analysis against ehl/finite-volume, steady and through the pass of a tooth pair. */
+/* Compares ehl/inlet-analysis with ehl/finite-volume, in steady contacts and during an engagement
+   of a tooth pair. */
 #include "check.h"
 #include "line.h"
 
@@ -18,7 +19,7 @@ static void choose(line *c, const char *law, double M, double L)
         line_oil(c, law, c->eta0, 2.2e-8);
 }
 
-/* With `slide` the oil is Ree-Eyring. */
+/* slide: slide-roll ratio; if not 0, the oil is Ree-Eyring. */
 static void test_steady(const char *law, double M, double L, double slide)
 {
     line full, quick, *each[] = {&full, &quick};
@@ -93,13 +94,13 @@ static void test_pass(double speed, double swing)
     line_close(&quick);
 }
 
-/* What enters comes to the middle unchanged, one passage a/u later. */
+/* The film at the inlet must reach the middle unchanged, after the time a/u. */
 static void test_transport(void)
 {
     line c;
     line_open(&c, "ehl/inlet-analysis");
     line_last(&c, 3, 400e-6);
-    c.u1[1] *= 1.3; /* from 100 us to 200 us the entrainment rises by 30 % */
+    c.u1[1] *= 1.3; /* the entrainment speed increases by 30 % from 100 us to 200 us */
     c.u1[2] *= 1.3;
     c.u2[1] *= 1.3;
     c.u2[2] *= 1.3;
@@ -116,7 +117,7 @@ static void test_transport(void)
     line_close(&c);
 }
 
-/* A steady contact that lasts stays as it is. */
+/* Under constant conditions, the film must stay steady. */
 static void test_rest(void)
 {
     line c;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What holds for the steady film of every model: likeness, mirrors, signs, monotony, shapes. */
+/* Properties that the steady film of every model must have: similarity, symmetry, signs, monotony,
+   shapes. */
 #include "balance.h"
 #include "check.h"
 #include "models.h"
@@ -17,10 +18,9 @@ static ff_status run(const film_model *m, line *c)
     return status;
 }
 
-/*
- * With Barus' law and no compression the film depends on M and L alone: R three times, E' half,
- * alpha twice, eta0 seven times as large, with the speed and load that keep U, W and G.
- */
+/* With Barus' law and an incompressible oil, the film depends only on M and L: R is multiplied by
+   3, E' by 1/2, alpha by 2, eta0 by 7, and the speed and load are chosen for the same U, W and
+   G. */
 static void test_likeness(const film_model *m)
 {
     line a, b;
@@ -45,7 +45,7 @@ static void test_likeness(const film_model *m)
     line_close(&b);
 }
 
-/* slide: (u1 - u2)/u; both surfaces towards -x with `turn` = -1. */
+/* slide: (u1 - u2)/u. turn: -1 if both surfaces move towards -x, else 1. */
 static void sliding(const film_model *m, line *c, double slide, double turn)
 {
     model_open(m, c);

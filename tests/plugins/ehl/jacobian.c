@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The derivatives of the balances against central differences of the balances. */
+/* Compares the derivatives of the balances with central differences. */
 #include "check.h"
 #include "stage.h"
 
@@ -52,8 +52,8 @@ static void make(scene *s, const ehl_laws *laws, int wedge, double rate, int asy
     }
 }
 
-/* Asperities of a quarter of the gap, and pressures beside the contact that differ by little: the
-   means of faces there are those of nearly equal nodes. */
+/* Adds asperities of a quarter of the gap, and nearly equal pressures outside the contact, for the
+   formula of the mean of nearly equal values at a face. */
 static void roughen(scene *s)
 {
     for (size_t i = 0; i < NODES; i++) {
@@ -64,7 +64,7 @@ static void roughen(scene *s)
     s->r.rough = s->rough;
 }
 
-/* Largest error of J (dp, dh) over the largest entry. */
+/* Returns the largest error of J (dp, dh), over its largest entry. J: the Jacobian matrix. */
 static double error(scene *s)
 {
     static double dp[NODES], dv[NODES], plus[NODES], product[NODES];
@@ -121,7 +121,7 @@ int main(void)
                           .density = stage_service(rho, FF_DENSITY_ID)};
     ehl_laws eyring = newtonian;
     eyring.rheology = stage_service(flow, FF_RHEOLOGY_3_ID);
-    ehl_laws secant = newtonian; /* a stress that rises with pressure */
+    ehl_laws secant = newtonian; /* an Eyring stress that increases with pressure */
     stage_set_text(rising, "tau0", "auto");
     stage_set(rising, "limiting_stress_coefficient", 0.04);
     stage_link(rising, "viscosity", oil);

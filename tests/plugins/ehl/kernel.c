@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Deflection: the kernel against quadrature, the FFT against the double sum, Hertz's pressure. */
+/* Deflection: compares the kernel with quadrature and the FFT with the double sum, and checks
+   Hertz's pressure. */
 #include "check.h"
 
 #include "../../../plugins/ehl/equations/deflection.h"
@@ -10,7 +11,8 @@
 static const double pi = 3.14159265358979323846;
 static const double modulus = 226.4e9;
 
-/* int of ln|x| over [low, low + dx] by composite Gauss rules, graded towards a singular end. */
+/* Returns the integral of ln|x| over [low, low + dx] by composite Gauss rules, with intervals that
+   decrease towards the singularity. */
 static double log_quadrature(double low, double dx)
 {
     static const double node[3] = {-0.7745966692414834, 0, 0.7745966692414834};
@@ -63,8 +65,8 @@ static void test_fft(size_t nodes)
     free(d);
 }
 
-/* Hertz's pressure flattens x^2/(2 R) inside the contact (Johnson 1985, 4.2); how far from flat,
-   over the deflection a^2/(2 R). */
+/* Hertz's pressure deforms the parabola x^2/(2 R) to a flat inside the contact (Johnson 1985, 4.2).
+   Returns the deviation from the flat, over the deflection a^2/(2 R). */
 static double hertz_flatness(size_t nodes)
 {
     double *d = malloc(3 * nodes * sizeof *d), *p = d + nodes, *v = d + 2 * nodes;

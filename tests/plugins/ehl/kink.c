@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the time steps and the length of the inlet make of the power of the pressure flow. */
+/* Errors of the power loss of the pressure flow due to the time steps and the length of the
+   inlet. */
 #include "check.h"
 #include "line.h"
 
@@ -10,7 +11,8 @@ static const double span = 300e-6; /* s */
 
 enum { KINKED = 4 };
 
-/* Under a thousandth of the load of a gear the film is that of a rigid cylinder, some 15 um. */
+/* Opens a contact under a thousandth of a gear's load: its film, about 15 um, is that of rigid
+   cylinders. */
 static void light(line *c, size_t cells, size_t steps)
 {
     line_open(c, "ehl/finite-volume");
@@ -21,7 +23,7 @@ static void light(line *c, size_t cells, size_t steps)
     stage_set(c->film, "tolerance", 1e-9);
 }
 
-/* The radius grows by 10 m/s, and stops at a row. */
+/* The radius increases at 10 m/s, then stays constant. */
 static void kinked(line *c, size_t steps)
 {
     light(c, 256, steps);
@@ -29,7 +31,7 @@ static void kinked(line *c, size_t steps)
     c->radius[2] = c->radius[3] = c->radius[1] + 1e-3;
 }
 
-/* It swings smoothly. */
+/* The radius oscillates smoothly. */
 static void swinging(line *c, size_t steps, const char *scheme)
 {
     light(c, 256, steps);
@@ -40,10 +42,10 @@ static void swinging(line *c, size_t steps, const char *scheme)
 }
 
 typedef struct figures {
-    double error, stated; /* of power_loss, over the largest */
+    double error, stated; /* of power_loss, over its largest value */
 } figures;
 
-/* Against the run `exact`, from the third instant on: a start is another matter. */
+/* Compares a run with `exact`, from the third instant on, without the errors of the start. */
 static figures compare(line *c, const line *exact)
 {
     size_t n;
@@ -59,9 +61,10 @@ static figures compare(line *c, const line *exact)
     return (figures){worst, stage_quality(c->film, "power_loss_time_error")};
 }
 
-/* The kink on an instant, with 60 and 240 steps, and between two, with 64 and 256. The oil takes
-   the leap within less than a microsecond, where a first step is right to first order: 0.2 % of the
-   largest is measured, and a kink that no step ends at is 12 % off; 0.5 % lies far from both. */
+/* The kink lies at an instant with 60 and 240 steps, and between two with 64 and 256. After the
+   kink, the pressure flow changes within a microsecond, and the first step is of first order: the
+   measured error is 0.2 % of the largest loss. Without a step that ends at the kink, it would be 12
+   %; the limit of 0.5 % separates both. */
 static void test_kink(size_t steps)
 {
     static line exact, c;
@@ -79,8 +82,8 @@ static void test_kink(size_t steps)
     line_close(&exact);
 }
 
-/* Orders are told apart: one less leaves 4 times as much of an error after four times the steps,
-   and what the next order adds on 80 steps is less than the half that is left for it. */
+/* The tolerance distinguishes orders: with an order lower by one, four times as many steps leave an
+   error 4 times as large; the terms of the next order on 80 steps are below half the tolerance. */
 static void test_estimate(const char *scheme, double order)
 {
     static line exact, c;
@@ -99,11 +102,9 @@ static void test_estimate(const char *scheme, double order)
     line_close(&exact);
 }
 
-/*
- * Flanks whose radius grows by 8 m/s, and a domain that begins where they are twice as far off. Of
- * (7.17) the second term doubles, which would be 1.17 times what is stated; far flanks bear some of
- * the load, and 1.1 is measured, within a hundredth the same on twice the cells.
- */
+/* The radius grows at 8 m/s, and the domain begins where the gap is twice as large. The second term
+   of (7.17) doubles, so that the error would be 1.17 times the stated error; since the oil far from
+   the contact carries some load, 1.1 is measured, also on twice as many cells to 0.01. */
 static void test_inlet(void)
 {
     static line c;

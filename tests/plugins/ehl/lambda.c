@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Every model gives the film over the roughness of the flanks, whoever knows it: gears or surface.
- */
+/* Every model has the output lambda, film over roughness, with the roughness of the gears or of a
+   surface. */
 #include "check.h"
 #include "flank.h"
 #include "models.h"
@@ -16,7 +16,7 @@ static const char *say(const film_model *m, const char *what)
     return text;
 }
 
-/* A load that swings by a fifth. */
+/* Opens a contact with a load that oscillates by a fifth. */
 static void open_swing(const film_model *m, line *c)
 {
     model_open(m, c);
@@ -76,7 +76,7 @@ static void test_faulty(const film_model *m, size_t count, const double *rough, 
     line_close(&c);
 }
 
-/* A surface knows better than the gears. */
+/* The roughness of a surface must replace that of the gears. */
 static void test_surface(const film_model *m)
 {
     static line c;
@@ -94,12 +94,12 @@ static void test_surface(const film_model *m)
     ff_status status = line_run(&c, "h_central lambda_ratio");
     double implied =
         status == FF_OK ? line_value(&c, "h_central", 0) / line_value(&c, "lambda_ratio", 0) : 0;
-    /* between rough flanks the mean film counts, off h_central by the wave of 0.02 um at the most,
-       out of 0.13 um */
+    /* between rough flanks, lambda has the mean film, 0.13 um; the wave changes h_central by 0.02
+       um at most */
     check_near(say(m, "the surface's roughness counts"), implied, hypot(f.rq[0], f.rq[1]),
                m->solves ? 0.16 : 1e-12);
-    /* below 1 the load on asperities in three dimensions is not in a film that is rough along the
-       motion alone */
+    /* a film with roughness along the motion only does not contain the load on three-dimensional
+       asperities, which matters if lambda is below 1 */
     check_near(say(m, "limit"), stage_quality_limit(c.film, "lambda"), m->solves ? 1 : 3, 0);
     line_close(&c);
 }

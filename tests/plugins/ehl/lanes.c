@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Sums and extremes of arrays that fill the vectors wholly, in part, and not once; and that a film
-   which is no number has no least one. */
+/* Sums and extremes of arrays that fill several vector registers, one in part, or none; the minimum
+   of a film with NaN must be NaN. */
 #include "check.h"
 
 #include "../../../plugins/ehl/contact/simd-reductions.h"
@@ -9,7 +9,7 @@
 
 enum { MOST = 3 * EHL_LANES };
 
-/* In exact halves, so that sums do not depend on their order. */
+/* Fills x with multiples of 0.5, whose sums have no rounding error in any order. */
 static void fill(size_t n, size_t extreme, double *x)
 {
     for (size_t i = 0; i < n; i++)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a law answers wrongly is noted as its fault, and no integration over it goes on for ever. */
+/* Wrong results of an oil law must be reported as errors of the law, and integrations over them
+   must end. */
 #include "check.h"
 
 #include "../../../plugins/ehl/contact/liquid.h"
@@ -7,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-/* 15 1/GPa with slopes of 1e21 1/GPa, or none that is a number above 0.1 GPa. */
+/* Errors of a law with 15 1/GPa. STEEP: slopes of 1e21 1/GPa. NO_NUMBER: NaN above 0.1 GPa. */
 typedef enum { STEEP, NO_NUMBER } fault;
 
 static ff_status eval(const void *self, size_t n, const double *p, const double *T, double *value,
@@ -55,7 +56,8 @@ static void test_slopes(void)
                        "it gave the slope of rho nan at 0.2 GPa; a law must give finite numbers"));
 }
 
-/* A slope may be off at a kink, by as much as both sides differ, and steep where the values are. */
+/* At a kink, a slope may be wrong by the difference of both sides; where the values are steep, it
+   may be steep. */
 static ff_status bent(const void *self, size_t n, const double *p, const double *T, double *value,
                       double *by_p, double *by_T)
 {
@@ -79,7 +81,8 @@ static numerics_answers hold_slopes(double of_viscosity, double of_density)
     return answers;
 }
 
-/* Without these a film is not found, and nothing tells why. */
+/* Wrong slopes must be reported, since otherwise the film does not converge for no visible
+   reason. */
 static void test_false_slopes(void)
 {
     numerics_answers none = hold_slopes(1, 1), a = hold_slopes(1e30, 1), b = hold_slopes(1, 0);
@@ -102,7 +105,7 @@ static ff_status linear(const void *self, int32_t property, size_t n, const doub
     return FF_OK;
 }
 
-/* A temperature that is no number has no value of its neighbour's, nor gives it one. */
+/* A temperature of NaN must not change the values at other temperatures, or get theirs. */
 static void test_temperatures(void)
 {
     const ff_liquid liquid = {.size = sizeof liquid, .eval = linear};

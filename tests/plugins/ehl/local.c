@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * The local model of friction: shares of the asperities against a published table and their own
- * equations, the temperature of the contact against a solution by hand, and how friction depends on
- * sliding, pressure and the oil.
- */
+/* The friction model of ehl/local: load fractions of the asperities against a published table and
+   their equations, the contact temperature against another solution, and how friction depends on
+   sliding, pressure and the oil. */
 #include "check.h"
 #include "line.h"
 
@@ -14,7 +12,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* W 1e-4, U 1e-11, G 4500, hardness/E' 0.01 on R 10 mm, not run yet. */
+/* Opens a contact with W 1e-4, U 1e-11, G 4500, hardness/E' 0.01 and R 10 mm. */
 static stage *make_mixed(line *c, const char *share, double sigma)
 {
     stage *flanks = stage_open("surface/statistical");
@@ -48,7 +46,8 @@ static stage *open_mixed(line *c, const char *share, double sigma)
     return flanks;
 }
 
-/* The percentages that the formula of Masjedi & Khonsari 2012 gives, to their digits. */
+/* The asperities' percentages of the load by the formula of Masjedi & Khonsari 2012 must agree with
+   theirs in all digits. */
 static void test_published(void)
 {
     static const double sigma[] = {0.05e-6, 0.2e-6, 0.5e-6}, percent[] = {0.053, 18.35, 44.34},
@@ -76,7 +75,7 @@ static void test_shares(void)
     flanks = open_mixed(&c, "greenwood-tripp", sigma);
     double s = line_value(&c, "asperity_load_share", 0), load = c.load[0];
     double K = 16 * sqrt(2) / 15 * pi * 0.05 * 0.05 * 0.1;
-    double from = -5, H = 3; /* of the mean gap of Gaussian heights, by halving */
+    double from = -5, H = 3; /* the mean gap over Gaussian heights, by bisection */
     for (int k = 0; k < 60; k++) {
         double middle = (from + H) / 2, below = erfc(-middle / sqrt(2)) / 2;
         double gap = middle * below + exp(-middle * middle / 2) / sqrt(2 * pi);
@@ -94,10 +93,11 @@ static void test_shares(void)
 
 typedef struct mixed {
     double share, traction, load;
-    int told; /* that what asperities carry is extrapolated */
+    int told; /* whether the quality record reports that the asperities' load is extrapolated */
 } mixed;
 
-/* At speeds times `speed`; `product` of the summits. */
+/* Runs at flank speeds u1 and u2, with standard deviation sigma of the heights, and `product` of
+   the summits. */
 static mixed at_speed(double u1, double u2, double sigma, double product)
 {
     line c;
@@ -113,8 +113,9 @@ static mixed at_speed(double u1, double u2, double sigma, double product)
     return m;
 }
 
-/* Dry flanks carry all by asperities, smooth ones and those without summits nothing; flanks that
-   change places change the sign; and the share falls with the speed. */
+/* Dry flanks must carry the whole load by asperities, and smooth flanks, or flanks without summits,
+   none. If the flanks are exchanged, the sign of friction must change. The asperities' load must
+   decrease with speed. */
 static void test_limits(void)
 {
     const double sigma = 0.2e-6;
@@ -136,8 +137,8 @@ static void test_limits(void)
     }
 }
 
-/* Below lambda 1 friction of smooth flanks is no good answer, and the line of lambda says what
-   would make it one. */
+/* With lambda below 1, friction of smooth flanks must be doubtful, and the quality line lambda must
+   name the input that is missing. */
 static void test_verdict(void)
 {
     const double rq[] = {0.12e-6, 0.16e-6};
@@ -171,8 +172,8 @@ static void open_hot(line *c, const char *thermal, double oil)
     stage_set_text(c->film, "thermal", thermal);
 }
 
-/* The mean shear stress of the oil at T over Hertz's contact with a film h, by the law at each of
-   many places. */
+/* Returns the mean shear stress of the oil at temperature T in a Hertzian contact with film h, by
+   the law at many points. */
 static double mean_stress(const line *c, double T, double h, double p_max)
 {
     enum { PLACES = 4000 };
@@ -186,7 +187,8 @@ static double mean_stress(const line *c, double T, double h, double p_max)
     return sum;
 }
 
-/* The balance of temperature by a damped iteration; the film by an oil at that of the teeth. */
+/* Solves the heat balance by a damped iteration, with a film for the viscosity at tooth
+   temperature. */
 static void test_temperature(void)
 {
     const double bulk = 383.15, conducts[] = {50, 24}, dense[] = {7850, 7700}, holds[] = {484, 460};
@@ -248,7 +250,7 @@ static void open_oil(line *c, const char *model, oil scale)
     c->u2[0] = 3.6;
 }
 
-/* Friction and central film where the Hertz pressure is p_H. */
+/* Returns friction and central film at the Hertz pressure p_H. */
 static double friction(const char *model, oil scale, double p_H, double slide, double *h)
 {
     line c;
@@ -265,7 +267,7 @@ static double friction(const char *model, oil scale, double p_H, double slide, d
 
 static const oil plain = {1, 1};
 
-/* Rises with pressure, and stays below Lambda. */
+/* Friction must increase with pressure and stay below the limit Lambda. */
 static void test_pressures(const char *model)
 {
     double before = 0, h;
@@ -277,8 +279,8 @@ static void test_pressures(const char *model)
     }
 }
 
-/* A slow film with heat, whose friction by the Eyring stress alone would be 1.1 times Lambda: the
-   limiting stress bounds the traction as it does without heat. */
+/* A slow film with heat, for which the Eyring stress alone would give a friction of 1.1 Lambda: the
+   limiting stress must bound the traction, as without heat. */
 static void test_limit_with_heat(void)
 {
     static const char *const thermal[] = {"none", "full"};
@@ -302,7 +304,7 @@ static void test_limit_with_heat(void)
     check_near("at the limit with heat as without", mu[1], mu[0], 0.01);
 }
 
-/* About the pitch point. */
+/* Friction near the pitch point, where sliding changes its sign. */
 static void test_sliding(const char *model)
 {
     double h, mu = friction(model, plain, 1e9, 4e-4, &h);
@@ -311,8 +313,8 @@ static void test_sliding(const char *model)
     check_true("none without sliding", fabs(friction(model, plain, 1e9, 0, &h)) <= 0);
 }
 
-/* By hand: mu = int tau_E asinh(eta u_s/(tau_E h_c)) dx/w over Hertz's ellipse, tau_E = 2
-   Lambda/alpha_sec with alpha_sec = 1/(A + B p). */
+/* Returns mu = int tau_E asinh(eta u_s/(tau_E h_c)) dx/w for Hertz's pressure, tau_E = 2
+   Lambda/alpha_sec, alpha_sec = 1/(A + B p). */
 static double by_hand(oil scale, double p_H, double slide, double h, double eta0)
 {
     enum { PLACES = 2000 };
@@ -328,7 +330,7 @@ static double by_hand(oil scale, double p_H, double slide, double h, double eta0
     return sum / (pi / 2 * p_H);
 }
 
-/* A tenth more of alpha and of Lambda. */
+/* Checks the effect of 10 % more alpha, and of 10 % more Lambda. */
 static void test_sensitivities(const char *model, double within)
 {
     const oil more[] = {{1.1, 1}, {1, 1.1}};
@@ -348,11 +350,9 @@ static void test_sensitivities(const char *model, double within)
     }
 }
 
-/*
- * The first of an engagement of FZG C-PT at 302 N m and 2250 rpm, where its film is least: with VG
- * 100 by Roelands' law 105 nm at 90 degC, 59 nm with teeth of 118 degC, of films of the whole
- * engagement on 512 cells.
- */
+/* The first contact of an engagement of FZG C-PT gears at 302 N m and 2250 rpm, where the film is
+   smallest. Films of the whole engagement on 512 cells, with VG 100 oil and Roelands' law, have 105
+   nm there at 90 degC, and 59 nm with teeth at 118 degC. */
 static void test_teeth(void)
 {
     enum { ROWS = 19 };

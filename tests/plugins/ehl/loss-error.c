@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the errors of a loss by the time steps, and of a film by the cells, are taken to be, from
-   series that are made up. */
+/* The estimated errors of a loss due to the time steps, and of a film due to the cells, for
+   synthetic series. */
 #include "check.h"
 
 #include "../../../plugins/ehl/stage/outputs.h"
@@ -58,7 +58,8 @@ static double off_at_one(double t)
     return straight(t) + (t > AT - 0.5 && t < AT + 0.5 ? 0.7 : 0);
 }
 
-/* The largest third of dt (dt + dt_1), half the second derivative being 1, on the nearer side. */
+/* Returns the largest dt (dt + dt_1)/3 over the instants, the error of a parabola t^2; on the side
+   with the smaller value. */
 static double third_of_bend(void)
 {
     double most = 0;
@@ -81,7 +82,7 @@ static void keep(void *ctx, const char *name, double value, double limit, int32_
     judged = verdict;
 }
 
-/* Returns what the line of h_min's error by the cells says of a row with that film. */
+/* Returns the value of the quality line h_min_space_error for one instant with film h_min. */
 static double stated_of_film(double h_min, double part)
 {
     static ehl_march m;

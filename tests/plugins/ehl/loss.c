@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The contact is lost and closes again. */
+/* The flanks separate and touch again. */
 #include "balance.h"
 #include "check.h"
 
 #include <math.h>
 
-static const char *model; /* each in turn */
+static const char *model; /* the model that is tested */
 
-/* Load 1 until 1/4, 0 from 0.35 to 0.6, back to 1 at 0.7 of the span; the gap is a parabola. */
+/* Makes load 1 until 0.25 of the span, 0 from 0.35 to 0.6, 1 from 0.7 on, and a gap that is a
+   parabola in time. */
 static void separate(line *c, double gap, int sudden)
 {
     line_open(c, model);
@@ -50,7 +51,7 @@ static void test_loss(double gap, int sudden)
     line_close(&c);
 }
 
-/* A history that begins without load, as at the start of a tooth's engagement. */
+/* A history that begins without load, like the engagement of a tooth. */
 static void test_unloaded_start(void)
 {
     line c;
@@ -69,7 +70,7 @@ static void test_unloaded_start(void)
     line_close(&c);
 }
 
-/* The gap that the history gives at that share of its span: straight lines between its rows. */
+/* Returns the gap of the history, linearly interpolated, at `share` of its span. */
 static double between_rows(const line *c, double share)
 {
     size_t row = (size_t)(share * 40);
@@ -77,8 +78,9 @@ static double between_rows(const line *c, double share)
     return row + 1 < c->count ? c->gap[row] * (1 - part) + c->gap[row + 1] * part : 0;
 }
 
-/* In flight the flanks stand as the dynamics says, or further where the film holds them; its force
-   stays small, and more steps change little in the film after the impact. */
+/* While the load is 0, the distance of the flanks must be the gap of the history, or more where the
+   film carries load. Its force must stay small, and more steps must change the film after the
+   impact little. */
 static void test_flight(void)
 {
     static line c, fine;
@@ -113,8 +115,8 @@ static void test_flight(void)
     line_close(&fine);
 }
 
-/* The same way through flight on 512 and on 4096 cells: the film behind the impact, and that of the
-   landing itself, where it is made in a few steps. */
+/* Compares the film at the impact, which takes a few steps, and after it, on 512 and on 4096
+   cells. */
 static void test_cells(void)
 {
     static line few, many;
@@ -125,7 +127,7 @@ static void test_cells(void)
     check_true("runs", line_run(&few, "h_min h_central") == FF_OK &&
                            line_run(&many, "h_min h_central") == FF_OK);
     double landing = 0, after = 0;
-    for (size_t k = 240; k <= 400; k++) { /* the load is back from 0.6 of the span to 0.7 */
+    for (size_t k = 240; k <= 400; k++) { /* the load increases from 0.6 to 0.7 of the span */
         double off =
             fmax(fabs(line_value(&few, "h_min", k) / line_value(&many, "h_min", k) - 1),
                  fabs(line_value(&few, "h_central", k) / line_value(&many, "h_central", k) - 1));
@@ -148,13 +150,14 @@ static void test_light_load(void)
     for (size_t i = 0; i < c.count; i++)
         c.load[i] = fmax(c.load[i], 250);
     double worst = 0;
-    for (size_t k = 140; k <= 240; k++) /* beside it the load falls below it between two rows */
+    for (size_t k = 140; k <= 240; k++) /* at other instants, the load falls below the limit between
+                                           two rows */
         worst = fmax(worst, balance_load(&c, k));
     check_below("the stand-in is carried at every time", worst, 1e-8);
     line_close(&c);
 }
 
-/* Whole load from one time to the next: the same time twice. */
+/* The whole load appears at one time, with two rows. */
 static void test_jump(void)
 {
     line c;
@@ -174,7 +177,7 @@ static void test_jump(void)
 
 enum { PARTING = 11 };
 
-/* The end of a slow and light tooth contact, 10 rpm and 1 N m. */
+/* Runs the end of a slow tooth contact under little load, at 10 rpm and 1 N m. */
 static ff_status part(line *c, const char *tolerance)
 {
     static const double load[PARTING] = {578, 578, 563, 516, 420, 194, 26, 8.94, 1.344, 0, 0};
@@ -193,7 +196,8 @@ static ff_status part(line *c, const char *tolerance)
     return line_run(c, "h_min time x film pressure load_ahead");
 }
 
-/* Largest departure of h_min from that of finer steps, relative, until the load is gone. */
+/* Returns the largest relative difference of h_min from that with shorter steps, until the load is
+   0. */
 static double off_finer(const line *c, const line *fine)
 {
     double off = 0;
@@ -204,7 +208,8 @@ static double off_finer(const line *c, const line *fine)
     return off;
 }
 
-/* The load breaks its slope while the flanks part, at a speed that goes on through each break. */
+/* The load has kinks while the flanks separate; the speed of separation must be continuous at each
+   kink. */
 static void test_parting(void)
 {
     static const char *const tolerance[] = {"5e-3", "1.25e-3", "7e-5"};

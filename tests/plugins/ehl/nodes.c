@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* thermal: full, the nodes across hot films: against twins with many of them. */
+/* `thermal: full`: errors from the number of nodes across hot films, found with films that have
+   many nodes across. */
 #include "check.h"
 
 #include "line.h"
@@ -7,8 +8,9 @@
 #include <math.h>
 #include <stdio.h>
 
-/* A steady contact of unlike flanks: mean speed, m/s, slide-roll ratio, oil, its K, and the Eyring
-   stress, Pa; 0: laws measured of its base, whose stress moves with pressure and temperature. */
+/* A steady contact of flanks of different materials: mean speed, m/s, slide-roll ratio, oil, its
+   temperature, K, and the Eyring stress, Pa; 0: measured flow laws of the base oil, whose stress
+   depends on pressure and temperature. */
 typedef struct hot {
     double speed, slip;
     const char *oil;
@@ -62,8 +64,8 @@ static found film(const hot *at, double nodes)
     return f;
 }
 
-/* Of no film, and of no friction, is the error by the nodes larger than it says; nor does it say
-   more than four times that of the film. */
+/* The true error of film and friction due to the nodes across must not exceed the stated error, and
+   the stated error of the film must be at most four times the true one. */
 static void test_errors(void)
 {
     static const hot at[] = {
@@ -88,7 +90,8 @@ static void test_errors(void)
     }
 }
 
-/* Faster than any power of them: a half more nodes are worth a factor that grows. */
+/* The error must decrease faster than any power of the number of nodes: with 1.5 times as many
+   nodes, by a factor that increases. */
 static void test_order(void)
 {
     const hot at = {5, 1, "ISO VG 320", 333.15, 5e6};
@@ -101,9 +104,9 @@ static void test_order(void)
     check_below("and small", off[2], 1e-4);
 }
 
-/* The second of three engagements starts so hot that a start takes damping across the film, at 22
-   m/s; where it is found, that of the third begins without damping again, as the first did, which
-   was the same. */
+/* The second of three engagements starts so hot, at 22 m/s, that its first film needs damping
+   across the film. The third must again start without damping, and be equal to the first, which has
+   the same conditions. */
 static void test_hard_start(double speed)
 {
     enum { EACH = 2, ENGAGEMENTS = 3 };

@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Cavitation with mass conserved. A rigid gap h0 (1 + a cos(4 pi x/L) + b x/L) with two narrows,
- * isoviscous: the film ruptures behind the first, where h = h*, and forms again in front of the
- * second. Between p = 0 at both ends of a film, int (h - h*)/h^3 dx = 0 with the same flow u h* all
- * along (Jakobsson & Floberg 1957), which gives h*, the place of reformation and both pressures by
- * quadrature.
- */
+/* Cavitation with conservation of mass, in an isoviscous film in the rigid gap h0 (1 + a cos(4 pi
+   x/L) + b x/L), which has two minima. The film ruptures downstream of the first, where h = h*, and
+   forms again upstream of the second. Since p = 0 at both ends of each film, int (h - h*)/h^3 dx =
+   0, with the same flow u h* everywhere (Jakobsson & Floberg 1957). h*, the point of reformation
+   and both pressures follow by quadrature. */
 #include "check.h"
 #include "stage.h"
 
@@ -26,7 +24,7 @@ static double gap(double x)
     return h0 * (1 + wave * cos(4 * pi * x / length) + tilt * x / length);
 }
 
-/* p at `to` from p = 0 at `from`: 12 eta u int (h - h*)/h^3 dx by Simpson's rule. */
+/* Returns p at `to`, for p = 0 at `from`: 12 eta u int (h - h*)/h^3 dx by Simpson's rule. */
 static double rise(double from, double to, double h_star)
 {
     enum { PARTS = 2000 };
@@ -38,7 +36,7 @@ static double rise(double from, double to, double h_star)
     return 12 * eta * speed * sum * d / 3;
 }
 
-/* Root of f in (low, high), positive at low; f has one more argument. */
+/* Returns the root x of f(x, y) in (low, high); f is positive at low. */
 static double root(double (*f)(double x, double y), double y, double low, double high)
 {
     for (int k = 0; k < 60; k++) {
@@ -61,7 +59,8 @@ static double below(double x, double h_star)
     return h_star - gap(x);
 }
 
-/* End pressure of the first film when it ruptures at x, and of the second when it begins there. */
+/* Return the pressure at the end of the first film if it ruptures at x, and of the second film if
+   it begins at x. */
 static double first_film(double x, double unused)
 {
     (void)unused;
@@ -135,12 +134,13 @@ static void test_steady(const ehl_laws *laws, size_t cells)
         top[half] = fmax(top[half], s.film.p[i]);
         first = s.film.full[i] && !half ? i : first;
         again = s.film.full[i] && half && again == 0 ? i : again;
-        if (s.film.full[i] || s.film.full[i + 1]) /* the last cell of a void fills by and by */
+        if (s.film.full[i] || s.film.full[i + 1]) /* the last cell of a void fills gradually */
             continue;
         least = fmin(least, s.film.content[i] / (rho * s.r.h[i]));
         most = fmax(most, fabs(s.film.content[i] / (rho * h_star) - 1));
     }
-    /* both films end within a cell of their places, where p falls to 0 as the square */
+    /* both films end within a cell of the exact points, where p is proportional to the square of
+       the distance */
     double error = 4 / (double)cells;
     check_near("first pressure", top[0], summit_1, error);
     check_near("second pressure", top[1], summit_2, error);
@@ -151,8 +151,8 @@ static void test_steady(const ehl_laws *laws, size_t cells)
     close_scene(&s);
 }
 
-/* A node whose pressure was cut off is cavitated for one step in time, in which it finds its oil,
-   before it may be filled; in a steady film it may be filled at once. */
+/* A node whose pressure was cut off must be cavitated for one time step, in which its oil is
+   computed, before it may become full. In a steady film, it may become full at once. */
 static void test_wait(const ehl_laws *laws, int steps)
 {
     scene s;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * A cylinder so stiff that it does not deform and an oil without pressure dependence: the exact
- * solution with Reynolds' condition at the exit (Martin 1916), in xi = x/sqrt(2 R h0), for inlets
- * at xi = -2 to -20.
+ * A cylinder so stiff that it does not deform, with an oil whose viscosity does not depend on
+ * pressure: compares films with the exact solution for Reynolds' condition at the exit (Martin
+ * 1916), in xi = x/sqrt(2 R h0), for inlets at xi = -2 to -20.
  *
  *   test-ehl-rigid [print]      print: as a table for the documentation
  */
@@ -88,11 +88,11 @@ int main(int argc, char **argv)
         for (int k = 0; film_models[m].solves && k < INLETS; k++) {
             int dense = m == FILM_MODELS - 1;
             rigid r = solve(&film_models[m], k, dense ? 256 : 2048);
-            double wider = dense ? 8 : 1; /* of the eighth of the cells */
+            double wider = dense ? 8 : 1; /* tolerance for an eighth of the cells */
             check_near("load number", r.load, exact[k].load, 2e-3 * wider);
             check_near("rupture", r.rupture, exact[k].rupture, 0.03 * wider);
             check_near("traction number", r.traction, atan(exact[k].inlet) + atan(exact[k].rupture),
-                       5e-4 * wider); /* by whole cells 2e-3 of inlet 20 */
+                       5e-4 * wider); /* the inlet is a whole number of cells: 2e-3 for inlet 20 */
             if (k == INLETS - 1)
                 check_near("pressure number", r.pressure, 2.150942, 2e-3 * wider);
         }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The scales of a record of two rough flanks: distance of peaks, curvature, inlet of an asperity.
- */
+/* Length scales of a record of two rough flanks: distance of peaks, curvature, inlet length of an
+   asperity. */
 #include "../../../plugins/ehl/contact/surface.h"
 
 #include "check.h"
@@ -31,8 +31,8 @@ static ehl_roughness make(void)
     return r;
 }
 
-/* A cos(q x) has the mean square curvature A^2 q^4/2; unequal amplitudes of the flanks add up in
-   squares. A gap h in front of a flank of curvature k is sqrt(2 h/k) long. */
+/* A cos(q x) has the mean square curvature A^2 q^4/2; the mean squares of both flanks add up. The
+   inlet of an asperity of curvature k with gap h is sqrt(2 h/k) long. */
 static void test_waves(void)
 {
     double q = 2 * M_PI / (20 * spacing);
@@ -42,14 +42,14 @@ static void test_waves(void)
     }
     ehl_roughness r = make();
     double exact = 5e-7 * q * q / sqrt(2);
-    /* second differences miss (q dx)^2/12 */
+    /* second differences are smaller by the fraction (q dx)^2/12 */
     check_near("curvature", r.curvature, exact, pow(q * spacing, 2) / 11);
     check_near("inlet of an asperity", ehl_roughness_inlet(&r, 1e-7), sqrt(2e-7 / exact), 1e-2);
     check_near("wavelength", ehl_roughness_wavelength(&r), 20 * spacing, 1e-12);
     ehl_roughness_destroy(&r);
 }
 
-/* The finer flank counts, and low peaks beside high ones. */
+/* The wavelength must be that of the flank with more peaks, counting low peaks beside high ones. */
 static void test_unequal_peaks(void)
 {
     for (size_t i = 0; i < COUNT; i++) {
@@ -57,7 +57,7 @@ static void test_unequal_peaks(void)
         height[1][i] = i % 2 ? 1e-7 * (double)(1 + i % 4) : 0;
     }
     ehl_roughness r = make();
-    /* a peak at either end is none */
+    /* points at both ends are no peaks */
     check_near("every other point", ehl_roughness_wavelength(&r), 2 * spacing, 0.01);
     ehl_roughness_destroy(&r);
 }

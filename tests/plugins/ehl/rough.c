@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rough flanks in the contact: what is conserved, what is held, and flat flanks as the limit. */
+/* Rough flanks in the contact: conserved quantities, balances, and flat flanks as the limit. */
 #include "balance.h"
 #include "check.h"
 #include "flank.h"
@@ -18,8 +18,8 @@ static double mean(const line *c, const char *output)
     return sum / (double)n;
 }
 
-/* The nodes ride with the oil, and the fields are given at places that stand: none of the extremes
-   gets lost between them. */
+/* The nodes move with the oil, but fields are output at fixed points: the extremes must not be lost
+   between these points. */
 static void check_fields(const char *what, const line *c)
 {
     size_t times, all;
@@ -46,7 +46,7 @@ static void check_fields(const char *what, const line *c)
     check_true(name, thin >= 1);
 }
 
-/* A passage and a half at the pitch point. */
+/* Opens a contact at the pitch point, for 1.5 passages of the oil. */
 static void open_rough(line *c, const flank *f, double speed, double slide, size_t cells,
                        size_t steps)
 {
@@ -60,7 +60,8 @@ static void open_rough(line *c, const flank *f, double speed, double slide, size
     flank_give(f, c->film);
 }
 
-/* Largest difference of the share that is told from that of the fields, and of the load. */
+/* Returns the largest difference of the asperities' load fraction, and of the load, from values
+   computed from the fields. */
 static double off_the_fields(const line *c)
 {
     size_t count, n;
@@ -77,7 +78,7 @@ static double off_the_fields(const line *c)
     return worst;
 }
 
-/* The mean share of the asperities. */
+/* Checks a run, and returns the mean load fraction of the asperities. */
 static double test_run(const char *what, double rq, double speed, double slide)
 {
     double share = NAN;
@@ -142,7 +143,8 @@ static void test_refusals(void)
     refused("a period that is not the record's", "surface.period", &f);
 }
 
-/* The waves that the film has are those that 16 of its cells resolve, or as the parameter says. */
+/* The film must contain the waves of at least 16 cells' length, or those that the parameter
+   allows. */
 static void test_cutoff(void)
 {
     const double amplitude = 1e-7, length = 100e-6, cutoffs[] = {0, 150e-6, NAN};
@@ -170,7 +172,7 @@ static void test_cutoff(void)
     }
 }
 
-/* Flank 1 goes 4.6 um in 1 us, and its record ends after a quarter of that. */
+/* Flank 1 moves 4.6 um in 1 us, but its record ends after a quarter of this distance. */
 static void test_short_record(void)
 {
     static flank f;
@@ -186,7 +188,7 @@ static void test_short_record(void)
     line_close(&c);
 }
 
-/* Asperities that would reach the other flank at the ends of the domain move them out. */
+/* The domain must grow if asperities would touch the other flank at its ends. */
 static void test_domain(void)
 {
     static flank f;
@@ -206,10 +208,11 @@ static void test_domain(void)
     check_true("the domain grows with Rq", length[1] > 1.2 * length[0]);
 }
 
-/* At the first instant flanks have run in up to 1.5 a behind the contact, 0.24 mm, and fade out up
-   to 2 a. A crest between both comes closest under a light load: the film is held against the
-   heights that it has there, and what has not run in yet goes on to do so. In the next instant, 4
-   um of way later, a height of 9 um changes by 9 um 1.5 (4/80), and the gap as much or less. */
+/* At the first instant, roughness is applied in full up to 1.5 a (0.24 mm) downstream of the
+   contact, and decreases to 0 at 2 a. Under a light load, a crest between both comes closest to the
+   other flank: the film must fit the reduced height there, and the height must keep growing as the
+   flank moves. At the next instant, 4 um later, a height of 9 um changes by 9 um 1.5 (4/80), and
+   the gap by this much or less. */
 static void test_first_instant(void)
 {
     const double crest = 0.38e-3;
@@ -219,7 +222,7 @@ static void test_first_instant(void)
     f.origin = 0.25e-3 - crest;
     open_rough(&c, &f, 1, 0, 128, 2);
     line_last(&c, 3, 2e-6);
-    c.load[0] *= 0.1; /* the last, the largest, sets a */
+    c.load[0] *= 0.1; /* a follows from the last load, the largest */
     c.load[1] *= 0.1;
     if (check_true("a crest behind a light load", line_run(&c, "x film h_min") == FF_OK)) {
         size_t n, least = 0;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where the film ends: a node that is wet and does not pull, in front of one that is dry and does
-   not gain mass. Where asymmetric volumes of second order have no such end they say so. */
+/* The end of the film must lie between a full node with pressure above 0 and a dry node that gains
+   no mass. If asymmetric volumes of second order have no solution with this property, the run must
+   report it. */
 #include "check.h"
 #include "line.h"
 
@@ -8,11 +9,12 @@
 #include <stdio.h>
 
 typedef struct ends {
-    int films, undecided, silent; /* silent: gains mass, and says nothing */
-    double gain;                  /* largest, over the flow */
+    int films, undecided, silent; /* silent: films whose dry node gains mass without a report */
+    double gain;                  /* largest gain of mass, over the flow */
 } ends;
 
-/* Steady films of loads that grow by a twentieth, so that the end passes through many cells. */
+/* Solves steady films of loads that increase by a twentieth, so that the end of the film lies at
+   many positions in a cell. */
 static ends solve(const char *model, const char *wedge)
 {
     ends out = {0};

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * What asperities carry, and oil that they shut in, is a property of the flanks and the oil: not of
- * the cells and the steps. Without that their share would be worth nothing.
- */
+/* The load of asperities and of the oil enclosed by them must depend on the flanks and the oil, and
+   not on cells and steps. */
 #include "check.h"
 #include "flank.h"
 
@@ -23,7 +21,7 @@ static double mean(const line *c, const char *output)
     return sum / (double)n;
 }
 
-/* 0.6 mm of way at the pitch point, at a hundredth of the nominal speed. */
+/* Runs 0.6 mm of motion at the pitch point, at a hundredth of the nominal speed. */
 static shares run(const flank *f, size_t cells, size_t steps)
 {
     const double speed = 0.01, slide = 0.1;

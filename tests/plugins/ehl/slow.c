@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Histories from a nanosecond to days, on steps that the model chooses: the film is that of equal
- * steps, and, where the contact takes many passages to change, the steady film of each instant;
- * what is short in a long history is not stepped over.
+ * Histories from a nanosecond to days, with steps that the model chooses: the film must be that
+ * of equal steps, and, if the contact changes slowly compared with the passage of the oil, the
+ * steady film of each instant. Short events in a long history must not be skipped.
  *
  *   test-ehl-slow [dense]      dense: against dense-newton on 4000 equal steps, for half an hour
  */
@@ -17,7 +17,7 @@ static const double pi = 3.14159265358979323846;
 
 static const char *const models[] = {"ehl/finite-volume", "ehl/control-volume"};
 
-/* Steel on steel at 2 m/s, 177 N/mm. */
+/* Opens a contact of steel on steel, 2 m/s, 177 N/mm. */
 static void open_slow(line *c, const char *model, size_t count, double duration)
 {
     line_open(c, model);
@@ -30,7 +30,7 @@ static void open_slow(line *c, const char *model, size_t count, double duration)
     stage_set(c->film, "cells", 192);
 }
 
-/* Largest distance from the other run at its own instants. */
+/* Returns the largest difference of an output of run a from run b, at the instants of run a. */
 static double apart(const line *a, const line *b, const char *output)
 {
     size_t n;
@@ -48,14 +48,15 @@ static void ramp(line *c)
     c->load[1] = 180e3;
 }
 
-/* Ten per cent, three times. */
+/* Makes a load that oscillates by 10 %, three times. */
 static void wave(line *c)
 {
     for (size_t i = 0; i < c->count; i++)
         c->load[i] *= 1 + 0.1 * sin(6 * pi * (double)i / (double)(c->count - 1));
 }
 
-/* A rigid contact under 1 N/m, which goes up and down by half. */
+/* Makes a contact so lightly loaded that it stays rigid, 1 N/m, with a load that oscillates by
+   half. */
 static void light(line *c)
 {
     for (size_t i = 0; i < 4; i++)
@@ -85,7 +86,8 @@ static void run(line *c, const char *model, const history *h, size_t cells, size
     check_true("runs", line_run(c, "time h_min p_max") == FF_OK);
 }
 
-/* The film as with equal steps, by each model and by its twin; all of them by `twin` if given. */
+/* Compares the film with that of equal steps, for each model and the model with the same equations,
+   or `twin` if given. */
 static void test_equal_steps(const history *h, size_t cells, size_t steps, const char *twin)
 {
     static const char *const output[] = {"h_min", "p_max"};
@@ -106,7 +108,7 @@ static void test_equal_steps(const history *h, size_t cells, size_t steps, const
     }
 }
 
-/* The film of that load on the same grid, as the last of a history that holds it. */
+/* Runs a history with a constant load on the same grid, whose last film is the steady film. */
 static void rest(line *c, const char *model, double load)
 {
     open_slow(c, model, 2, 1e-3);
@@ -142,7 +144,8 @@ static void test_steady(const char *model, double lasts)
     line_close(&c);
 }
 
-/* Half a second of nearly twice the load in three hours: Hertz' pressure goes with its root. */
+/* A pulse of half a second in three hours, with nearly twice the load: Hertz pressure is
+   proportional to the square root of the load. */
 static void test_pulse(const char *model)
 {
     static const double time[] = {0, 5000, 5000.25, 5000.5, 10000};
@@ -157,7 +160,8 @@ static void test_pulse(const char *model)
     line_close(&c);
 }
 
-/* On the preset cells: on 256 control-volume is off by 0.4 % for them alone. */
+/* Runs on the default number of cells: on 256 cells, ehl/control-volume has a discretisation error
+   of 0.4 %. */
 static void against_dense_newton(void)
 {
     static const history all[] = {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Of which maximum near the outlet the cells may have cut the tip off. */
+/* Which maximum near the outlet may be a pressure spike whose tip the cells do not resolve. */
 #include "check.h"
 #include "stage.h"
 
@@ -11,10 +11,10 @@
 
 enum { NODES = 257 };
 
-static const double modulus = 226e9, cells = 80; /* over a */
+static const double modulus = 226e9, cells = 80; /* cells in the half-width a */
 
-/* The error of p_max that is stated of a crest at x = 0.6 a, with a tip of that share on one node.
- */
+/* Returns the spike found, and the stated error of p_max, for a crest at x = 0.6 a with a relative
+   tip height on one node. */
 static ehl_spike look_at(const ehl_laws *laws, double tip, double *error)
 {
     const ehl_instant at = {.radius = 0.0128, .entrainment = 4, .load = 1e5};

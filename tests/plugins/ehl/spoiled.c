@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The balances of a film are small, and each spoiled film shows in the one that is to find it. */
+/* The residuals of a film's balances must be small, and each error in a film must increase the
+   residual meant to detect it. */
 #include "check.h"
 #include "stage.h"
 
@@ -70,7 +71,7 @@ static void destroy(scene *s)
     free(s->kernel);
 }
 
-/* Holds the film as it stands, with the gap that its state has. */
+/* Computes the residuals of the film, with the gap of its state. */
 static const ehl_imbalance *hold(scene *s)
 {
     ehl_balance_destroy(&s->balance);
@@ -86,7 +87,7 @@ static double largest(const ehl_imbalance *w)
                 fmax(fmax(w->cavitated, w->energy), w->moment));
 }
 
-/* A factor on one number, its balance by then, and back. */
+/* Multiplies a number by a factor, checks the residual, and restores the number. */
 static void spoil(scene *s, const char *what, double *value, double factor, const double *figure)
 {
     double kept = *value;
@@ -130,7 +131,7 @@ static void test_spoiled(scene *s)
     check_below("and sound again", largest(hold(s)), 1e-7);
 }
 
-/* One number that is none. */
+/* One number of the film is NaN. */
 static void test_no_number(scene *s)
 {
     static double row[EHL_SERIES];
@@ -152,7 +153,7 @@ static void test_no_number(scene *s)
     check_below("and sound again", largest(hold(s)), 1e-7);
 }
 
-/* A film that loses its pressure: what the film before left of the energy is not its own. */
+/* A film that loses its pressure: residuals of the energy from the film before must not remain. */
 static void test_no_pressure(scene *s)
 {
     ehl_march *m = &s->march;
@@ -166,7 +167,8 @@ static void test_no_pressure(scene *s)
     memcpy(p, kept, sizeof kept);
 }
 
-/* The oil that comes and goes over the steps to the end; some of it lost at each. */
+/* Returns the residual of the mass balance over all steps, with a fraction of the oil lost in
+   each. */
 static double lost(scene *s, double share)
 {
     ehl_march *m = &s->march;
@@ -181,7 +183,7 @@ static double lost(scene *s, double share)
     return s->balance.worst.history;
 }
 
-/* The row of outputs, one of them off. */
+/* A row of outputs, one of them wrong. */
 static void test_outputs(scene *s)
 {
     static double row[EHL_SERIES];

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Contacts that start, stop, turn round or jump: what no entrainment carries is squeezed. */
+/* Contacts that start, stop, reverse, or get a sudden load: films without entrainment are
+   squeezed. */
 #include "check.h"
 #include "line.h"
 
@@ -29,10 +30,9 @@ static void runs(line *c, const char *outputs)
     check_true(status == FF_OK ? "runs" : stage_why(c->film), status == FF_OK);
 }
 
-/*
- * A rigid cylinder of radius R that sinks on a plane through an oil of constant viscosity: p =
- * 6 eta V R/h^2, and under the load w per width h(t)^-1/2 = h(0)^-1/2 + w t/(6 pi eta R sqrt(2 R)).
- */
+/* A rigid cylinder of radius R sinks towards a plane through an oil of constant viscosity at speed
+   V: p = 6 eta V R/h^2, and under the load w per width h(t)^-1/2 = h(0)^-1/2 + w t/(6 pi eta R
+   sqrt(2 R)). */
 static double sunk(const line *c, double gap, double load, double time)
 {
     double R = c->radius[0];
@@ -54,7 +54,8 @@ static void test_cylinder(const char *model)
     c.load[0] = 0;
     c.load[1] = c.load[2] = load;
     runs(&c, "time h_min load_error");
-    double within = 3e-3 * (strstr(model, "dense") ? 16 : 1); /* the cells, of the second order */
+    double within = 3e-3 * (strstr(model, "dense") ? 16 : 1); /* discretisation error, of second
+                                                                 order */
     for (int k = 1; k <= TIMES; k++) {
         double t = end * k / TIMES;
         snprintf(text, sizeof text, "%s: film of a sinking cylinder at %.3g s", model, t);
@@ -63,7 +64,8 @@ static void test_cylinder(const char *model)
     line_close(&c);
 }
 
-/* Turned round the contact is its mirror image, and ends with the steady film of the other way. */
+/* Reversed motion must give the mirror image, and end with the steady film of the reversed
+   direction. */
 static void test_reversal(const char *model)
 {
     const double time[4] = {0, 1e-4, 2e-4, 8e-4}, there[4] = {2, 2, -2, -2},
@@ -96,7 +98,7 @@ static void test_reversal(const char *model)
     line_close(&b);
 }
 
-/* Stops under load, stands and goes on. */
+/* The flanks stop under load, rest, and move again. */
 static void test_stop(const char *model)
 {
     const double time[5] = {0, 2e-4, 1e-3, 1.2e-3, 2e-3}, speed[5] = {2, 0, 0, 2, 2};
@@ -111,7 +113,8 @@ static void test_stop(const char *model)
     line_close(&c);
 }
 
-/* From rest the film of a creep stands in, and a line says until when. */
+/* If the flanks start from rest, the film of a very low speed replaces the first film, and a
+   quality line reports for how long. */
 static void test_start(const char *model)
 {
     const double time[3] = {0, 1e-3, 2e-3}, speed[3] = {0, 2, 2}, steady[3] = {2, 2, 2};
@@ -131,7 +134,8 @@ static void test_start(const char *model)
     line_close(&b);
 }
 
-/* Two rows at the first time: the film of the first, then a jump, as after a nanosecond. */
+/* With two rows at the first time, the film must begin with the first row and jump to the second,
+   as if it were a nanosecond later. */
 static void test_jump_at_the_start(const char *model)
 {
     enum { TIMES = 20 };
@@ -152,7 +156,7 @@ static void test_jump_at_the_start(const char *model)
     line_close(&b);
 }
 
-/* A domain that ends in the film says so, and one that ends behind it does not. */
+/* A domain that ends inside the film must be reported, one that ends beyond it must not. */
 static void test_outlet(const char *model)
 {
     static const double outlet[] = {0.95, 1.02, 1.3};
@@ -174,7 +178,7 @@ int main(void)
     for (size_t k = 0; k < sizeof models / sizeof models[0]; k++) {
         test_cylinder(models[k]);
         test_outlet(models[k]);
-        if (strstr(models[k], "dense")) /* too slow on cells that resolve the others */
+        if (strstr(models[k], "dense")) /* ehl/dense-newton takes too long on as many cells */
             continue;
         test_reversal(models[k]);
         test_stop(models[k]);

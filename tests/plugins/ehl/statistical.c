@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * The film between statistical flanks: a table of a solver of its own on 1001 nodes, and the limits
- * in which the film is known, at W 1e-4, U 1e-11, G 4500.
- */
+/* Films between statistical flanks at W 1e-4, U 1e-11, G 4500: compares them with a table by an
+   independent solver on 1001 nodes, and with limits in which the film is known. */
 #include "check.h"
 #include "stage.h"
 
@@ -126,7 +124,8 @@ static void test_limits(void)
     close_scene(&fine);
 }
 
-/* The slower, the more the asperities carry: in the end all of it, with the pressure of Hertz. */
+/* The lower the speed, the more load the asperities must carry, finally all of it, with Hertz's
+   pressure. */
 static void test_speeds(void)
 {
     const double hertz = sqrt(load * 230e9 / (2 * 3.14159265358979323846 * 0.01));
@@ -146,7 +145,8 @@ static void test_speeds(void)
     }
 }
 
-/* Friction by hand, the mirror, and what the entrainment does against what is dissipated. */
+/* Friction computed here, reversed motion, and the work of the entrainment against the
+   dissipation. */
 static void test_sliding(void)
 {
     double traction[3], share = 0;
@@ -167,7 +167,7 @@ static void test_sliding(void)
     check_near("turned round", traction[2], traction[1], 1e-6);
 }
 
-/* Soft summits carry less, and never more than their hardness. */
+/* Soft summits must carry less load, and no pressure above their hardness. */
 static void test_hardness(void)
 {
     double share[2];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Time steps that the model chooses: what they cost, how far they are off, and what they say of it.
- */
+/* Time steps that the model chooses: their number, their errors, and the errors that the model
+   states. */
 #include "balance.h"
 #include "check.h"
 
@@ -8,14 +8,15 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *model; /* each in turn */
+static const char *model; /* the model that is tested */
 
-/* Of deflections of some 6 um in films of 0.1 um, summed over 256 cells. */
+/* Rounding errors of deflections of about 6 um, summed over 256 cells, in films of 0.1 um. */
 static const double rounding = 1e-10;
 
 enum { RAMPS = 9 };
 
-/* The load doubles and halves within ramps of 20 us, as where the pairs in contact change. */
+/* Makes a load that doubles and halves in ramps of 20 us, as at changes of the number of pairs in
+   contact. */
 static void ramps(line *c, size_t cells)
 {
     static const double time[RAMPS] = {0, 150, 170, 300, 400, 500, 520, 650, 700};
@@ -38,7 +39,7 @@ static void own_steps(line *c, const char *tolerance)
     stage_set_text(c->film, "time_tolerance", tolerance);
 }
 
-/* Linear between the results of run `c`. */
+/* Returns the film at a time, linearly interpolated between the results of run `c`. */
 static double film_at(const line *c, const char *film, double time)
 {
     size_t n, k = 1;
@@ -49,7 +50,7 @@ static double film_at(const line *c, const char *film, double time)
 }
 
 typedef struct figures {
-    double error, claimed, bare; /* of a film; bare: the error where it beats the estimate */
+    double error, claimed, bare; /* of a film; bare: the error where it exceeds the estimate */
     size_t steps;
 } figures;
 
@@ -102,15 +103,15 @@ static void test_accuracy(void)
     }
     check_below("error of h_min with the preset", f[1].error, 5e-3);
     check_true("few steps", f[1].steps < 800);
-    /* control-volume carries the short waves of the kinks on undamped: a quarter of a per cent of
-       the film on this grid, however short the steps */
+    /* ehl/control-volume does not damp the short waves that kinks of the load cause: 0.25 % of the
+       film on this grid, with steps of any length */
     double floor = strcmp(model, "ehl/control-volume") == 0 ? 2.5e-3 : 0;
     check_true("falls with the tolerance",
                f[2].error < fmax(f[1].error, floor) && f[1].error < f[0].error);
     line_close(&exact);
 }
 
-/* Every sharp kink of the load is a time of the results. */
+/* The results must have an instant at every sharp kink of the load. */
 static void test_landing(void)
 {
     static line c;
@@ -127,7 +128,7 @@ static void test_landing(void)
     line_close(&c);
 }
 
-/* A load that jumps in no time is balanced just before and just after. */
+/* At a jump, the film must carry the load just before it and just after it. */
 static void test_jump(void)
 {
     static line c;
@@ -152,7 +153,7 @@ static void test_jump(void)
     line_close(&c);
 }
 
-/* A load that vibrates by a fifth of itself, twice in the history. */
+/* Makes a load that oscillates by a fifth, with two periods in the history. */
 static void vibrating(line *c)
 {
     enum { ROWS = 321 };
@@ -163,8 +164,9 @@ static void vibrating(line *c)
     stage_set(c->film, "cells", 256);
 }
 
-/* The outlet sways with the load. Truncation errors are largest there, but the oil leaves the
-   outlet at once: if they counted for a whole passage the steps would be half as long. */
+/* The outlet moves to and fro with the load. Truncation errors are largest there, but the oil
+   leaves the contact at once: if they counted for a whole passage of the oil, the steps would be
+   half as long. */
 static void test_swaying_outlet(void)
 {
     line exact, c;
@@ -181,13 +183,12 @@ static void test_swaying_outlet(void)
     line_close(&exact);
 }
 
-/*
- * The beginning of an engagement of FZG C-PT at 302 N m and 2250 rpm with VG 100 at 90 degC. What
- * the solver leaves of the flow enters the truncation by the more the shorter the step is. If that
- * is above what a step may have, the solver must leave less, or all steps are the shortest ones:
- * 12 760 instants with heat on 256 cells. On 512 cells the errors of these steps scatter about the
- * allowed one: 1980 instants if only those in a row count.
- */
+/* The beginning of an engagement of FZG C-PT gears at 302 N m and 2250 rpm, with VG 100 oil at 90
+   degC. The residual of the solver increases the estimated truncation error, the more the shorter
+   the step is. If its part exceeds the allowed error of a step, the solver must converge further;
+   otherwise all steps would be of the shortest length: 12 760 instants with heat on 256 cells. On
+   512 cells, the errors of these steps scatter about the allowed error: 1980 instants if only such
+   steps in succession counted. */
 static void test_error_of_solver(void)
 {
     enum { ROWS = 19 };
@@ -196,7 +197,7 @@ static void test_error_of_solver(void)
                                       216906, 240360, 266161, 292232, 316490};
     static const struct run {
         const char *thermal;
-        double cells, most; /* most: instants */
+        double cells, most; /* most: largest number of instants */
     } runs[] = {{"none", 256, 800}, {"full", 256, 800}, {"full", 512, 800}};
     for (size_t k = 0; k < sizeof runs / sizeof runs[0]; k++) {
         line c;

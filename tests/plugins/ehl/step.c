@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * The error by the time steps that is stated after a step of the load, against a film of ten times
- * the steps: as large as the error where its front passes, and gone with it. (It was 4 % long after
- * the front, where the film was right to 0.02 %.)
- */
+/* The stated error due to the time steps, after a sudden change of the load, against a film with
+   ten times as many steps: it must be as large as the true error where the front of the new film
+   passes, and vanish after it. (It was once 4 % long after the front, with a true error of 0.02
+   %.) */
 #include "check.h"
 #include "line.h"
 
@@ -12,7 +11,8 @@
 
 enum { WINDOWS = 12, FINER = 10 };
 
-static const double span = 300e-6, jump = 100e-6, window = 16e-6; /* s; a passage takes 78 us */
+static const double span = 300e-6, jump = 100e-6, window = 16e-6; /* s; the oil passes the contact
+                                                                     in 78 us */
 
 static void solve(line *c, double ratio, double steps)
 {
@@ -23,11 +23,13 @@ static void solve(line *c, double ratio, double steps)
     for (int k = 0; k < 4; k++)
         c->load[k] = (k < 2) == (ratio > 1) ? load / fmax(ratio, 1 / ratio) : load;
     stage_set(c->film, "steps", steps);
-    stage_set(c->film, "cells", 512); /* what they add is a tenth of what is compared */
+    stage_set(c->film, "cells", 512); /* the discretisation error is a tenth of the errors
+                                         compared */
     check_true("runs", line_run(c, "h_min h_central h_min_error h_central_error time") == FF_OK);
 }
 
-/* Largest true error and largest time part of the one stated, in each window behind the jump. */
+/* The largest true error, and the largest stated error due to the steps, in each window after the
+   jump. */
 typedef struct errors {
     double off[WINDOWS], stated[WINDOWS], most, most_stated;
 } errors;
@@ -39,7 +41,7 @@ static errors compare(const line *coarse, const line *fine, const char *film, co
     const double *t = stage_get(coarse->film, "time", &n), *s = stage_get(fine->film, "time", &m);
     const double *h = stage_get(coarse->film, film, NULL), *g = stage_get(fine->film, film, NULL);
     const double *stated = stage_get(coarse->film, error, NULL),
-                 *by_cells = stage_get(fine->film, error, NULL); /* ten times the steps */
+                 *by_cells = stage_get(fine->film, error, NULL); /* with ten times the steps */
     for (size_t i = 0; i < n; i++) {
         while (at + 1 < m && s[at] < t[i] - 1e-12)
             at++;
@@ -62,7 +64,7 @@ static void judge(const char *what, const errors *e)
     printf("\n");
     check_below("largest error", e->most, 3 * e->most_stated);
     check_below("largest stated", e->most_stated, 3 * e->most);
-    for (int k = 7; k < WINDOWS; k++) /* the front has left */
+    for (int k = 7; k < WINDOWS; k++) /* after the front has left */
         check_below("long after", e->stated[k], 0.1 * e->most);
 }
 

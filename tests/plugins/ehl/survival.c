@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Every model far from any contact that it was made for: it gives finite films with an honest
- * quality record, or stops with a reason. Never a number that is none, never without end.
+ * Every model far outside its range: it must give finite films with a correct quality record, or
+ * stop with a reason. It must not give NaN or run for ever.
  *
  *   test-ehl-survival [long]      long: 8193 cells and 1e5 steps
  */
@@ -20,8 +20,8 @@ static void name(char *text, size_t size, const film_model *m, const char *what,
              status == FF_OK ? "finite" : stage_why(c->film));
 }
 
-/* The film carries the load on flanks that are bent by its pressure, and what is too thin or
-   unresolved is said. */
+/* Whether the film satisfies its balances, and the quality record reports unresolved or too thin
+   films. */
 static int is_honest(const film_model *m, const line *c)
 {
     size_t n;
@@ -33,7 +33,7 @@ static int is_honest(const film_model *m, const line *c)
     }
     int thin = lowest < 1e-9, doubtful = stage_verdict(c->film) == FF_DOUBTFUL;
     if (isinf(error) && !(doubtful && isnan(stage_quality(c->film, "h_min_space_error"))))
-        return 0; /* what is not known is said */
+        return 0; /* an unknown value is not reported */
     if (thin && !(stage_quality(c->film, "continuum") < 1e-9))
         return 0;
     if (m->solves && !(balance_of_instants(c, 20) < 1e-6)) /* a tenth of the tolerance */
@@ -41,12 +41,13 @@ static int is_honest(const film_model *m, const line *c)
     return doubtful || (!thin && (!m->solves || error < 0.1));
 }
 
-static size_t stops; /* of the model */
+static size_t stops; /* runs of the model that stopped */
 
-/* What they are, and two more for other processors. */
+/* Largest number of runs that may stop, per model: the number found, and two more for other
+   processors. */
 static const double most_stops[FILM_MODELS] = {0, 0, 24, 16, 27};
 
-/* may_stop: the case lies beyond what the equations on that grid have a solution for. */
+/* may_stop: the equations need have no solution on this grid. */
 static void survive(const film_model *m, line *c, const char *what, int may_stop)
 {
     char text[400];
@@ -163,7 +164,7 @@ static void test_steps(const film_model *m, size_t most)
     }
 }
 
-/* The contact is lost for 100 us and the flanks meet again at 1 m/s. */
+/* The flanks separate for 100 us, then touch again at 1 m/s. */
 static void test_impact(const film_model *m)
 {
     line c;

@@ -17,7 +17,7 @@ typedef struct row {
     double M, L; /* L = 0: isoviscous */
     char law;    /* c: compressible Roelands, i: incompressible, B: incompressible Barus */
     int always;
-    double inlet, outlet, h_central, within; /* within: of the solution on 1024 cells */
+    double inlet, outlet, h_central, within; /* within: tolerance for 1024 cells */
 } row;
 
 static const row rows[] = {
@@ -33,7 +33,7 @@ static const row rows[] = {
 
 enum { ROWS = sizeof rows / sizeof rows[0] };
 
-/* Moes 2000, incompressible. */
+/* Returns the film by Moes 2000, for an incompressible oil. */
 static double moes(double M, double L)
 {
     double ri = 3 / M, ei = 2.621 * pow(M, -0.2), rp = 1.287 * pow(L, 2. / 3),
@@ -44,7 +44,7 @@ static double moes(double M, double L)
 }
 
 typedef struct result {
-    double central, least; /* in Moes' scale */
+    double central, least; /* in Moes' dimensionless form */
     double density;        /* rho/rho0 at x = 0 */
     double error;          /* h_min_error over h_min */
     double resolved;       /* cells over the inlet's pressure rise */
@@ -58,7 +58,7 @@ static double cells_of_inlet(const line *c, double h_central, double dx)
     return fmin(l, sqrt(2 * R * h_central)) / dx;
 }
 
-/* wedge: NULL for the models without one. */
+/* wedge: value of this parameter, or NULL if the model does not have it. */
 static result solve(const film_model *m, const row *r, size_t cells, const char *wedge)
 {
     line c;
@@ -108,8 +108,7 @@ static int is_dense(const film_model *m)
     return strstr(m->name, "dense") != NULL;
 }
 
-/* dense-newton on 1024 cells takes too long for every day: on 256 it must be what finite-volume
-   is there. */
+/* ehl/dense-newton takes too long on 1024 cells: it must agree with ehl/finite-volume on 256. */
 static void test_row(const film_model *m, const row *r)
 {
     char text[96];
@@ -125,7 +124,8 @@ static void test_row(const film_model *m, const row *r)
         check_near("consistent with Moes", fine.density * fine.central, moes(r->M, r->L), 0.025);
 }
 
-/* Errors on three grids of which the coarsest resolves the inlet. */
+/* The order of convergence, from errors on three grids, of which the coarsest resolves the
+   inlet. */
 static void test_order(const film_model *m, const row *r, const char *wedge, double low,
                        double high)
 {
@@ -147,7 +147,7 @@ static void test_order(const film_model *m, const row *r, const char *wedge, dou
     check_true(text, ratio > low && ratio < high);
 }
 
-/* The error of h_min that a coarse grid states covers its distance from a fine one. */
+/* The stated error of h_min on a coarse grid must be at least the difference to a fine grid. */
 static void test_estimate(const film_model *m, const row *r)
 {
     char text[120];

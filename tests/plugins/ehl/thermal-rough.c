@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* thermal: full of rough flanks, whose nodes move with the oil and whose asperities heat them. */
+/* `thermal: full` between rough flanks, where nodes move with the oil and asperities heat the
+   flanks. */
 #include "check.h"
 #include "flank.h"
 #include "line.h"
@@ -34,7 +35,7 @@ typedef struct values {
     double h, friction, hottest, flash;
 } values;
 
-/* Flanks without height are solved for as rough ones, from node to moving node in time. */
+/* Runs flanks of zero roughness height with the method for rough flanks, with moving nodes. */
 static values film_of(size_t cells, double slip, int moving)
 {
     static flank f;
@@ -52,7 +53,7 @@ static values film_of(size_t cells, double slip, int moving)
     return v;
 }
 
-/* The film of standing nodes is its twin. */
+/* Moving nodes must give the film of nodes at rest. */
 static void test_moving_nodes(double slip)
 {
     values stands = film_of(256, slip, 0), moves = film_of(256, slip, 1);
@@ -62,9 +63,9 @@ static void test_moving_nodes(double slip)
     check_near("flash", moves.flash, stands.flash, 1e-2);
 }
 
-/* Highest temperature of flanks under q (1 - x^2/a^2)^(1/2) that enters both of them at one
-   temperature: q sqrt(a/pi)/(B1 sqrt(u1) + B2 sqrt(u2)) times the largest of
-   int (1 - y^2)^(1/2) (x - y)^(-1/2) dy over -1 < y < x. */
+/* Returns the highest temperature of two flanks of equal temperature under the heat flux q (1 -
+   x^2/a^2)^(1/2): q sqrt(a/pi)/(B1 sqrt(u1) + B2 sqrt(u2)) times the largest int (1 - y^2)^(1/2) (x
+   - y)^(-1/2) dy over -1 < y < x. */
 static double hertzian_flash(double q, double a, const double B[2], double u1, double u2)
 {
     enum { PLACES = 200, CUTS = 400 };
@@ -80,9 +81,9 @@ static double hertzian_flash(double q, double a, const double B[2], double u1, d
     return q * sqrt(a / pi) * most / (B[0] * sqrt(u1) + B[1] * sqrt(u2));
 }
 
-/* Slow flanks, and a contact film that is thicker than any film of oil: the asperities carry
- * Hertz's pressure. The flanks are those of the gears, of which the second conducts less, or the
- * steel of no gear. */
+/* Slow flanks in contact at asperities, with a film thinner than the contact film: the asperities
+   carry Hertz's pressure. The flanks are those of gears, the second with less conductivity, or
+   default steel. */
 static void test_asperities(double slip, bool gears)
 {
     const double mu = 0.1, steel = sqrt(50. * 7850 * 484), bronze = sqrt(12. * 8800 * 380);
@@ -120,7 +121,7 @@ static void test_asperities(double slip, bool gears)
     line_close(&c);
 }
 
-/* Contact of asperities and film side by side. */
+/* Asperity contact and oil film beside each other. */
 static void test_mixed(void)
 {
     static flank f;
@@ -139,8 +140,9 @@ static void test_mixed(void)
     line_close(&c);
 }
 
-/* Ground flanks in thin and slow oil of ISO VG 100, which flows forth beside one flank and back
-   beside the other along the nodes: whole sweeps of the temperatures go away from them. */
+/* Ground flanks in thin and slow oil of ISO VG 100, which flows forwards along one flank and
+   backwards along the other relative to the nodes: undamped sweeps of the temperature iteration
+   diverge. */
 static void test_sweeps(unsigned seed, size_t cells, double most)
 {
     static flank f;
@@ -160,8 +162,8 @@ static void test_sweeps(unsigned seed, size_t cells, double most)
     line_close(&c);
 }
 
-/* With that much heat a steady film is not found from the guess, and settling ends by chance. It is
-   found from the one without heat. */
+/* With so much heat, the iteration does not converge to a steady film from the first guess, but
+   from the film without heat. */
 static void test_start(void)
 {
     static flank f;
@@ -188,9 +190,9 @@ int main(void)
     test_asperities(-1.2, false);
     test_asperities(-1.2, true);
     test_mixed();
-    /* It takes 833 and 1687 Newton steps; where temperatures that come to no rest take whole sweeps
-       2960, and there is no second film. Rounding decides which of them come to rest: the bounds
-       are 1.5 times as many and more, and below half of what lost rounds cost. */
+    /* The runs take 833 and 1687 Newton steps. With undamped sweeps, the first would take 2960, and
+       the second have no film. Since rounding decides which temperatures converge, the limits are
+       at least 1.5 times as many steps, and below half of those of failed iterations. */
     test_sweeps(2, 64, 1400);
     test_sweeps(1, 128, 2600);
     test_start();

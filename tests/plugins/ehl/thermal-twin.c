@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * The temperatures of a steady film of a Newtonian oil, solved for a second time from its pressure
- * and gap alone: equal distances across and a tridiagonal system per column, the shear stress by
- * trapezoids, and the flanks by the sum of all that they have taken up so far.
- */
+/* Solves the temperatures of a steady film of a Newtonian oil again, from its pressure and gap:
+   with equal distances across the film and a tridiagonal system per column, the shear stress by the
+   trapezoidal rule, and the flanks' temperature from the heat of all nodes upstream. */
 #include "check.h"
 
 #include "line.h"
@@ -32,7 +30,7 @@ static double slope_of(const twin *t, size_t i)
     return (t->p[i + 1] - t->p[i - 1]) / (2 * t->dx);
 }
 
-/* Velocity, flow of mass and heat of shear and compression of column i. */
+/* Computes velocity, mass flow, and heat of shear and compression in column i. */
 static void shear_column(twin *t, size_t i)
 {
     const double dz = 1. / ACROSS, h = t->h[i], p_x = slope_of(t, i);
@@ -59,7 +57,7 @@ static void shear_column(twin *t, size_t i)
     }
 }
 
-/* Transverse flow of mass from the balance along x, 0 at both flanks. */
+/* Computes the mass flow across the film from the mass balance; 0 at both flanks. */
 static void transverse(const twin *t, size_t i, double *w)
 {
     const double dz = 1. / ACROSS;
@@ -76,8 +74,9 @@ static void transverse(const twin *t, size_t i, double *w)
         w[j] -= (double)j * dz * open;
 }
 
-/* T - T_oil of flank g at node i by the flux before it, that is linear between the nodes, and, in
- *own, what the flux at i adds per W/m2: the integral of (x - xi)^(-1/2) cell by cell. */
+/* Returns T - T_oil of flank g at node i due to the heat flux upstream, linear between the nodes;
+   *own: additional temperature per W/m2 of flux at i. Integrates (x - xi)^(-1/2) exactly in each
+   cell. */
 static double flank(const twin *t, size_t g, size_t i, double *own)
 {
     double sum = 0, scale = sqrt(t->dx / (pi * t->u[g])) / t->B;
@@ -134,7 +133,7 @@ static double mean_of(const twin *t, size_t i)
     return sum;
 }
 
-/* Mass that passes column i, kg/(m s). */
+/* Returns the mass flow through column i, kg/(m s). */
 static double passing(const twin *t, size_t i)
 {
     double sum = 0;

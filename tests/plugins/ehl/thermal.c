@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* thermal: full, whole films. */
+/* `thermal: full` in complete films. */
 #include "check.h"
 
 #include "line.h"
@@ -9,7 +9,8 @@
 
 static const double T_oil = 333.15;
 
-/* 0.09 Pa s at 2 m/s and 30 % of slip: flashes of some kelvins, 15 K at mid-film. */
+/* Opens a contact with 0.09 Pa s, 2 m/s and slide-roll ratio 0.3: flash temperatures of a few
+   kelvins, 15 K in the middle of the film. */
 static void open_model(line *c, const char *id, double cells, double slip)
 {
     line_open(c, id);
@@ -30,7 +31,8 @@ static void open_hot(line *c, double cells, double slip)
 static const char hot_outputs[] = "h_min h_central p_max power_loss friction_coefficient "
                                   "temperature_max flash_temperature film pressure temperature x";
 
-/* Laws that know no temperature, and a Newtonian oil: the film of thermal: none. */
+/* With oil laws that do not depend on temperature, and a Newtonian oil, the film must be that of
+   `thermal: none`. */
 static void test_without_slope(void)
 {
     double of[2][3];
@@ -80,7 +82,8 @@ static values steady(double cells, double across, double slip, double tau0)
     return v;
 }
 
-/* The error across falls exponentially, and along x with the square of the cells. */
+/* The error must decrease exponentially with the number of nodes across, and along x with the
+   square of the cell size. */
 static void test_orders(void)
 {
     values few = steady(256, 6, 0.3, 5e6), some = steady(256, 8, 0.3, 5e6),
@@ -98,8 +101,8 @@ static void test_orders(void)
     check_below("heat by other sums", finest.flanks, 1e-2);
 }
 
-/* Volumes around the nodes and volumes between them: the films differ by errors of the cells,
-   friction of second order. */
+/* Control volumes around the nodes and between them: the films must differ by the discretisation
+   error only, friction by an error of second order. */
 static void test_discretisations(void)
 {
     const char *id[] = {"ehl/finite-volume", "ehl/control-volume"};
@@ -122,8 +125,8 @@ static void test_discretisations(void)
                fabs(friction[1][0] - friction[0][0]) > 3 * fabs(friction[1][1] - friction[0][1]));
 }
 
-/* Friction of a steady film whose oil conducts so; pressure: NULL, or the oil's conductivity over
- * it. */
+/* Returns the friction of a steady film with a thermal conductivity of the oil; pressure: NULL, or
+   a table of the conductivity over pressure. */
 static double friction_of(double conductivity, const char *pressure)
 {
     line c;
@@ -145,7 +148,8 @@ static double friction_of(double conductivity, const char *pressure)
     return friction;
 }
 
-/* An oil that conducts twice as well from some 10 MPa on is one that does so at any pressure. */
+/* Twice the conductivity above about 10 MPa must give the friction of twice the conductivity at any
+   pressure. */
 static void test_conductivity(void)
 {
     double plain = friction_of(0.14, NULL), twice = friction_of(0.28, NULL);
@@ -155,7 +159,7 @@ static void test_conductivity(void)
     check_true("that of a paraffinic oil lies between", paraffinic > plain && paraffinic < twice);
 }
 
-/* Constant conditions in time keep the steady film, its heat and its flanks. */
+/* Under constant conditions, film, heat and flank temperatures must stay steady. */
 static void test_time(const char *id)
 {
     line c;
@@ -171,7 +175,7 @@ static void test_time(const char *id)
     line_close(&c);
 }
 
-/* What is left at the end of a smooth change of load and speeds, by its steps. */
+/* Returns the film after a smooth change of load and speeds, for a number of steps. */
 static values after_change(double steps)
 {
     const double pi = 3.14159265358979323846;
@@ -196,7 +200,8 @@ static values after_change(double steps)
     return v;
 }
 
-/* Second order in time: a factor of four, of which three must be there. */
+/* Twice as many steps must reduce the error to a third at most; second order would give a
+   quarter. */
 static void test_order_in_time(void)
 {
     values few = after_change(40), some = after_change(80), many = after_change(160);
@@ -207,8 +212,8 @@ static void test_order_in_time(void)
     check_true("flash", fabs(few.flash - some.flash) > 3 * fabs(some.flash - many.flash));
 }
 
-/* A thin film at 0.2 m/s under a load that swings, in steps of several cells: all heat leaves by
-   conduction, so that temperatures which are off by little leave much of it. */
+/* A thin film at 0.2 m/s under an oscillating load, with steps of several cells: all heat leaves by
+   conduction, so that small errors of temperature are large errors of the heat balance. */
 static void test_slow_in_time(void)
 {
     const double pi = 3.14159265358979323846;
@@ -229,7 +234,8 @@ static void test_slow_in_time(void)
     line_close(&c);
 }
 
-/* An oil known up to 423.15 K, that enters a kelvin below and is beyond it in the film. */
+/* An oil with data up to 423.15 K, which enters at a kelvin less and becomes hotter than that in
+   the film. */
 static void test_law_range(void)
 {
     line c;
@@ -240,8 +246,8 @@ static void test_law_range(void)
     line_close(&c);
 }
 
-/* One layer across the film takes all of the shear: solutions with factors held go away from this
-   film, however small a share of their change they take. */
+/* A thin layer of the film takes all the shear: iterations with fixed mean viscosities diverge from
+   this film, even with strong damping. */
 static void test_localised_shear(void)
 {
     line c;
@@ -260,7 +266,7 @@ static void test_localised_shear(void)
     line_close(&c);
 }
 
-/* Too few cells for a film, with heat or without: heat is not blamed. */
+/* Too few cells for any film: the message must not name heat as the reason. */
 static void test_too_coarse(void)
 {
     line c;
@@ -274,7 +280,7 @@ static void test_too_coarse(void)
     line_close(&c);
 }
 
-/* The slower flank conducts less: it is the other one along which heat spreads first. */
+/* The slower flank conducts less: conduction along the flank matters first in the other flank. */
 static void test_flank_peclet(void)
 {
     line c;

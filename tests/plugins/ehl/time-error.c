@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Errors of p_max by the time steps: of a film that is off by a known pressure, of extremes that
-   lie between instants, and of whole runs against much shorter steps. */
+/* Errors of p_max due to the time steps: for a film with a known error of pressure, for extremes
+   between instants, and for whole runs compared with much shorter steps. */
 #include "check.h"
 #include "line.h"
 
@@ -9,8 +9,9 @@
 #include <math.h>
 #include <stdio.h>
 
-/* The pressure P T_n(x/a) (1 - x^2/a^2)^(-1/2) has no load, and deflects both half-planes by
-   4 a P/(n E') T_n: the logarithm's integral equation, T_n being Chebyshev's polynomial. */
+/* The pressure P T_n(x/a) (1 - x^2/a^2)^(-1/2), with Chebyshev's polynomial T_n, has no load and
+   deflects both half-planes by 4 a P/(n E') T_n, from the integral equation with a logarithmic
+   kernel. */
 static void test_chebyshev(int n)
 {
     enum { NODES = 385 };
@@ -30,11 +31,12 @@ static void test_chebyshev(int n)
     }
 }
 
-/* Instants of a function, at unequal distances, and of two engagements. */
+/* Unequally spaced instants of a function, in two engagements. */
 static const double time_of[] = {0, 0.3, 0.4, 0.9, 1.2, 0, 0.5};
 enum { INSTANTS = sizeof time_of / sizeof time_of[0] };
 
-/* What the highest value between them is said to be beyond their highest, in its own unit. */
+/* Returns the estimated difference of the maximum between instants from the largest value at an
+   instant. */
 static double beyond(double (*y)(double), double way)
 {
     double data[INSTANTS * EHL_SERIES] = {0}, extreme = -HUGE_VAL;
@@ -54,8 +56,8 @@ static double parabola(double t)
     return -(t - 0.55) * (t - 0.55);
 }
 
-/* The third instant is the last one before the drop: a parabola through it and its neighbours is
-   0.8 % of the drop higher. */
+/* The third instant is the last before the drop: a parabola through it and its neighbours is higher
+   by 0.8 % of the drop. */
 static double drop(double t)
 {
     return 0.01 * t - (t > 0.4);
@@ -73,8 +75,9 @@ static void test_between(double way)
     check_below("a break of slope is highest at its instant", beyond(turn, way), 1e-15);
 }
 
-/* The load of a pair of teeth beside another one, and alone in the middle: the film of either break
-   of the load is carried through the contact, and the pressure bears it. */
+/* Runs the load of a tooth pair, which carries alone in the middle of its engagement and shares the
+   load before and after: both jumps of the load change the film, which the oil carries through the
+   contact, and with it the pressure. */
 static double run(double steps, double *said)
 {
     static line c;
@@ -92,7 +95,8 @@ static double run(double steps, double *said)
     return highest;
 }
 
-/* A cell of a map is silent beyond three estimates. */
+/* The true error must be below three times the stated error, and the stated error below ten times
+   the true one. */
 static void test_runs(void)
 {
     double none, exact = run(3200, &none);

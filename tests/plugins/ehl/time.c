@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The film through a smooth cycle of load: balances at every step, order in time, independence of
-   the grid, and the same film when all runs backwards. */
+/* The film in a smooth cycle of load: balances at every step, order in time, independence of the
+   grid, and the mirrored film for reversed motion. */
 #include "balance.h"
 #include "check.h"
 
@@ -10,7 +10,7 @@
 static const double pi = 3.14159265358979323846;
 static const double span = 400e-6; /* s; the film passes the contact in 80e-6 s */
 
-/* Load 1 + 0.3 (1 - cos) over the span. */
+/* Makes the load 1 + 0.3 (1 - cos) over the span. */
 static void cycle(line *c, size_t cells, size_t steps, const char *scheme, double tolerance)
 {
     line_open(c, "ehl/finite-volume");
@@ -58,8 +58,8 @@ static void test_balances(void)
     line_close(&c);
 }
 
-/* The flow of a steady film is the same everywhere, and that of a cycle is where it has been and
-   gone, by differences of second order. */
+/* The mass flow of a steady film must be the same everywhere, and mass must be in balance in a
+   cycle, to errors of second order. */
 static void test_flow(void)
 {
     double steady[2], through[2];
@@ -110,7 +110,7 @@ static void test_grid(void)
     check_below("second order in space", fabs(h[2] - h[1]) / fabs(h[1] - h[0]), 0.35);
 }
 
-/* The estimate of the error covers the error, and is at most fivefold. */
+/* The estimated error must be at least the true error, and at most five times as large. */
 static void test_estimate(const char *film, const char *estimate)
 {
     line coarse, fine;
@@ -132,7 +132,8 @@ static void test_estimate(const char *film, const char *estimate)
     line_close(&fine);
 }
 
-/* Both surfaces move towards -x: the mirror image, with the traction turned round. */
+/* If both surfaces move towards -x, the film must be the mirror image, with traction of opposite
+   sign. */
 static void test_mirror(void)
 {
     line a, b;
@@ -154,8 +155,8 @@ static void test_mirror(void)
     line_close(&b);
 }
 
-/* What chords of the cycle miss of its mean, and one step of its highest Hertz pressure, too; its
-   40 straight pieces miss 1e-3 of that. */
+/* Errors of the mean and of the highest Hertz pressure, from linear interpolation between 40 rows:
+   1e-3. */
 static void test_instants(void)
 {
     static const size_t steps[] = {1, 2};

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * The errors of films by their transport: the linear solution against a dense one, whose matrix is
- * made of differences of the balances; and what films say of their errors against finer ones.
- */
+/* Errors of films computed by their transport equation: compares the linear solution with a dense
+   one, whose matrix comes from differences of the balances, and the stated errors of films with
+   finer films. */
 #include "check.h"
 #include "line.h"
 
@@ -73,7 +72,7 @@ static void destroy(scene *s)
     ehl_reynolds_destroy(&s->reynolds);
 }
 
-/* Writes what the balances change by with unknown k, a pressure or h00, into column k. */
+/* Writes the derivatives of the balances by unknown k, a pressure or h00, into column k. */
 static void fill_column(scene *s, size_t k)
 {
     const ehl_film *film = &s->march.state[0].film;
@@ -95,7 +94,7 @@ static void fill_column(scene *s, size_t k)
     }
 }
 
-/* Gauss with the largest entry of each column, rows scaled. */
+/* Gaussian elimination with scaled rows; the pivot is the largest entry of a column. */
 static void eliminate(scene *s)
 {
     for (size_t k = 0; k < SIZE; k++) {
@@ -124,7 +123,7 @@ static void eliminate(scene *s)
     }
 }
 
-/* The answer to the rows that were asked last against the dense one. */
+/* Compares the last solution with the dense one. */
 static void check_twin(scene *s, const char *what)
 {
     const ehl_film *film = &s->march.state[0].film;
@@ -139,7 +138,7 @@ static void check_twin(scene *s, const char *what)
         s->answer[i] = film->full[i] ? s->transport.rows[i] : 0;
         s->matrix[NODES][i] = row;
     }
-    for (size_t i = 0; i < SIZE; i++) /* h00 as a pressure */
+    for (size_t i = 0; i < SIZE; i++) /* h00 is scaled to the size of a pressure */
         s->matrix[i][NODES] /= unit;
     s->matrix[NODES][NODES] = 0;
     s->answer[NODES] = 0;
@@ -172,7 +171,7 @@ static void test_twin(const ehl_laws *laws)
     destroy(&s);
 }
 
-/* Fills in the errors of the gap after some steps. */
+/* Computes the errors of the gap after some steps. */
 static void errors_of(const ehl_laws *laws, double accuracy, double *of)
 {
     static scene s;
@@ -186,7 +185,7 @@ static void errors_of(const ehl_laws *laws, double accuracy, double *of)
     destroy(&s);
 }
 
-/* What the linear solutions leave does not show in the errors. */
+/* The residual of the linear solutions must not affect the errors. */
 static void test_accuracy(const ehl_laws *laws)
 {
     static double usual[NODES], exact[NODES];
@@ -200,8 +199,8 @@ static void test_accuracy(const ehl_laws *laws)
     check_below("linear solutions to 0.1 against 1e-8: errors of the gap", off / most, 0.05);
 }
 
-/* Errors whose equations are not solved are not known, nor are those that the oil carries on until
-   it has left the contact. */
+/* If the equations of the errors are not solved, the errors must be unknown until the oil has left
+   the contact. */
 static void test_lost(const ehl_laws *laws)
 {
     static scene s;
@@ -221,7 +220,7 @@ static void test_lost(const ehl_laws *laws)
     destroy(&s);
 }
 
-/* Where the entrainment turns, the nodes do, and the errors with them. */
+/* If the entrainment reverses, the order of the nodes reverses, and so must the errors. */
 static void test_turn(const ehl_laws *laws)
 {
     static const double time[ROWS] = {0, 40e-6, 40.01e-6}, speed[ROWS] = {4, 0.2, -0.2};
@@ -252,7 +251,7 @@ static void test_turn(const ehl_laws *laws)
     destroy(&s);
 }
 
-/* A steady film on a given domain: M, L, or the contact of line_open. */
+/* Opens a steady film on a given domain, with M and L, or the contact of line_open. */
 static void open_steady(line *c, double M, double L, size_t cells)
 {
     line_open(c, "ehl/finite-volume");
@@ -267,7 +266,8 @@ static void open_steady(line *c, double M, double L, size_t cells)
     check_true("runs", line_run(c, "h_min h_central h_min_error h_central_error") == FF_OK);
 }
 
-/* Bars are 1.5 times the error; those of h_central fall with the square of the cells. */
+/* Error bars must be 1.5 times the error; those of h_central decrease with the square of the cell
+   size. */
 static void test_steady(const char *name, double M, double L)
 {
     enum { LEVELS = 2 };
@@ -316,7 +316,7 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Cells, steps: those of the film that is judged. */
+/* cells, steps: those of the film that is compared with `fine`. */
 static void test_cycle(const line *fine, size_t cells, size_t steps, const char *film,
                        const char *error)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* finite-volume and dense-newton solve the same equations by other means, and so do finite-volume
-   and control-volume with their first-order schemes: at a tolerance of 1e-10 they agree to 1e-6,
-   steady and through a change of load. */
+/* ehl/finite-volume and ehl/dense-newton solve the same equations with different methods, as do
+   ehl/finite-volume and ehl/control-volume with their first-order schemes: with a tolerance of
+   1e-10, they must agree to 1e-6, in a steady film and during a change of load. */
 #include "check.h"
 #include "line.h"
 

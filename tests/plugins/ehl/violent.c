@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Random histories that no film code likes: loads that jump over four decades within microseconds,
- * contact lost and hit again at up to 1 m/s, speeds from crawling to fast, no time between two
- * loads. Every one must run to its end with the load carried, the flanks bent as the pressure bends
- * them, and the film open; every third is given to ehl/control-volume.
+ * Random difficult histories: loads that change by four decades within microseconds or at one
+ * instant, flanks that separate and touch again at up to 1 m/s, speeds from very low to high.
+ * Every history must run to its end, with the load carried, the flanks deflected by the
+ * pressure, and the film thickness above 0; ehl/control-volume runs every third history.
  *
  *   test-ehl-violent [cases] [first seed]
  */
@@ -26,7 +26,7 @@ static double between(uint64_t *state, double low, double high)
     return low + (high - low) * random_share(state);
 }
 
-/* Flight from instant `from` to `to`: no load, and a gap that closes at `speed`. */
+/* Makes load 0 and a gap that closes at `speed`, from instant `from` to `to`. */
 static void fly(line *c, size_t from, size_t to, double speed)
 {
     double begin = c->time[from], span = c->time[to] - begin;
@@ -53,7 +53,8 @@ static void invent(line *c, uint64_t *state, int with_flight)
         if (i > 0 && c->time[i] < c->time[i - 1])
             c->time[i] = c->time[i - 1];
     }
-    for (size_t i = 1; i + 1 < count; i++) /* a microsecond may reach past the next instant */
+    for (size_t i = 1; i + 1 < count; i++) /* a microsecond may be longer than the time to the next
+                                              instant */
         c->time[i] = fmin(c->time[i], c->time[count - 1]);
     for (int k = 0; with_flight && k < 2; k++) {
         size_t from = (size_t)between(state, 0, (double)count - 4);
@@ -63,7 +64,8 @@ static void invent(line *c, uint64_t *state, int with_flight)
     }
     for (size_t i = 1; i < count; i++)
         c->time[i] = fmax(c->time[i], c->time[i - 1]);
-    if (!(c->time[count - 1] > c->time[count - 2])) /* what it jumps to at last must last */
+    if (!(c->time[count - 1] > c->time[count - 2])) /* the load after a jump at the end must last
+                                                       for some time */
         c->time[count - 1] += 1e-6;
 }
 

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Waviness on one flank in pure rolling, M = 100 and L = 11: the share of its amplitude that is
- * left in the middle of the contact, against the numerical table and the fit of Venner, Couhier,
- * Lubrecht & Greenwood 1997. `table CELLS` and `refinement` print it all.
- */
+/* Waviness on one flank in pure rolling, M = 100 and L = 11: compares the ratio of deformed to
+   initial amplitude in the middle of the contact with the numerical table and the fit of Venner,
+   Couhier, Lubrecht & Greenwood 1997. `table CELLS` and `refinement` print it all. */
 #include "check.h"
 #include "flank.h"
 
@@ -17,7 +15,8 @@ static const double pi = 3.14159265358979323846;
 enum { LENGTHS = 6, AMPLITUDES = 3 };
 
 static const double lengths[LENGTHS] = {4, 2, 1, 0.5, 0.25, 0.125}; /* in Hertz half-widths */
-static const double amplitudes[AMPLITUDES] = {0.1, 0.2, 0.5};       /* in smooth central films */
+static const double amplitudes[AMPLITUDES] = {0.1, 0.2, 0.5};       /* over the smooth central
+                                                                       film */
 static const double venner[LENGTHS][AMPLITUDES] = {
     {0.030, 0.030, 0.029}, {0.073, 0.073, 0.073}, {0.183, 0.182, 0.195},
     {0.394, 0.393, 0.378}, {0.660, 0.670, 0.679}, {0.839, 0.838, 0.859},
@@ -53,8 +52,8 @@ static double smooth_film(size_t cells)
     return h;
 }
 
-/* A_d/A_i from the highest and the lowest film at x = 0 while one wave passes, in steps of a cell,
-   or shorter ones where a wave would get less than 32. */
+/* Returns the amplitude ratio A_d/A_i from the highest and lowest film at x = 0 while a wave
+   passes, in steps of a cell, or in 32 steps per wave if these are shorter. */
 static double left_over(double length, double amplitude, size_t cells)
 {
     static flank f;
@@ -122,7 +121,7 @@ int main(int argc, char **argv)
         return 0;
     }
     double film = smooth_film(CELLS);
-    for (size_t i = 2; i < 5; i++) { /* of the others the grid holds too few cells, or too long */
+    for (size_t i = 2; i < 5; i++) { /* for the other waves, the grid is too coarse or too short */
         char name[96];
         snprintf(name, sizeof name, "share of the amplitude left, waves of %g a", lengths[i]);
         check_near(name, left_over(lengths[i], 0.1 * film, CELLS), venner[i][0], 0.05);

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Flanks that yield where the pressure reaches their hardness H: against the closed form of a dry
- * smooth contact, and what holds at every node and instant. The dry rough contact is in dry.c.
- */
+/* Flanks that yield where the pressure reaches their hardness H: compares them with the closed form
+   of a dry smooth contact, and checks conditions at every node and instant. The dry rough contact
+   is in dry.c. */
 #include "check.h"
 #include "flank.h"
 
@@ -61,8 +60,8 @@ static capped closed_form(const line *c, double hertz, double hardness)
                         (((2 + square) * K - 2 * (1 + square) * E) / 3 - (1 - E / K) * (K - E))};
 }
 
-/* p of c < |x| < a from its slope (8.5), by Simpson's rule in t, x^2 = c^2 + (a^2 - c^2) sin^2 t.
- */
+/* Returns p for c < |x| < a from its slope (8.5), by Simpson's rule in t, x^2 = c^2 + (a^2 - c^2)
+   sin^2 t. */
 static double closed_pressure(const capped *s, double hardness, double x)
 {
     enum { PARTS = 40 };
@@ -85,7 +84,7 @@ static double hertz_pressure(const line *c)
     return sqrt(c->load[0] * c->modulus / (2 * pi * c->radius[0]));
 }
 
-/* Flat flanks, so slow that the oil carries next to nothing. */
+/* Opens a contact of smooth flanks, so slow that the oil carries almost no load. */
 static void open_dry(line *c, size_t cells, double hardness_over_hertz)
 {
     static flank f;
@@ -106,8 +105,8 @@ static double log_integral(double s)
     return fabs(s) > 0 ? s * log(fabs(s)) - s : 0;
 }
 
-/* How far the film is off x^2/(2 R), the deflection of p by direct sums and the plastic part, but
-   for a constant, over the contact film of 1 nm. */
+/* Returns by how much the film, minus x^2/(2 R), the deflection by direct sums and the plastic
+   part, varies over the nodes, over the contact film of 1 nm. */
 static double gap_error(const line *c, size_t nodes)
 {
     const double *x = stage_get(c->film, "x", NULL), *p = stage_get(c->film, "pressure", NULL),
@@ -147,7 +146,7 @@ static void test_closed_form(size_t cells, double part)
         snprintf(name, sizeof name, "%zu cells, H %.2g p_Hertz: pressure, L2", cells, part);
         check_below(name, sqrt(off / all), 1.3 / (double)cells);
         check_near("volume of the plastic part", volume, exact.volume, 2e-3);
-        /* the cells at the two ends of the plastic zone */
+        /* the ends of the plastic zone lie within a cell */
         check_near("length at H", share * c.load[0] / H, 2 * exact.c, dx / exact.c);
         check_below("gap less the plastic part: that of elastic flanks", gap_error(&c, cells + 1),
                     1e-6);
@@ -156,7 +155,7 @@ static void test_closed_form(size_t cells, double part)
     line_close(&c);
 }
 
-/* A passage and a half with sliding. */
+/* Opens a contact with sliding, for 1.5 passages of the oil. */
 static void open_rough(line *c, const flank *f, size_t cells, size_t steps, double hardness)
 {
     line_open(c, "ehl/finite-volume");
@@ -217,8 +216,8 @@ static means test_rough(size_t cells, double hardness)
     return y;
 }
 
-/* The steady dry contact is found whatever its hardness: nodes turn full, empty and plastic in
-   another order on the way to each. */
+/* The steady dry contact must converge for every hardness: during the iteration, nodes become full,
+   empty and plastic in a different order for each. */
 static void test_steady(void)
 {
     enum { CONTACTS = 12 };
@@ -232,7 +231,7 @@ static void test_steady(void)
     check_near("steady dry contacts that are found", found, CONTACTS, 0);
 }
 
-/* Where nothing yields, not a bit changes. */
+/* If no node yields, every bit of the result must be equal. */
 static void test_elastic(void)
 {
     static flank f;
@@ -277,7 +276,8 @@ int main(void)
             test_closed_form(cells, part);
     test_steady();
     means coarse = test_rough(256, 1.5e9), fine = test_rough(512, 1.5e9);
-    test_rough(128, 0.7e9); /* little above the mean pressure of the contact: bubbles come and go */
+    test_rough(128, 0.7e9); /* a hardness a little above the contact's mean pressure, where cavities
+                               appear and vanish */
     check_true("metal yields", fine.share > 0.05);
     check_near("share of the load at H, half the cells", coarse.share, fine.share, 0.05);
     check_near("plastic part, half the cells", coarse.volume, fine.volume, 0.01);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Contact ratios from 1 to below 4: where pairs come and go, whole numbers and their neighbours. */
+/* Contact ratios from 1 to below 4, at and near whole numbers: the points at which the number of
+   tooth pairs changes. */
 #include <check.h>
 #include <stage.h>
 
@@ -9,14 +10,14 @@
 
 static const double module = 3e-3;
 
-/* Two gears without profile shift whose addenda, longer or shorter than usual, are the same. */
+/* Two gears without profile shift, with equal addenda, longer or shorter than usual. */
 typedef struct teeth {
     double number[2], angle;
 } teeth;
 
 static const teeth usual = {{40, 60}, 20 * M_PI / 180}, slender = {{180, 220}, 14.5 * M_PI / 180};
 
-/* Contact ratio of teeth with that addendum, from the tip circles. */
+/* Returns the contact ratio of teeth with an addendum, from the tip circles. */
 static double ratio_of(const teeth *z, double addendum)
 {
     double path = 0;
@@ -54,8 +55,8 @@ static double age_of(const stage *gear, double roll)
     return (roll - stage_scalar(gear, "roll_sap")) * stage_get(gear, "teeth", NULL)[0] / 2 / M_PI;
 }
 
-/* Base pitches from SAP at which stations stand twice, with `fewest` the ages of roll_lpstc and
-   roll_hpstc. */
+/* Checks the points with two stations, in base pitches from SAP, and roll_lpstc and roll_hpstc
+   (`fewest`). */
 static void check_changes(const teeth *z, double ratio, size_t count, const double *ages,
                           double tolerance, const double fewest[2])
 {
@@ -103,7 +104,8 @@ static void check_between(const teeth *z, double ratio)
     check_changes(z, ratio, 2 * pairs, ages, 1e-12, (double[]){e, (double)pairs});
 }
 
-/* At whole numbers a pair goes as another comes: one change, and the same number of pairs. */
+/* At whole contact ratios, a pair ends contact where another begins: the number of pairs must not
+   change. */
 static void check_whole(const teeth *z, int pairs, double off)
 {
     static const double ages[] = {1, 2, 3};

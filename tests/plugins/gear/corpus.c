@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Published gear pairs, typed digit for digit: each runs as its source prints it, and is held to
- * what the source prints, to half of its last digit and what the digits of its shifts leave open,
- * and to a calculation of its own here. Helical stages stand in their transverse section. "hand":
- * the source prints no result that a pair of gears alone has.
- */
+/* Published gear pairs, with all digits of their sources. Each must run as published, and agree
+   with the published results to half the last digit, plus the effect of rounded profile shifts, and
+   with a separate calculation here. Helical stages are given in their transverse section. "hand":
+   the source has no result for the gear pair alone. */
 #include <check.h>
 #include <stage.h>
 
@@ -15,8 +13,8 @@
 
 static const double degree = M_PI / 180;
 
-/* What a source prints, in `unit` of SI: of one gear, or of the pair (gear -1); `half` of the last
-   digit. */
+/* A published result, in `unit` of SI, for a gear or the pair (gear -1). half: half a unit of the
+   last digit. */
 typedef struct printed {
     const char *output;
     int gear;
@@ -222,7 +220,7 @@ static const published corpus[] = {
       {"root_radius", 0, MM / 2, 32.100, 5e-4},
       {"root_radius", 1, MM / 2, 66.660, 5e-4},
       {"contact_ratio", PAIR, 1, 1.202, 5e-4}}},
-    /* whose tips are not shortened: m (z + 2 + 2 x) */
+    /* tips are not shortened: m (z + 2 + 2 x) */
     {"DIN 3990-11 example, 19/104, module 4",
      "a public test of its implementation",
      {19, 104},
@@ -252,8 +250,9 @@ static const published corpus[] = {
       {"roll_lpstc", PAIR, M_PI / 180, 20.0, 0.05},
       {"roll_hpstc", PAIR, M_PI / 180, 21.7, 0.05},
       {"roll_tip", PAIR, M_PI / 180, 27.2, 0.05}}},
-    /* The pitch diameter behind the module, 92.74 mm, has two digits as well. It prints 87.73 mm
-       for the start of the active profile, too, where its tips and centre distance make 87.79. */
+    /* The pitch diameter from which the module follows, 92.74 mm, has two decimals, too. The source
+       has 87.73 mm for the start of the active profile, but its tips and centre distance give
+       87.79. */
     {"power-loss gears, 40/40, 28 deg",
      "Petry-Johnson et al. 2008",
      {40, 40},
@@ -266,8 +265,8 @@ static const published corpus[] = {
      0,
      NULL,
      {{"base_radius", 0, MM / 2, 81.89, 9e-3}}},
-    /* It prints 22.56 deg, too, from base radii of three digits: 2 x 3.76/8.143; full digits make
-       22.60. */
+    /* The source also has 22.56 deg, from base radii with three digits, 2 x 3.76/8.143; full digits
+       give 22.60. */
     {"textbook pair, diametral pitch 2",
      "Shigley, Mechanical Engineering Design, Example 13-1",
      {16, 40},
@@ -403,8 +402,8 @@ static stage *open_pair(const published *p)
     return s;
 }
 
-/* An output, or a distance along the line of action that sources measure from where contact begins:
-   "lpstc", "pitch", "hpstc"; "line": between the base circles. */
+/* Returns an output, or a distance along the line of action: from the begin of contact to "lpstc",
+   "pitch" or "hpstc"; "line": between the tangent points on the base circles. */
 static double given(const stage *s, const printed *v)
 {
     const double base = stage_get(s, "base_radius", NULL)[0];
@@ -437,7 +436,8 @@ static double involute(double angle)
     return tan(angle) - angle;
 }
 
-/* The working pressure angle: of the centre distance, or by bisection where teeth just fit. */
+/* Returns the working pressure angle, from the centre distance, or by bisection for teeth without
+   backlash. */
 static double working_angle(const published *p)
 {
     const double a = p->angle * degree, sum = p->teeth[0] + p->teeth[1];
@@ -452,8 +452,8 @@ static double working_angle(const published *p)
     return low;
 }
 
-/* Contact ratio by the angles at the tips, sum z_i (tan a_a,i - tan a_w)/(2 pi), and the sliding
-   factors' places, in place of the lengths that the model has. */
+/* Checks the contact ratio with the pressure angles at the tips, sum z_i (tan a_a,i - tan a_w)/(2
+   pi), and the sliding factors, while the model uses lengths. */
 static void check_by_hand(const stage *s, const published *p)
 {
     const double a = p->angle * degree, w = working_angle(p);

@@ -28,7 +28,7 @@ static stage *run_with(const char *param, const char *value)
     return s;
 }
 
-/* The deviation of a gear at a share of its flank. */
+/* Returns the deviation of a gear at a fraction of its flank. */
 static double deviation(const stage *s, size_t gear, double share)
 {
     uint32_t rank;
@@ -41,7 +41,7 @@ static double deviation(const stage *s, size_t gear, double share)
     return value[i - 1] + (value[i] - value[i - 1]) * (at - roll[i - 1]) / (roll[i] - roll[i - 1]);
 }
 
-/* Share of the flank of gear 1 at a roll angle that the gear gives. */
+/* Returns the fraction of the flank of gear 1 at one of the gear's roll angles. */
 static double share_of(const stage *s, const char *point)
 {
     double low = stage_scalar(s, "roll_sap"), high = stage_scalar(s, "roll_tip");
@@ -103,7 +103,7 @@ static void test_parabola(void)
     stage_close(s);
 }
 
-/* Two pairs whose flanks are the same to the bit. */
+/* Checks that the flanks of two pairs have equal bits. */
 static void check_same(const char *what, const stage *a, const stage *b)
 {
     size_t n, m;
@@ -115,7 +115,7 @@ static void check_same(const char *what, const stage *a, const stage *b)
                          memcmp(roll_x, roll_y, n * sizeof *x) == 0);
 }
 
-/* Reliefs of both gears that start where the literature says in one of three ways. */
+/* Opens a pair with reliefs on both gears, whose starts are given in one of three ways. */
 static stage *relieved(const char *end, const char *way, double first, double second)
 {
     char name[40];
@@ -128,7 +128,7 @@ static stage *relieved(const char *end, const char *way, double first, double se
     return s;
 }
 
-/* Roll angle of the flank at a radius, sqrt(r^2 - r_b^2)/r_b. */
+/* Returns the roll angle at a diameter, sqrt(r^2 - r_b^2)/r_b. */
 static double roll_of(double base, double diameter)
 {
     return sqrt((diameter / 2 - base) * (diameter / 2 + base)) / base;
@@ -166,7 +166,8 @@ static void test_start_as_drawn(void)
     stage_close(plain);
 }
 
-/* A relief of the whole flank whose start is typed 3 um of diameter below its lowest contact. */
+/* A relief of the whole flank, whose start has a diameter 3 um below the lowest point of
+   contact. */
 static void test_rounded_start(void)
 {
     stage *plain = run_with("tip_relief", "0 um");

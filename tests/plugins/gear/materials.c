@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Materials by name: what they give, and what overrules them. */
+/* Materials by name: their values, and inputs that replace them. */
 #include <check.h>
 #include <stage.h>
 
@@ -20,7 +20,7 @@ static double of(stage *gear, const char *output, int i)
     return stage_get(gear, output, NULL)[i];
 }
 
-/* Nothing said: the steel of gear standards. */
+/* Without a material, that of gear standards, steel, must be used. */
 static void check_steel(void)
 {
     stage *gear = open_pair();
@@ -50,7 +50,8 @@ static void check_two(void)
     stage_close(gear);
 }
 
-/* The material of gear 1 is that of both; a number of the file overrules it. */
+/* The material of gear 1 must be used for both gears; a given number must replace that of the
+   material. */
 static void check_numbers(void)
 {
     stage *gear = open_pair();
@@ -62,7 +63,8 @@ static void check_numbers(void)
     stage_close(gear);
 }
 
-/* All names, typed a second time from their sources: GPa, 1, kg/m3, W/(m K), J/(kg K), GPa, MPa. */
+/* All materials, with values from their sources again: GPa, 1, kg/m3, W/(m K), J/(kg K), GPa,
+   MPa. */
 static void check_table(void)
 {
     static const struct {
@@ -96,7 +98,7 @@ static void check_table(void)
     }
 }
 
-/* A modulus that is not that of steel is of a material whose heat is not known. */
+/* If the modulus is not that of steel, the thermal properties of the material must be unknown. */
 static void check_contradiction(void)
 {
     stage *gear = open_pair();

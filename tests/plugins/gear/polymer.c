@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Steel on POM and POM on POM: Hertz contact, film and flash by hand, from the gears alone. */
+/* Steel on POM and POM on POM: Hertz contact, film and flash temperature, computed here from the
+   gear data. */
 #include <check.h>
 #include <stage.h>
 
@@ -48,7 +49,7 @@ static const struct {
              {LOSSES, GEAR, "gear"},
              {LOSSES, DUTY, "operating"}};
 
-/* E, nu, k, rho, c as the literature has them. */
+/* E, nu, k, rho, c from the literature. */
 typedef struct material {
     const char *name;
     double E, nu, k, rho, c;

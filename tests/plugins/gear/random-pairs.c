@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* 10^4 pairs that the model accepts, drawn at random: what must hold for each of them. */
+/* 10^4 random pairs that the model accepts: conditions that each must satisfy. */
 #include <check.h>
 #include <stage.h>
 
@@ -67,7 +67,7 @@ static void inspect(const stage *gear, worst *w)
         if (i > 0)
             w->order = fmax(w->order, roll[i - 1] - roll[i]);
         repeated += i > 0 && roll[i] == roll[i - 1];
-        if (roll[i] == pitch) /* u1 = omega1 R1 and u2 = omega1 R2 z1/z2 meet here */
+        if (roll[i] == pitch) /* u1 = omega1 R1 and u2 = omega1 R2 z1/z2 are equal here */
             w->sliding = fmax(w->sliding, fabs(r2[i] * z[0] / (z[1] * r1[i]) - 1));
     }
     w->twice = w->twice && repeated == 2 * (int)floor(ratio);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Pairs that cannot run are refused by name, with what would do. */
+/* For pairs that cannot run, the message must name the parameter and a remedy. */
 #include <check.h>
 #include <stage.h>
 

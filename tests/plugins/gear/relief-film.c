@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A drawing gives the start of a relief as a diameter: the film is that of the same roll angle. */
+/* The start of a relief given as a diameter must give the same film as given by its roll angle. */
 #include <check.h>
 #include <stage.h>
 
@@ -15,7 +15,7 @@ static const char *const models[STAGES] = {
     "contact/tooth-pair",  "viscosity/barus",  "density/dowson-higginson",
     "rheology/ree-eyring", "ehl/finite-volume"};
 
-/* Settings that the chains have in common; the pair is unequal in teeth, material and relief. */
+/* Settings common to both pipelines; the gears differ in teeth, material and relief. */
 static const struct {
     int stage;
     const char *param, *text;
@@ -53,7 +53,8 @@ static const struct {
 
 static const double tip[2] = {73.3e-3, 126.4e-3}, root[2] = {67.9e-3, 120.8e-3};
 
-/* The start of a relief at a diameter, as its roll angle sqrt(r^2 - r_b^2)/r_b where `angles`. */
+/* Sets the start of a relief as a diameter, or, if `angles`, as the roll angle sqrt(r^2 -
+   r_b^2)/r_b. */
 static void set_start(stage *gear, const char *end, const double diameter[2], bool angles)
 {
     static const double teeth[2] = {23, 41};

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Gears typed from a drawing with its digits run, and what the rounding has moved is said. */
+/* Gears with the rounded values of a drawing must run, and report the changes made because of
+   rounding. */
 #include <check.h>
 #include <stage.h>
 
@@ -21,8 +22,8 @@ static stage *open_pair(const char *teeth, const char *module, const char *shift
     return s;
 }
 
-/* Overlap of full teeth along the line of action, from m cos(a) (z1 + z2) (inv a_w - inv a_tight),
-   in um. */
+/* Returns the overlap along the line of action of teeth without backlash, m cos(a) (z1 + z2) (inv
+   a_w - inv a_tight), in um. */
 static double overlap(double m, double teeth, double shift, double distance)
 {
     const double angle = 20 * degree, working = acos(m * teeth * cos(angle) / (2 * distance));
@@ -30,8 +31,7 @@ static double overlap(double m, double teeth, double shift, double distance)
     return -1e3 * m * cos(angle) * teeth * (tan(working) - working - tight);
 }
 
-/* A pair that its literature prints with shifts and a centre distance at which the teeth overlap.
- */
+/* Runs a pair whose published profile shifts and centre distance make the teeth overlap. */
 static void run_published(const char *name, stage *s, double moved)
 {
     if (!check_true(name, stage_run(s) == FF_OK && stage_verdict(s) == 0))
@@ -61,7 +61,7 @@ static void check_published(void)
     stage_close(s);
 }
 
-/* A stated backlash, or allowances, that miss what the pair has by a digit. */
+/* A given backlash, or allowances, that differ from those of the pair in the last digit. */
 static void check_stated(void)
 {
     stage *s = open_pair("[25, 40]", "3 mm", "[0, 0]");
@@ -85,7 +85,8 @@ static void check_stated(void)
     stage_close(s);
 }
 
-/* Tip and root diameters of two digits that touch: the root moves, and the clearance is 0. */
+/* Tip and root diameters with two decimals that touch: the root must be changed, and the clearance
+   be 0. */
 static void check_touching(void)
 {
     stage *s = open_pair("[30, 50]", "3 mm", "[0, 0]");
@@ -106,7 +107,7 @@ static void expect(stage *s, const char *item, const char *sentence)
     stage_close(s);
 }
 
-/* What no rounding explains stays refused. */
+/* Differences that rounding does not explain must remain errors. */
 static void check_limits(void)
 {
     stage *s = open_pair("[16, 24]", "4.5 mm", "[0.1817, 0.1715]");
@@ -135,7 +136,7 @@ static double uniform(double low, double high)
     return low + (high - low) * unit;
 }
 
-/* A pair as it is, whose numbers go on to a drawing with the digits of drawings. */
+/* Makes a random pair, and rounds its values to the digits of drawings. */
 static void draw(int *drawn, int *moved)
 {
     const double z[2] = {floor(uniform(14, 60)), floor(uniform(20, 120))};

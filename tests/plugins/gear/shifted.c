@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Profile shift, centre distance and backlash against a published table and second derivations. */
+/* Compares profile shift, centre distance and backlash with a published table and separate
+   derivations. */
 #include <check.h>
 #include <stage.h>
 
@@ -13,7 +14,7 @@ static double involute(double angle)
     return tan(angle) - angle;
 }
 
-/* Involute by bisection, in place of the model's Newton method. */
+/* Returns the inverse involute by bisection; the model uses Newton's method. */
 static double angle_of(double value)
 {
     double low = 0, high = M_PI / 2;
@@ -80,8 +81,8 @@ static void check_tight_centre_distance(void)
     stage_close(gear);
 }
 
-/* Gears pulled apart by dC: the backlash on the working pitch circle is the pitch less both tooth
-   thicknesses there. */
+/* With a centre distance larger by dC, the backlash on the working pitch circle must be the pitch
+   minus both tooth thicknesses there. */
 static void check_backlash_of_distance(void)
 {
     stage *gear = open_pair(25, 40, 0, 0);
@@ -108,8 +109,8 @@ static void check_backlash_of_distance(void)
     stage_close(gear);
 }
 
-/* Against a rack the path is sqrt(ra1^2 - rb1^2) - r1 sin a + m / sin a. A wheel departs from it
-   as its curvature, 1/z2. */
+/* With a rack, the path of contact is sqrt(ra1^2 - rb1^2) - r1 sin a + m / sin a. With a wheel, the
+   difference is proportional to its curvature, 1/z2. */
 static void check_rack_limit(void)
 {
     double a = 20 * degree, r = 3e-3 * 12.5, rb = r * cos(a), ra = r + 3e-3, error[2];
@@ -123,7 +124,8 @@ static void check_rack_limit(void)
     check_near("the rack is approached as 1/z2", error[0] / error[1], 10, 1e-2);
 }
 
-/* Module and all lengths doubled: lengths double, angles stay; exact in binary arithmetic. */
+/* With module and all lengths doubled, lengths must double and angles be equal, exactly in binary
+   arithmetic. */
 static void check_scaling(void)
 {
     static const char *const lengths[] = {"base_radius", "tip_radius",      "root_radius",
@@ -157,7 +159,7 @@ static void check_scaling(void)
 }
 
 /* FZG's wheel A has 24 teeth and x = -0.5, below the limit of undercut, -0.404; its pinion's tips
-   reach 6.19 mm of radius of curvature, far above what is cut away. */
+   reach down to a radius of curvature of 6.19 mm, far above the undercut. */
 static void check_harmless_undercut(void)
 {
     stage *gear = open_pair(16, 24, 0.853, -0.5);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Teeth of a stated thickness: allowances, spans and pins give the same tooth, whose backlash fills
- * the pitch. */
+/* Tooth thickness given by allowances, spans or pins must give the same tooth; both thicknesses and
+   the backlash must add up to the pitch. */
 #include <check.h>
 #include <stage.h>
 
@@ -29,8 +29,8 @@ static double allowance(stage *gear, int i)
     return stage_get(gear, "thickness_allowance", NULL)[i];
 }
 
-/* The pair of a user's drawing, which fits at 180.9 mm by its allowances alone. On the working
-   pitch circles both arcs and the backlash fill the pitch. */
+/* The pair of a user's drawing, which fits at 180.9 mm only with its allowances. On the working
+   pitch circles, both tooth thicknesses and the backlash must add up to the pitch. */
 static void check_drawing(void)
 {
     stage *gear = open_pair("[23, 67]", "[0.35, -0.1]");
@@ -50,7 +50,7 @@ static void check_drawing(void)
     stage_close(gear);
 }
 
-/* A stated backlash thins both teeth alike. */
+/* A given backlash must reduce both tooth thicknesses equally. */
 static void check_backlash(void)
 {
     stage *gear = open_pair("[23, 67]", "[0.35, -0.1]");
@@ -71,8 +71,8 @@ static void check_backlash(void)
     stage_close(gear);
 }
 
-/* Printed spans of gears without shift: W/m = 4.6663, 7.7305 and 16.9370 for 17, 25 and 50 teeth
- * over 2, 3 and 6. */
+/* Published spans of gears without profile shift: W/m = 4.6663, 7.7305 and 16.9370 for 17, 25 and
+   50 teeth, over 2, 3 and 6 teeth. */
 static void check_printed_spans(void)
 {
     static const struct {
@@ -92,7 +92,8 @@ static void check_printed_spans(void)
     }
 }
 
-/* The least of f over points from 0 to `end`, tried one by one, then ever closer about the best. */
+/* Returns the minimum of f from 0 to `end`, by a search over points, repeated with smaller
+   distances near the best. */
 static double least_of(double (*f)(const double *, double), const double *given, double end)
 {
     enum { POINTS = 200 };
@@ -108,7 +109,7 @@ static double least_of(double (*f)(const double *, double), const double *given,
     return f(given, best);
 }
 
-/* From a point on the middle of the space, at a radius, to a point of the flank beside it. */
+/* Returns the distance from a point on the middle line of the space to a point of the flank. */
 static double distance(const double *given, double roll)
 {
     double radius = given[0], base = given[1], half_space = given[2], at = base * hypot(1, roll);
@@ -116,7 +117,7 @@ static double distance(const double *given, double roll)
     return hypot(radius - at * cos(angle), at * sin(angle));
 }
 
-/* Where on the middle of the space the axis of a pin lies that touches both flanks. */
+/* Returns the radius of the axis of a pin that touches both flanks of the space. */
 static double axis_of_pin(double pin, double base, double half_space, double most)
 {
     double low = base, high = most;
@@ -127,14 +128,15 @@ static double axis_of_pin(double pin, double base, double half_space, double mos
     return low;
 }
 
-/* A span goes over as far as its outer flanks reach: minus half of that, at a point of one. */
+/* Returns minus half the extent of a span's outer flanks, at a point of one flank. */
 static double inwards(const double *given, double roll)
 {
     double base = given[0], outermost = given[1];
     return -base * hypot(1, roll) * sin(outermost - (roll - atan(roll)));
 }
 
-/* What the gear says would be measured on its teeth, with the teeth and pins that it takes. */
+/* Checks the measurements that the gear states for its teeth, for the numbers of teeth and pins
+   that it chooses. */
 static void check_measures(void)
 {
     const double m = 4e-3, a = 20 * degree, z[] = {23, 68}, x[] = {0.35, -0.1},
@@ -157,8 +159,8 @@ static void check_measures(void)
     stage_close(gear);
 }
 
-/* A pin whose axis lies where its measure says touches both flanks of the space, of gears with even
- * and odd teeth. */
+/* A pin whose axis lies where the measurement over pins gives it must touch both flanks of the
+   space, for even and odd numbers of teeth. */
 static void check_pins(const char *teeth, double z)
 {
     const double m = 4e-3, a = 20 * degree, pin = 7e-3, A = -90e-6, r = m * z / 2;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Flank tolerances of a class: all values that the reports of three gear stages print, in um
-   (gfsReboucas/Drivetrain, @NREL_5MW/stage_01.rtf to stage_03.rtf, class 6 of ISO 1328-1:1995). */
+/* Flank tolerances of an accuracy class: all values in published reports on three gear stages, in
+   um (gfsReboucas/Drivetrain, @NREL_5MW/stage_01.rtf to stage_03.rtf, class 6 of ISO
+   1328-1:1995). */
 #include <check.h>
 #include <stage.h>
 
@@ -45,8 +46,9 @@ static void check_printed(void)
     }
 }
 
-/* Two classes are a factor of 2, and small values have finer steps: by hand for module 3 mm (2 to
-   3.5: 2.64575) and d = 60 and 120 mm (50 to 125: 79.0569). */
+/* Two classes must differ by a factor of 2, and small values have smaller rounding steps. Computed
+   for module 3 mm (range 2 to 3.5: mean 2.64575) and d = 60 and 120 mm (range 50 to 125: mean
+   79.0569). */
 static void check_classes(void)
 {
     stage *s = open_pair("[20, 40]", "3 mm", "[5, 1]");

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where the tool lets the involute begin: against the points that the tip of the rack sweeps, and
-   that depth and tip radius reach the root. */
+/* The begin of the involute that the tool generates: compares it with points that the tip of the
+   rack sweeps, and checks that depth and tip radius reach the root. */
 #include <check.h>
 #include <stage.h>
 
@@ -20,8 +20,8 @@ static double involute(double angle)
     return tan(angle) - angle;
 }
 
-/* How far from the middle of the space, as an angle, the round of the tool's tip has swept at a
-   radius: every position of the rack that rolls on the reference circle is tried. */
+/* Returns how far, as an angle from the middle of the space, the rounding of the tool's tip sweeps
+   at a radius, by trying all positions of the rack that rolls on the reference circle. */
 static double swept(const tool *t, double radius)
 {
     enum { ROLLS = 20000 };
@@ -45,7 +45,7 @@ static double swept(const tool *t, double radius)
     return most;
 }
 
-/* The largest radius at which the tip takes some of the flank. */
+/* Returns the largest radius at which the tip of the tool removes part of the flank. */
 static double begins(const tool *t)
 {
     const double a = 20 * degree, r = module * t->teeth / 2, base = r * cos(a);

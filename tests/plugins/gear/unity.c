@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The 50/50 gear pair of Li & Kahraman 2011 against its closed forms, to the digits printed. */
+/* Compares the 50/50 gear pair of Li & Kahraman 2011 with closed forms, to the published digits. */
 #include <check.h>
 #include <stage.h>
 
@@ -8,7 +8,7 @@
 
 static const double degree = M_PI / 180;
 
-/* Equal to what is printed, of which `last` is one unit of the last digit. */
+/* Checks a value against a published one, to half of `last`, a unit of its last digit. */
 static void check_printed(const char *what, double value, double printed, double last)
 {
     check_near(what, value, printed, 0.5000001 * last / fabs(printed));

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A pair of 50 and 80 teeth under constant load and friction, for which all is known in closed
- * form. */
+/* A pair of 50 and 80 teeth under constant load and friction, with losses in closed form. */
 #ifndef TEST_ENGAGEMENT_H
 #define TEST_ENGAGEMENT_H
 
@@ -13,17 +12,17 @@ enum { INSTANTS = 2001, TEETH = 50, TEETH_2 = 80 };
 typedef struct engagement {
     double contact_ratio, base_radius, omega, load, friction, face_width, modulus, torque;
     double roll[INSTANTS], power[INSTANTS], traction[INSTANTS], coefficient[INSTANTS];
-    double radius_1[INSTANTS], radius_2[INSTANTS]; /* the stations are the instants */
+    double radius_1[INSTANTS], radius_2[INSTANTS]; /* the instants are the stations of the gear */
     double none[INSTANTS];
 } engagement;
 
 void engagement_fill(engagement *e, double contact_ratio);
-/* Opens losses/tooth-mesh and feeds it. */
+/* Opens losses/tooth-mesh with these inputs. */
 stage *engagement_open(const engagement *e);
 
-/* Sliding speed at SAP and tip. */
+/* Returns the sliding speed at SAP and tip. */
 double engagement_sliding(const engagement *e);
-/* Loss of one pair, W, `pitches` after SAP. */
+/* Returns the loss of one pair, W, `pitches` base pitches after SAP. */
 double engagement_loss(const engagement *e, double pitches);
 
 #endif

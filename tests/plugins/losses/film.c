@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A pair of unlike gears with the friction of its film, from end to end. */
+/* A complete pipeline of unequal gears with the friction of a film. */
 #include <check.h>
 #include <stage.h>
 
@@ -13,7 +13,7 @@ typedef struct drive {
     double force[STATIONS];
 } drive;
 
-/* The line force shared by the pairs in mesh. */
+/* Divides the line force among the tooth pairs in contact. */
 static void share(drive *d)
 {
     size_t n;
@@ -73,7 +73,8 @@ static void drive_close(drive *d)
         stage_close(all[i]);
 }
 
-/* Friction force times sliding speed over the time of an engagement, once per mesh period. */
+/* Returns the integral of friction force times sliding speed over an engagement, over the mesh
+   period. */
 static double power_by_hand(const drive *d)
 {
     size_t n;

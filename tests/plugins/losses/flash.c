@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Blok's flash temperature against the temperature of a moving band of heat. */
+/* Compares Blok's flash temperature with the temperature under a moving band of heat. */
 #include "check.h"
 #include "engagement.h"
 
@@ -14,9 +14,10 @@ typedef struct steel {
 
 static const steel ordinary = {47, 7850, 455};
 
-/* Greatest surface temperature of a half-space under a band of half width a and speed u that
-   brings in Q per width as a half ellipse, without conduction along the surface (Jaeger 1942):
-   T(x) = 1/(B sqrt(pi u)) int_-a^x q(s)/sqrt(x - s) ds; with s = x - v^2 nothing is singular. */
+/* Returns the highest surface temperature of a half-space under a band of half width a and speed u,
+   with elliptic heat flux of Q per width, without conduction along the surface (Jaeger 1942): T(x)
+   = 1/(B sqrt(pi u)) int_-a^x q(s)/sqrt(x - s) ds. The substitution s = x - v^2 removes the
+   singularity. */
 static double band_temperature(double Q, double a, double u, steel of)
 {
     enum { PANELS = 2000 };
@@ -32,7 +33,8 @@ static double band_temperature(double Q, double a, double u, steel of)
     return 2 * Q / (M_PI * a) * most * sqrt(a) / (B * sqrt(M_PI * u));
 }
 
-/* Both flanks under one band: the heat that makes their greatest temperatures equal. */
+/* Returns the temperature of both flanks under one band, with the heat divided so that their
+   highest temperatures are equal. */
 static double expected(const engagement *m, int i, steel one, steel two)
 {
     double R = 1 / (1 / m->radius_1[i] + 1 / m->radius_2[i]);
@@ -52,7 +54,7 @@ static void test_flash(steel one, steel two)
     stage_set_reals(s, "specific_heat", 2, (double[]){one.c, two.c});
     check_true("runs", stage_run(s) == FF_OK);
     const double *flash = stage_get(s, "flash_temperature", NULL);
-    /* Blok's 1.11 is the rounded 1.1115 of the band */
+    /* Blok's 1.11 is 1.1115, rounded */
     static const int places[] = {0, 500, INSTANTS - 1};
     for (int k = 0; k < 3; k++)
         check_near("flash temperature", flash[places[k]], expected(&e, places[k], one, two), 2e-3);
@@ -60,8 +62,7 @@ static void test_flash(steel one, steel two)
     stage_close(s);
 }
 
-/* The gears say what they are made of, each its own; steel never stands in for one that does not.
- */
+/* Each gear has its own material; if the material of one is unknown, steel must not replace it. */
 static void test_gears_tell(steel one, steel two)
 {
     engagement_fill(&e, 1.6);
@@ -120,7 +121,7 @@ static void test_no_heat_without_load(void)
 {
     engagement_fill(&e, 1.6);
     for (int i = 0; i < 200; i++)
-        e.coefficient[i] = 0; /* what the film models give in flight */
+        e.coefficient[i] = 0; /* value of the film models for separated flanks */
     stage *s = engagement_open(&e);
     check_true("runs", stage_run(s) == FF_OK);
     check_near("in flight", stage_get(s, "flash_temperature", NULL)[10], 0, 0);

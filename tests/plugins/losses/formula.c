@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The formulas fitted to measured losses, by hand, and the verdicts on the friction of a film. */
+/* Formulas fitted to measured losses, computed here again, and the quality verdicts on the friction
+   of a film. */
 #include <check.h>
 #include <stage.h>
 
@@ -10,9 +11,8 @@
 
 enum { STEPS = 2001 };
 
-/* FZG C14 with the tips of its drawing before they are shortened, 200 N m, a mineral oil of 13.28
-   mPa s, and a film whose coefficient is `friction` and `slope` times the distance from the pitch
-   point. */
+/* FZG C14 with unshortened tips, 200 N m, a mineral oil of 13.28 mPa s, and a film whose friction
+   coefficient is `friction`, plus `slope` times the distance from the pitch point. */
 typedef struct mesh {
     stage *gear, *duty, *oil, *losses;
     double roll[STEPS], loss[STEPS], traction[STEPS], coefficient[STEPS], none[STEPS], approach,
@@ -90,7 +90,8 @@ static void close_mesh(void)
         stage_close(all[i]);
 }
 
-/* The example that GEARpie prints: H_v 0.1986 and, with X_L 0.846, 0.0449. */
+/* The published example of GEARpie: loss factor H_v 0.1986, and, with X_L 0.846, friction
+   coefficient 0.0449. */
 static void test_printed_example(void)
 {
     open_mesh("1500 rpm", "[0.3 um, 0.41 um]", NULL); /* a mean of 0.355 um */
@@ -105,7 +106,7 @@ static void test_printed_example(void)
     close_mesh();
 }
 
-/* 0.045/0.048 and 2.2 rho^-0.25 apart. */
+/* The second formula differs by the factors 0.045/0.048 and 2.2 rho^-0.25. */
 static void test_second_formula(void)
 {
     double by[2];
@@ -120,7 +121,7 @@ static void test_second_formula(void)
     check_near("ratio", by[1] / by[0], 0.045 / 0.048 * 2.2 * pow(rho, -0.25), 1e-6);
 }
 
-/* By hand: int (f + s |x|) |x| over int |x|, from -A to B. */
+/* The mean must be int (f + s |x|) |x| dx over int |x| dx, from -A to B. */
 static void test_weight_of_the_mean(void)
 {
     const double f = 0.03, s = 0.1;
@@ -152,9 +153,9 @@ static void test_verdicts(void)
     check_true("unheard of", verdict_at(0.25, "friction_bound") == FF_BAD);
 }
 
-/* ISO/TR 15144-1 at given losses by hand: 710 W on a 91.5 mm, b 14 mm, dip lubrication, +27.9 K;
-   175 W +10.2 K; and 605 W on 84.45 x 28 mm with spray, +19.2 K, which is 7400 (0.605/2364.6)^0.72.
- */
+/* Bulk temperature rise by ISO/TR 15144-1 at given losses: 710 W, a 91.5 mm, b 14 mm, dip
+   lubrication: 27.9 K; 175 W: 10.2 K; 605 W, 84.45 x 28 mm, spray lubrication: 19.2 K = 7400
+   (0.605/2364.6)^0.72. */
 static void test_bulk_by_the_standard(void)
 {
     static const struct {
@@ -212,7 +213,7 @@ static void test_what_is_not_known(void)
     close_mesh();
 }
 
-/* The friction by the formula where the surface has these Rq, m. */
+/* Returns the friction by the formula for a surface with Rq in m. */
 static double formula_on(double rq_1, double rq_2)
 {
     stage_give_scalar(m.losses, "surface.rq_1", rq_1);
@@ -221,7 +222,8 @@ static double formula_on(double rq_1, double rq_2)
     return stage_scalar(m.losses, "friction_coefficient_formula");
 }
 
-/* A dent has no Rq and leaves each flank that of its gear; Ra enters with its fourth root. */
+/* A dent has no Rq, so that each flank keeps that of its gear. Friction is proportional to the
+   fourth root of Ra. */
 static void test_surface(void)
 {
     const double gear_rq = 0.4e-6 * sqrt(M_PI / 2);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Losses of all pairs in mesh against closed forms. */
+/* Compares losses of all pairs in contact with closed forms. */
 #include "check.h"
 #include "engagement.h"
 
@@ -14,7 +14,7 @@ static void run(stage *s)
     check_true("runs", stage_run(s) == FF_OK);
 }
 
-/* |sliding| is linear on both sides of the pitch point: half its greatest value on average. */
+/* |sliding| is linear on both sides of the pitch point: its mean is half its largest value. */
 static void test_mean_loss(double contact_ratio)
 {
     engagement_fill(&e, contact_ratio);
@@ -34,7 +34,7 @@ static void test_mean_loss(double contact_ratio)
     stage_close(s);
 }
 
-/* The loss of the mesh at a phase, the first or the second of two equal ones. */
+/* Returns the loss of the mesh at a phase, from the first or second of two rows with this phase. */
 static double loss_at(const stage *s, double phase, int second)
 {
     size_t n;
@@ -94,8 +94,8 @@ static void test_whole_contact_ratio(void)
     stage_close(s);
 }
 
-/* Ohlendorf 1958: with half the force on each of two pairs the loss is friction times
-   pi (2/z) (1 - eps + eps^2/2) of the power, for equal gears. */
+/* Ohlendorf 1958: for equal gears and half the force on each of two pairs, the loss over the power
+   is friction times pi (2/z) (1 - eps + eps^2/2), eps: contact ratio. */
 static void test_loss_factor(void)
 {
     const double eps = 1.6;
@@ -116,7 +116,7 @@ static void test_loss_factor(void)
 
 enum { ROOM = 3 * INSTANTS };
 
-/* Engagements one after the other, each with its own multiple of the friction. */
+/* Successive engagements, each with its own multiple of the friction. */
 typedef struct train {
     size_t n;
     double roll[ROOM], power[ROOM], traction[ROOM], coefficient[ROOM], part[4][ROOM], number[ROOM];
@@ -131,7 +131,7 @@ static stage *train_open(train *t, size_t count, const double *factor)
     for (size_t i = 0; i < t->n; i++) {
         size_t k = i % INSTANTS;
         double times = factor[i / INSTANTS];
-        t->number[i] = (double)(4 * (i / INSTANTS)); /* a sample: every fourth */
+        t->number[i] = (double)(4 * (i / INSTANTS)); /* sample of every fourth engagement */
         t->roll[i] = e.roll[k];
         t->power[i] = times * e.power[k];
         t->traction[i] = times * e.traction[k];
@@ -150,7 +150,7 @@ static stage *train_open(train *t, size_t count, const double *factor)
     return s;
 }
 
-/* Friction 1 and 3 times in turn: everything is twice that of one engagement. */
+/* With 1 and 3 times the friction alternately, all means must be twice those of one engagement. */
 static void test_all_engagements_count(void)
 {
     static train t;
@@ -181,7 +181,7 @@ static void test_all_engagements_count(void)
     stage_close(one);
 }
 
-/* A motion that repeats itself after one cycle, told as one of three. */
+/* A motion with a period of one mesh cycle, given with a period of three. */
 static void test_alike_engagements_are_one(void)
 {
     static const double alike[] = {1, 1, 1};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Oils over temperature: slopes, extremes, and published figures. */
+/* Oil properties over temperature: slopes, extremes, and published values. */
 #include "check.h"
 #include "stage.h"
 
@@ -47,7 +47,7 @@ static stage *open_table(const char *text)
     return oil;
 }
 
-/* MIL-L-23699 by P. K. Gupta's correlations. */
+/* MIL-L-23699, by P. K. Gupta's correlations. */
 static const char mil_l_23699[] =
     "temperature [degC]; viscosity [mPa s]; density [kg/m3]; conductivity [W/(m K)]; "
     "heat_capacity [J/(kg K)]; alpha [1/GPa]\n"
@@ -70,7 +70,7 @@ static void slopes_agree(const char *name, stage *oil)
     check_below(name, worst, 1e-4);
 }
 
-/* The slope of the density ends without a jump where the oil is no longer followed. */
+/* At the end of the oil's temperature range, the slope of the density must not jump. */
 static void ends_smoothly(const char *name, stage *oil)
 {
     const ff_liquid *l = liquid(oil);
@@ -120,7 +120,7 @@ static void are_smooth_functions(void)
     stage_close(table);
 }
 
-/* A thin oil, whose data end near the least viscosity of ASTM D341, and hot. */
+/* A thin oil, whose data end near the lowest viscosity of ASTM D341, at high temperature. */
 static void thin_oils_are_what_was_given(void)
 {
     stage *oil = open_table("temperature [degC]; kinematic_viscosity [cSt]; density [kg/m3]\n"
@@ -133,7 +133,7 @@ static void thin_oils_are_what_was_given(void)
     stage_close(oil);
 }
 
-/* The curve goes through its points, and near those that are left out. */
+/* The interpolated curve must go through its points, and near points that are left out. */
 static void tables_interpolate(void)
 {
     stage *oil = open_table(mil_l_23699);
@@ -148,7 +148,7 @@ static void tables_interpolate(void)
     stage_close(oil);
 }
 
-/* One point serves its temperature alone. */
+/* Data at one temperature must be used at this temperature only. */
 static void one_point_serves_its_temperature(void)
 {
     stage *oil = stage_open("lubricant/measured");
@@ -165,11 +165,9 @@ static void one_point_serves_its_temperature(void)
     stage_close(oil);
 }
 
-/*
- * Pressure coefficients by the correlation of the base against measured ones: viscosities in mPa s
- * and slopes in 1/GPa at 30, 60 and 100 degC (Stachowiak and Batchelor, Engineering Tribology,
- * table 2.3) or 40, 60 and 100 degC (the others).
- */
+/* Pressure coefficients by the correlation for the base oil, compared with measured ones:
+   viscosities in mPa s and coefficients in 1/GPa at 30, 60 and 100 degC (Stachowiak and Batchelor,
+   Engineering Tribology, table 2.3) or 40, 60 and 100 degC (the others). */
 static const struct {
     const char *name, *base, *density_15;
     double cold, eta[3], alpha[3];
@@ -203,8 +201,9 @@ static void pressure_coefficients_are_those_measured(void)
     }
 }
 
-/* The presets of each base, typed a second time from their sources: alpha = s nu^t in 1/GPa (Gold
-   and others 2001), heat of PAO-B (Larsson and others 2000) and of MIL-L-23699 (Gupta 1984). */
+/* The default values for each base oil, from their sources again: alpha = s nu^t in 1/GPa (Gold and
+   others 2001), heat capacity of PAO-B (Larsson and others 2000) and of MIL-L-23699 (Gupta
+   1984). */
 static void bases_are_those_of_their_sources(void)
 {
     static const struct {
@@ -233,7 +232,7 @@ static void bases_are_those_of_their_sources(void)
     }
 }
 
-/* A measured alpha at one temperature shifts the correlation of the base. */
+/* An alpha measured at one temperature must scale the correlation for the base oil. */
 static void alpha_follows_its_base(void)
 {
     stage *plain = open_grade("ISO VG 100", "PAO"), *given = open_grade("ISO VG 100", "PAO");

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What contradicts itself, or is not known, is said at the parameter or output that it concerns. */
+/* Contradictory or unknown data must be reported at the parameter or output concerned. */
 #include "check.h"
 #include "stage.h"
 
@@ -67,7 +67,7 @@ static void temperatures(void)
     refused("lubricant/grade", "temperature", (setting[]){{"grade", "ISO VG 32"}, END});
     refused("lubricant/grade", "temperature",
             (setting[]){{"grade", "ISO VG 680"}, {"temperature", "-100 degC"}, END});
-    /* data for one temperature serve that temperature alone */
+    /* data for one temperature must be used at this temperature only */
     refused("lubricant/measured", "eta0", (setting[]){POINT, {"temperature", "90 degC"}, END});
     stage *oil = open_oil("lubricant/grade",
                           (setting[]){{"grade", "ISO VG 32"}, {"temperature", "40 degC"}, END});
@@ -78,7 +78,7 @@ static void temperatures(void)
     stage_close(oil);
 }
 
-/* What is not known is refused by name, and the rest is given. */
+/* A request for unknown values must fail with their names; the other outputs must be given. */
 static void unknown(void)
 {
     static const char *const names[] = {"conductivity", "heat_capacity", "alpha"};

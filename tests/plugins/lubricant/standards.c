@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Grades by ISO 3448 and ASTM D2270, viscosity by D341, density by D1250. */
+/* Viscosity grades by ISO 3448, viscosity index by ASTM D2270, viscosity by D341, density by
+   D1250. */
 #include "check.h"
 #include "stage.h"
 
@@ -77,7 +78,7 @@ static double nu_at(const char *nu_40, const char *nu_100, double T)
     return nu / CST;
 }
 
-/* A published worked case: 32 cSt at 40 and 5.4 cSt at 100 degC give 8.5 cSt at 80 degC. */
+/* A published example: 32 cSt at 40 degC and 5.4 cSt at 100 degC give 8.5 cSt at 80 degC. */
 static void d341_example(void)
 {
     check_near("nu at 80 degC", nu_at("32 cSt", "5.4 cSt", 353.15), 8.5, 6e-3);
@@ -102,7 +103,7 @@ static void grades_have_their_mid_point(void)
         }
 }
 
-/* A change of name alone: the grade and the same figures of a data sheet. */
+/* A grade, and a data sheet with the same values, must give the same oil. */
 static void grade_and_data_sheet_agree(void)
 {
     stage *grade = stage_open("lubricant/grade"), *sheet = stage_open("lubricant/measured");

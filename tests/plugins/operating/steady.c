@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Torque and speed of Li & Kahraman 2011, by speed and by mesh frequency. */
+/* Torque and speed of Li & Kahraman 2011, given as speed and as mesh frequency. */
 #include <check.h>
 #include <stage.h>
 
@@ -43,7 +43,8 @@ static void check_point(const char *frequency, double hertz, double rpm)
     stage_close(by_speed);
 }
 
-/* Without a gear the rest is still served, and what needs one is refused by name. */
+/* Without a gear, outputs that need no gear must be given, and requests for others fail with their
+   name. */
 static void check_without_gear(void)
 {
     stage *duty = open_duty("speed", "1500 rpm");
@@ -65,7 +66,7 @@ static void check_without_gear(void)
     stage_close(duty);
 }
 
-/* The temperature of the oil has no preset: who reads it is told where it is missing. */
+/* The oil temperature has no default: a model that needs it must report where it is missing. */
 static void check_without_temperature(void)
 {
     stage *duty = stage_open("operating/steady");
@@ -93,7 +94,7 @@ static void check_refusals(void)
     stage_close(duty);
 }
 
-/* The back flanks bear a torque below 0. */
+/* A torque below 0 must load the back flanks. */
 static void check_back(void)
 {
     stage *duty = open_duty("speed", "1500 rpm");

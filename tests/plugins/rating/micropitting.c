@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Micropitting: lambda_GF by hand at the start of contact of two pairs, in the units of ISO/TR
-   15144-1; lambda_GFT and lambda_GFP of the test gears each against what is printed of them. */
+/* Micropitting: lambda_GF at the start of contact of two pairs, computed here in the units of
+   ISO/TR 15144-1; lambda_GFT and lambda_GFP of test gears against published values. */
 #include "pair.h"
 
 #include <check.h>
@@ -10,7 +10,7 @@
 
 static const double degree = M_PI / 180;
 
-/* The steel of ISO/TR 15144-1. */
+/* Sets the steel of ISO/TR 15144-1. */
 static void set_steel(stage *s)
 {
     stage_set_text(s, "thermal_conductivity", "45 W/(m K)");
@@ -18,7 +18,7 @@ static void set_steel(stage *s)
     stage_set_text(s, "specific_heat", "440 J/(kg K)");
 }
 
-/* Gears that conduct heat by themselves, each its own, and gears that are not of steel. */
+/* Gears with different thermal properties, and gears that are not of steel. */
 static void check_materials(void)
 {
     static const double k[] = {45, 20}, rho[] = {7800, 7700}, c[] = {440, 500};
@@ -33,7 +33,8 @@ static void check_materials(void)
         stage *other, *one = pair_open("rating/micropitting", &pair_c, &other);
         set_steel(one);
         check_true("one steel", stage_run(one) == FF_OK);
-        /* Blok's heat flows by B1 sqrt(v1) + B2 sqrt(v2), and v1/v2 at A is z2 R1/(z1 R2) */
+        /* Blok's temperature has B1 sqrt(v1) + B2 sqrt(v2) in the denominator, and v1/v2 at A is z2
+           R1/(z1 R2) */
         const double bulk = stage_scalar(one, "bulk_temperature"), a = 20 * degree;
         const double L = 91.5 * sin(acos(180 * cos(a) / 183)), db = 108 * cos(a),
                      r2 = sqrt(118.36 * 118.36 - db * db) / 2, v = 1.5 * (L - r2) / r2;
@@ -98,8 +99,8 @@ static void check_by_hand(const pair *p)
     stage_close(oil);
 }
 
-/* The load factors of the reference test: a printed report has a line load of 236.3 N/mm at A,
-   where 265.1 N m, a base radius of 33.829 mm, 14 mm and X_Y = 1/3 make 186.58. */
+/* The load factors of the reference test: a published report has a line load of 236.3 N/mm at A,
+   but 265.1 N m, a base radius of 33.829 mm, 14 mm and X_Y = 1/3 give 186.58. */
 static stage *open_reference(const pair *p, stage **oil)
 {
     stage *s = pair_open("rating/micropitting", p, oil);
@@ -109,8 +110,8 @@ static stage *open_reference(const pair *p, stage **oil)
     return s;
 }
 
-/* The annex draws lambda_GFP of mineral oils over the stage at which they fail on these gears. Read
-   off the figure, for VG 100, 220 and 460 at stage 10: 0.090, 0.145 and 0.200, to 0.01. */
+/* lambda_GFP of mineral oils from the figure in the annex, over the load stage of failure on these
+   gears: 0.090, 0.145 and 0.200, to 0.01, for VG 100, 220 and 460 at stage 10. */
 static void check_annex(void)
 {
     static const char *const grade[] = {"ISO VG 100", "ISO VG 220", "ISO VG 460"};
@@ -129,9 +130,9 @@ static void check_annex(void)
     }
 }
 
-/* What three reports of the same oil print of the reference test and of what follows from it
-   (gfsReboucas/Drivetrain, @NREL_5MW/stage_01.rtf to stage_03.rtf). The closed formulas are as they
-   are quoted; they end 0.5 K and 1.5 K from the temperatures and 1.3 % from the film. */
+/* Values for the reference test, and results from it, in three published reports with the same oil
+   (gfsReboucas/Drivetrain, @NREL_5MW/stage_01.rtf to stage_03.rtf). The quoted formulas give
+   temperatures within 0.5 K and 1.5 K, and a film within 1.3 %. */
 static void check_printed_test(void)
 {
     stage *grade, *s = open_reference(&pair_c, &grade), *oil = stage_open("lubricant/measured");
@@ -165,7 +166,7 @@ static void check_printed_test(void)
     stage_close(grade);
 }
 
-/* A permissible film stands beside its own method alone. */
+/* A permissible film may be given only for the method that it belongs to. */
 static void check_own(void)
 {
     static const double film[] = {0.3e-6, 0.2e-6, 0.25e-6};

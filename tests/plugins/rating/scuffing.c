@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Scuffing: the flash temperature against Blok's formula in SI and against the other form that the
-   standard prints, the integral temperature by hand for two pairs, and what both say of the test
-   gears at the stage at which the oil fails. */
+/* Scuffing: compares the flash temperature with Blok's formula in SI units and with the standard's
+   other form, and the integral temperature with a calculation here for two pairs. Checks the safety
+   of the test gears at the load stage at which the oil fails. */
 #include "pair.h"
 
 #include <check.h>
@@ -11,7 +11,7 @@
 
 static const double degree = M_PI / 180;
 
-/* Flash temperature at the highest point of single contact with friction coefficient mu. */
+/* Returns the flash temperature at a point of contact with friction coefficient mu. */
 static double blok(const pair *p, double mu, double place, double line, double ratio)
 {
     double omega = p->rpm * 2 * M_PI / 60, u1 = omega * place, u2 = omega / ratio * (line - place);
@@ -21,7 +21,7 @@ static double blok(const pair *p, double mu, double place, double line, double r
     return 1.11 * mu * load * fabs(u1 - u2) / (B * (sqrt(u1) + sqrt(u2)) * sqrt(2 * half_width));
 }
 
-/* ISO/TR 13989-1, formula A.5, in mm and N/mm. */
+/* Returns the flash temperature by ISO/TR 13989-1, formula A.5, in mm and N/mm. */
 static double by_factors(const pair *p, double mu, double place, double angle, double ratio)
 {
     double base = 4.5 * p->teeth[0] / 2 * cos(20 * degree),
@@ -35,7 +35,7 @@ static double by_factors(const pair *p, double mu, double place, double angle, d
     return mu * 50.04 * X_G * pow(w, 0.75) * sqrt(speed) / pow(91.5, 0.25);
 }
 
-/* A rating with the steel of ISO/TR 13989-2, clause 5.3. */
+/* Opens a rating with the steel of ISO/TR 13989-2, clause 5.3. */
 static stage *open_scuffing(const pair *p, stage **oil)
 {
     stage *s = pair_open("rating/scuffing", p, oil);
@@ -45,8 +45,8 @@ static stage *open_scuffing(const pair *p, stage **oil)
     return s;
 }
 
-/* The constants of formula 5 are printed to three digits, and its load is that of the pitch circle,
-   6 % less than the normal one: 2.3 % less than Blok's. */
+/* Formula 5 has constants of three digits, and the load on the pitch circle, 6 % below the normal
+   load: its result is 2.3 % below Blok's. */
 static void check_flash(const pair *p)
 {
     stage *oil, *s = open_scuffing(p, &oil);
@@ -75,8 +75,9 @@ static void check_flash(const pair *p)
     stage_close(oil);
 }
 
-/* A tip that comes in with too little relief heats the approach: X_J by formulas 45 and 46, from
-   two runs of which the other has relief enough. The tip is that of the driven gear, gear 2. */
+/* Too little relief at the tip of the driven gear, gear 2, increases the temperature at the begin
+   of contact: X_J by formulas 45 and 46, from a run with little and a run with sufficient
+   relief. */
 static void check_approach(const pair *p)
 {
     pair relieved = *p;
@@ -101,7 +102,7 @@ static void check_approach(const pair *p)
                1 + (best - p->relief[1]) / 50 * pow((pitch - sap) / (end - sap), 3), 1e-9);
 }
 
-/* Contact ratio factor, formulas 39 to 44 without the denominator 2 e e1, typed a second time. */
+/* Returns the contact ratio factor, formulas 39 to 44, without the denominator 2 e e1. */
 static double overlap(double e1, double e2)
 {
     return e1 >= 1   ? 0.18 * e1 * e1 + 0.7 * e2 * e2 + 0.82 * e1 - 0.52 * e2 - 0.3 * e1 * e2
@@ -109,8 +110,8 @@ static double overlap(double e1, double e2)
                      : 0.7 * (e1 * e1 + e2 * e2) - 0.22 * (e1 + e2) + 0.52 - 0.6 * e1 * e2;
 }
 
-/* ISO/TR 13989-2 for a pair of class 6, in mm, N/mm, mPa s and degC. Index 1 of the standard is the
-   pinion, whoever drives; X_Q and X_Ca ask who does. */
+/* ISO/TR 13989-2 for a pair of accuracy class 6, in mm, N/mm, mPa s and degC. Index 1 of the
+   standard is the pinion, whichever gear drives; X_Q and X_Ca depend on the driving gear. */
 static void check_integral(const pair *p, double stage_of_failure)
 {
     stage *oil, *s = open_scuffing(p, &oil);
@@ -152,8 +153,8 @@ static void check_integral(const pair *p, double stage_of_failure)
     stage_close(oil);
 }
 
-/* The scuffing temperature was drawn from this gear: near 1 both safeties must be. It is less with
- * a load stage less. */
+/* The scuffing temperature comes from tests with this gear: both safety factors must be near 1. An
+   oil that fails one load stage earlier must have a lower scuffing temperature. */
 static void check_test_gear(void)
 {
     double safety[2][2];
@@ -171,8 +172,7 @@ static void check_test_gear(void)
                safety[1][0] < safety[0][0] && safety[1][1] < safety[0][1]);
 }
 
-/* What cannot be told is said: own outputs without losses and without the test's temperature,
- * flanks without roughness. */
+/* Missing data must be reported: losses, the temperature of the test, roughness of the flanks. */
 static void check_refusals(void)
 {
     static const double smooth[] = {0, 0};
@@ -195,8 +195,8 @@ static void check_refusals(void)
     stage_close(oil);
 }
 
-/* Mean contact temperature of the relieved pair with the classes of its gears (0: none given) and
- * that of the rating. */
+/* Returns the mean contact temperature of the pair with relief, for accuracy classes of its gears
+   (0: none given) and of the rating. */
 static double temperature_with(double class_1, double class_2, const char *grade)
 {
     pair p = pair_c;
@@ -218,8 +218,8 @@ static double temperature_with(double class_1, double class_2, const char *grade
     return sum;
 }
 
-/* The coarser gear's class holds; a class given to the rating replaces it; 6 where none is known.
- */
+/* The class of the less accurate gear must be used, unless the rating has a class; without any
+   class, 6. */
 static void check_class(void)
 {
     double coarse = temperature_with(0, 0, "10"), fine = temperature_with(0, 0, "6");

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Stresses that follow pressure and temperature: tau0: auto and flankfilm.rheology/3. */
+/* Eyring stresses that depend on pressure and temperature: `tau0: auto` and
+   flankfilm.rheology/3. */
 #include <check.h>
 #include <stage.h>
 
@@ -65,7 +66,7 @@ static double shear(const scene *s, double p, double T, double h, double u_s)
     return tau;
 }
 
-/* tau_E from psi where eta is endless: psi = u_s/(tau_E h). */
+/* Returns tau_E from psi at infinite viscosity, psi = u_s/(tau_E h). */
 static double eyring(const scene *s, double p, double T)
 {
     double ln = 500, h = 1e-6, psi;
@@ -108,7 +109,7 @@ static double psi_over_p(const void *at, double p)
     return psi;
 }
 
-/* dpsi/dp at fixed eta, on both sides of 1 MPa, and no step between them. */
+/* Checks dpsi/dp at constant eta on both sides of 1 MPa, and that psi has no jump there. */
 static void test_slopes(const char *law)
 {
     scene s = open_scene(law, "mineral", "ISO VG 320", "auto");
@@ -117,7 +118,7 @@ static void test_slopes(const char *law)
         point o = {&s, 361, ln_eta(&s, p, 361), 3e-7};
         double psi, by_p;
         s.law->flow(s.law->self, 1, &p, &o.T, &o.ln_eta, &o.h, 1.5, &psi, &by_p, NULL, NULL);
-        /* psi changes by 1e-4 over p, so that differences have 1e-9 or so left */
+        /* psi changes by 1e-4 over p, so that differences have errors of about 1e-9 */
         check_below("dpsi/dp", fabs(by_p / difference(psi_over_p, &o, p, 0.05 * p) - 1),
                     p < 1e8 ? 2e-3 : 2e-5);
     }
@@ -127,7 +128,7 @@ static void test_slopes(const char *law)
     close_scene(&s);
 }
 
-/* Mean coefficient of a Hertzian contact with a film of one thickness. */
+/* Returns the mean friction coefficient of a Hertzian contact with a film of constant thickness. */
 static double friction(const scene *s, double p_hertz, double u_s)
 {
     enum { PARTS = 400 };
@@ -161,8 +162,8 @@ static void test_friction(const char *law)
     close_scene(&s);
 }
 
-/* The limit of the traction is Lambda p where that is above the Eyring stress, and the Eyring
-   stress below: at low pressure a Newtonian stress is not cut, and nothing steps at p = 0. */
+/* The traction limit must be the larger of Lambda p and the Eyring stress: at low pressure, a
+   Newtonian stress is not limited, and nothing jumps at p = 0. */
 static void test_low_pressure(const char *law)
 {
     scene s = open_scene(law, "mineral", "ISO VG 100", "auto");
@@ -175,7 +176,7 @@ static void test_low_pressure(const char *law)
     close_scene(&s);
 }
 
-/* By hand: d ln tau/d ln Lambda = 1 - S/(sqrt(1 + S^2) asinh S). */
+/* Checks d ln tau/d ln Lambda = 1 - S/(sqrt(1 + S^2) asinh S). */
 static void test_sensitivity(void)
 {
     const double p = 0.6 * GPa, T = 363.15, h = 3e-7, u = 0.4;
@@ -198,8 +199,8 @@ static void test_sensitivity(void)
     }
 }
 
-/* At a point the rate is that of Eyring's law at the stress of the pressure, above the limit, too.
- */
+/* The shear rate at a point must be that of Eyring's law with the Eyring stress at the pressure,
+   also above the limit. */
 static void test_rate(void)
 {
     scene s = open_scene("rheology/ree-eyring", "mineral", "ISO VG 150", "auto");
@@ -212,8 +213,8 @@ static void test_rate(void)
     close_scene(&s);
 }
 
-/* A stress in numbers is the same by all services; one that is auto continues that of ambient
-   pressure where the caller knows no pressure, and says so. */
+/* A given stress must be the same in all services. With `tau0: auto`, a service without pressure
+   must use the stress at ambient pressure, and report it. */
 static void test_other_services(void)
 {
     const double p = 0.8 * GPa, T = 350, ln = 4, h = 2e-7;
@@ -239,7 +240,7 @@ static void test_other_services(void)
     stage_close(bare);
 }
 
-/* As far as S = 100, tau = 5.3 tau_E. */
+/* Carreau's law must agree up to S = 100, tau = 5.3 tau_E. */
 static void test_carreau_follows(void)
 {
     scene a = open_scene("rheology/ree-eyring", "PAO", "ISO VG 220", "auto");

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Fluidity that the pressure flow sees: values, limits, derivatives, extremes. */
+/* The fluidity psi of the pressure flow: values, limits, derivatives, extremes. */
 #include "check.h"
 #include "stage.h"
 
@@ -165,7 +165,7 @@ static void limits(void)
     stage_close(newton);
 }
 
-/* psi is dg/dtau of the law's own curve tau(g), g = u_s/h. */
+/* psi must be dg/dtau of the law's curve tau(g), g = u_s/h. */
 static double stress_of_speed(const void *ctx, double u_s)
 {
     const point *at = ctx;

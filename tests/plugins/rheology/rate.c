@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Shear rate over stress at a point: it is the inverse of the mean stress, its slope is the
- * fluidity that the pressure flow sees where the pressure gradient is small, and a film integrated
- * across gives what the mean laws do, at second order in h dp/dx over the stress of thinning.
- */
+/* Shear rate over stress at a point: it must be the inverse of the mean stress; its slope must be
+   the fluidity psi at small pressure gradients; and integrated across a film, it must agree with
+   the mean laws, to second order in h dp/dx over the stress of shear thinning. */
 #include "check.h"
 #include "stage.h"
 
@@ -69,8 +67,8 @@ static double of_ln_eta(const void *ctx, double ln_eta)
     return at(&q).rate;
 }
 
-/* From 1e-3 to 1e3 of the stress where it thins, and beyond the bound of the rate, in glass and
- * gas. */
+/* Checks slopes from 1e-3 to 1e3 times the stress of shear thinning, and beyond the limit of the
+   rate, at very high and very low viscosity. */
 static void check_slopes(const ff_rheology_2 *law, double stress, bool power)
 {
     double worst_tau = 0, worst_eta = 0;
@@ -80,7 +78,7 @@ static void check_slopes(const ff_rheology_2 *law, double stress, bool power)
             sheared s = at(&q);
             double step = 2e-3 * (power ? q.tau : fmin(q.tau, stress)),
                    d = difference(of_tau, &q, q.tau, step);
-            point last = q; /* differences across the bound see its kink */
+            point last = q; /* differences across the limit contain its kink */
             last.tau += step;
             if (at(&last).status == s.status)
                 worst_tau = fmax(worst_tau, fabs(d / s.by_tau - 1));
@@ -91,7 +89,7 @@ static void check_slopes(const ff_rheology_2 *law, double stress, bool power)
     check_below("  slope in ln eta against differences", worst_eta, 1e-8);
 }
 
-/* u_s/h of the mean stress is its rate, and psi the slope there. */
+/* The rate at the mean stress must be u_s/h, and its slope psi. */
 static void check_inverse(const ff_rheology *mean, const ff_rheology_2 *law)
 {
     double worst = 0, worst_psi = 0, p = 1e9;
@@ -110,8 +108,8 @@ static void check_inverse(const ff_rheology *mean, const ff_rheology_2 *law)
     check_below("  its slope is the fluidity of the pressure flow", worst_psi, 1e-11);
 }
 
-/* The integral of z^order rate(tau_m + z gradient) over a film of thickness 1 around z = 0, and its
-   slope by tau_m. Simpson. */
+/* Returns the integral of z^order rate(tau_m + z gradient) over a film of thickness 1 around z = 0,
+   and its slope by tau_m, by Simpson's rule. */
 static double across(const ff_rheology_2 *law, double ln_eta, double tau_m, double gradient,
                      int order, double *slope)
 {
@@ -129,8 +127,8 @@ static double across(const ff_rheology_2 *law, double ln_eta, double tau_m, doub
     return sum;
 }
 
-/* What the pressure drives through a film of thickness 1 whose walls part by u_s, over what the
-   mean law gives: int u dz = -int z rate dz where the velocity is 0 in the mean of both walls. */
+/* Returns the pressure flow in a film of thickness 1 whose walls slide at u_s, over that of the
+   mean law: int u dz = -int z rate dz if the mean velocity of both walls is 0. */
 static double flow_ratio(stage *s, double ln_eta, double u_s, double gradient)
 {
     const ff_rheology *mean = stage_service(s, FF_RHEOLOGY_ID);
@@ -145,7 +143,7 @@ static double flow_ratio(stage *s, double ln_eta, double u_s, double gradient)
     return across(law, ln_eta, tau, gradient, 1, &slope) / (gradient * psi / 12);
 }
 
-/* At order 2: a half of the gradient leaves a quarter of the difference. */
+/* Second order: half the gradient must give a quarter of the difference. */
 static void check_limit(stage *s, double stress, double n)
 {
     double gradient = 0.2 * stress * (n > 0 ? n : 1);
@@ -161,8 +159,8 @@ static void check_limit(stage *s, double stress, double n)
     }
 }
 
-/* Ratios of pressure flows of Ree-Eyring at h (dp/dx)/(2 tau0) = x: at rest they are known in
-   closed form, 3 (x cosh x - sinh x)/x^3. */
+/* Ratios of pressure flows by Ree-Eyring's law at h (dp/dx)/(2 tau0) = x: for walls at rest, 3 (x
+   cosh x - sinh x)/x^3. */
 static void eyring_at_large_gradients(void)
 {
     stage *s = open_law(&laws[1]);
@@ -196,7 +194,7 @@ static void check_extremes(const ff_rheology_2 *law)
                law->rate(law->self, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL) == FF_OK);
 }
 
-/* With a limiting stress the film slips by 1e7 1/s at 1 % above it; at 1 % below, not at all. */
+/* With a limiting stress, the film slips with 1e7 1/s at 1 % above it, and not at 1 % below. */
 static void slips_at_the_limit(void)
 {
     static const size_t which[] = {0, 1, 3};

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Every source of stiffness on gears of contact ratio 1 to 2.6: the pairs carry the line force. */
+/* With every stiffness model and contact ratios 1 to 2.6, the tooth pairs must carry the line
+   force. */
 #include "chain.h"
 #include "check.h"
 #include "pair.h"
@@ -13,7 +14,7 @@ static const double module = 3e-3, teeth[2] = {40, 60};
 static const char *const models[] = {"stiffness/potential-energy", "stiffness/load-distribution",
                                      "stiffness/iso-6336", "stiffness/table"};
 
-/* The addendum, in modules, that gives the contact ratio. */
+/* Returns the addendum, in modules, for a contact ratio. */
 static double addendum_for(double ratio)
 {
     double low = 0.1, high = 2;
@@ -45,8 +46,8 @@ static chain open_ratio(const char *model, double ratio)
     return c;
 }
 
-/* Share of the pair that is `age` base pitches from SAP, just before or after that; 0 beyond the
-   path. Of a station that stands twice the first is the place before. */
+/* Returns the load fraction of the pair `age` base pitches from SAP, just before or after this
+   point; 0 beyond the path of contact. Of two stations at a point, the first is just before it. */
 static double share_at(const chain *c, double age, int after)
 {
     size_t n;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Tip corners against the flanks of unequal gears, by the law of cosines about the line of centres.
- */
+/* Contact of tip corners with flanks of unequal gears, computed here from triangles about the line
+   of centres. */
 #include "../../../plugins/stiffness/contact-point.h"
 
 #include "check.h"
@@ -14,7 +14,8 @@ static double involute(double roll)
     return roll - atan(roll);
 }
 
-/* 19/41 teeth, module 3 mm, 20 deg, mounted 0.4 mm further apart; tips of 64 and 128 mm. */
+/* Makes gears of 19 and 41 teeth, module 3 mm, 20 deg, with a centre distance increased by 0.4 mm
+   and tip diameters of 64 and 128 mm. */
 static stiffness_gears make(double *working)
 {
     const double teeth[2] = {19, 41}, tip[2] = {32e-3, 64.4e-3};
@@ -34,9 +35,10 @@ static stiffness_gears make(double *working)
     return g;
 }
 
-/* The gap that the flank has to turn through, and its roll angle where the corner meets it. The
-   corner stands `beside` the line of centres, seen from the axis of its gear, and `seen` from that
-   of the flank, whose angles begin where the line of action touches its base circle. */
+/* Returns the gap, a rotation of the flank, and finds the flank's roll angle where the corner
+   touches it. beside, seen: angles of the corner from the line of centres, about the axis of its
+   gear and of the flank's gear. Angles of the flank begin where the line of action touches its base
+   circle. */
 static double gap_of(const stiffness_gears *g, int tip, double working, double age, double *roll)
 {
     const stiffness_gear *corner = &g->gear[tip], *flank = &g->gear[1 - tip];

@@ -20,7 +20,7 @@ static void test_points(void)
     }
     check_true("rising", rising);
     check_true("two jumps inside", twice == 2);
-    /* 21 uniform points, one of them a jump; a kink and a jump besides */
+    /* 21 uniform points, one of them a jump; and a kink and a jump between them */
     check_true("count", cycle.count == 21 + 1 + 1 + 2);
     check_true("ends", !(cycle.phase[0] > 0) && !(cycle.phase[cycle.count - 1] < 1));
     check_true("first point looks up", stiffness_cycle_side(&cycle, 0) == STIFFNESS_ABOVE);
@@ -31,7 +31,7 @@ static void test_points(void)
     stiffness_cycle_free(&cycle);
 }
 
-/* A point of the uniform grid that rounding moves off a break is no point of its own. */
+/* A uniform point that differs from a break only by rounding must not become a separate point. */
 static void test_no_slivers(void)
 {
     const stiffness_breakpoint near[] = {
@@ -47,7 +47,8 @@ static void test_no_slivers(void)
     stiffness_cycle_free(&cycle);
 }
 
-/* int_0^1 of the piecewise linear function times a harmonic, by Gauss points inside each piece. */
+/* Integrates the piecewise linear function times a harmonic from 0 to 1, with Gauss points in each
+   piece. */
 static void sampled(const stiffness_cycle *cycle, const double *v, int n, double *re, double *im)
 {
     static const double node[3] = {-0.7745966692414834, 0, 0.7745966692414834};
@@ -86,7 +87,8 @@ static void test_harmonics_of_any_function(void)
     stiffness_cycle_free(&cycle);
 }
 
-/* A rectangular wave has the amplitudes 2/(n pi) |sin(n pi share)|, on a coarse cycle or a fine. */
+/* A rectangular wave must have the amplitudes 2/(n pi) |sin(n pi share)|, with few or many
+   points. */
 static void test_rectangular_wave(void)
 {
     const double share = 0.7547;

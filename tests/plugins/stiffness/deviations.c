@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Deviations of the flanks mean the same to all sources. */
+/* Flank deviations must have the same effect in all stiffness models. */
 #include "chain.h"
 #include "check.h"
 #include "pair.h"
@@ -12,7 +12,7 @@
 
 static const char *const models[] = {"stiffness/load-distribution", "stiffness/potential-energy",
                                      "stiffness/iso-6336"};
-enum { MODELS = 3, LEVELLED = 2 /* the first of them give levels of the force */ };
+enum { MODELS = 3, LEVELLED = 2 /* the first two models give force levels */ };
 
 static double largest_difference(const double *a, const double *b, size_t n)
 {
@@ -22,7 +22,7 @@ static double largest_difference(const double *a, const double *b, size_t n)
     return worst;
 }
 
-/* 20 um exceed what one pair alone gives way by. */
+/* A relief of 20 um exceeds the deflection of a single tooth pair. */
 static void test_long_relief_unloads_sap(void)
 {
     for (int m = 0; m < MODELS; m++) {
@@ -40,8 +40,8 @@ static void test_long_relief_unloads_sap(void)
     }
 }
 
-/* Between SAP and LPSTC the gaps of both pairs differ by A (1 - 2 t) for a line and for a parabola:
-   (1 - t)^2 - t^2 is 1 - 2 t. */
+/* Between SAP and LPSTC, the gaps of both pairs differ by A (1 - 2 t) for a linear and for a
+   parabolic relief, since (1 - t)^2 - t^2 = 1 - 2 t. */
 static void test_line_and_parabola_share_alike(void)
 {
     for (int m = 0; m < MODELS; m++) {
@@ -54,7 +54,8 @@ static void test_line_and_parabola_share_alike(void)
         const double *x = stage_get(a.mesh, "load_share", &n);
         check_below(models[m], largest_difference(x, stage_get(b.mesh, "load_share", NULL), n),
                     2e-7);
-        if (m < LEVELLED) { /* at every force, while the errors differ */
+        if (m < LEVELLED) { /* load fractions are equal at every force, but transmission errors
+                               differ */
             double F = stage_scalar(b.duty, "line_force");
             const double *force = stage_get(a.mesh, "level_tooth_force", &n);
             const double *other = stage_get(b.mesh, "level_tooth_force", NULL);
@@ -68,9 +69,9 @@ static void test_line_and_parabola_share_alike(void)
     }
 }
 
-/* Pairs side by side without Hertz's law: at each phase the levels lie on two lines, k_1 g below
-   the force at which the second pair touches and (k_1 + k_2) g - k_2 gap above it, where k_1 + k_2
-   is the stiffness without relief. */
+/* Two linear tooth pairs: at each phase, the levels must lie on two lines, k_1 g below the force at
+   which the second pair touches, and (k_1 + k_2) g - k_2 gap above it; k_1 + k_2 is the stiffness
+   without relief. */
 static void test_levels_in_closed_form(void)
 {
     chain a = chain_with(models[1], "250 N m", "gear.tip_relief", "20 um");
@@ -88,7 +89,7 @@ static void test_levels_in_closed_form(void)
         while (j + 1 < plain && at[j] < phase[i] - 1e-12)
             j++;
         if (fabs(at[j] - phase[i]) > 1e-12 || (j + 1 < plain && at[j + 1] - at[j] < 1e-12))
-            continue; /* a breakpoint of the relief, or where pairs come and go */
+            continue; /* a breakpoint of the relief, or a change of the number of pairs */
         size_t top = (levels - 1) * n + i, last = 0;
         int both = fabs(k[top] / rigid[j] - 1) < 1e-9;
         for (size_t l = 1; l < levels; l++) {
@@ -108,7 +109,8 @@ static void test_levels_in_closed_form(void)
     chain_close(&b);
 }
 
-/* e in the middle of double contact: half the relief of a line, a quarter of a parabola's. */
+/* In the middle of double contact, e must be half a linear relief, or a quarter of a parabolic
+   relief. */
 static void test_unloaded_error_of_relief(void)
 {
     for (int m = 0; m < MODELS; m++) {
@@ -152,10 +154,10 @@ static void test_loaded_error(void)
     chain_close(&c);
 }
 
-/* A constant deviation shifts e and nothing else: a crown that both pairs miss alike. */
+/* A constant deviation, a crown with equal effect on both pairs, must only shift e. */
 static void test_profile_slope_of_both_gears_cancels(void)
 {
-    /* equal base pitches: both flanks rise alike, and one gear's rise is the other's fall */
+    /* the base pitches stay equal: the slope of one flank compensates that of the other */
     chain a = chain_with(models[0], "250 N m", "gear.profile_slope", "[6 um, 6 um]");
     chain b = chain_with(models[0], "250 N m", NULL, NULL);
     size_t n;
@@ -165,7 +167,8 @@ static void test_profile_slope_of_both_gears_cancels(void)
     chain_close(&b);
 }
 
-/* One tooth of gear 1 and one of gear 2 with more metal: e is negative while either meshes. */
+/* One tooth of gear 1 and one of gear 2 are thicker: e must be negative while either is in
+   contact. */
 static void test_hunting(void)
 {
     chain c = chain_open(models[1], "250 N m");
@@ -210,7 +213,7 @@ static chain open_hunting(const char *model, const char *cycle, const char *erro
     return c;
 }
 
-/* Highest Hertz pressure of a pair, from its force at the stations. */
+/* Returns the highest Hertz pressure of a pair, from its force at the stations. */
 static double highest_pressure(const chain *c, const double *force, size_t n)
 {
     const double *r1 = stage_get(c->gear, "radius_1", NULL),
@@ -224,7 +227,8 @@ static double highest_pressure(const chain *c, const double *force, size_t n)
     return highest;
 }
 
-/* The pressure of each pair is that of its own force. Returns the mesh cycle of the worst. */
+/* Checks that the pressure of each pair is that of its force. Returns the mesh cycle with the
+   highest pressure. */
 static size_t check_pressures(const chain *all)
 {
     uint32_t rank;
@@ -241,7 +245,7 @@ static size_t check_pressures(const chain *all)
     return worst;
 }
 
-/* Tip corners touch before SAP, so that a pair is at SAP in the mesh cycle before its own. */
+/* Tip corners touch before SAP, so that the contact of a pair begins in the mesh cycle before. */
 static void test_pressures_with_corner_contact(void)
 {
     chain c = open_hunting(models[0], "all", "[20 um, -20 um, 0 um, -20 um, 20 um]");
@@ -249,7 +253,8 @@ static void test_pressures_with_corner_contact(void)
     chain_close(&c);
 }
 
-/* All pairs of the hunting period: those of the cycles one by one, and together they bear F. */
+/* All pairs of the hunting period must have the forces of the single cycles, and add up to F in
+   each. */
 static void test_all_cycles(void)
 {
     static const char errors[] = "[8 um, -2 um, 0 um, 0 um, 3 um]";
@@ -290,7 +295,7 @@ static void test_all_cycles(void)
     chain_close(&all);
 }
 
-/* What all teeth have is no deviation of one of them. */
+/* A deviation that all teeth have must not count as an index deviation. */
 static void test_equal_deviations_are_none(void)
 {
     chain c = chain_open(models[1], "250 N m"), none = chain_open(models[1], "250 N m");
@@ -353,7 +358,7 @@ static void test_measured_profile(void)
     unlink(path);
 }
 
-/* A corner of either flank, in single contact, bends e there. */
+/* A kink in the profile of either flank must be a breakpoint of e in single contact. */
 static void test_corner_of_a_profile_is_a_breakpoint(void)
 {
     for (int gear = 0; gear < 2; gear++) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* ISO 6336-1 against figures worked by hand for the 50/50 pair, against two printed reports, and
-   its series, typed a second time, for unequal pairs that are entered in either order. */
+/* Compares ISO 6336-1 with values worked out by hand for the 50/50 pair, with two published
+   reports, and with its series, programmed again here, for unequal pairs in either order. */
 #include "chain.h"
 #include "check.h"
 
@@ -11,7 +11,7 @@ static const char model[] = "stiffness/iso-6336";
 /* q' = 0.0554984 mm um/N; c' = 0.8/q' = 14.4148 N/(mm um) with C_B = 1; 20 mm wide */
 static const double single = 14.4148e9 * 0.02, ratio = 1.75467;
 
-/* With a dedendum of 1.2 module C_B is 1. */
+/* Opens the pair with a dedendum of 1.2 modules, so that C_B is 1. */
 static chain open_pair(const char *torque)
 {
     chain c = chain_open(model, torque);
@@ -56,8 +56,8 @@ static void test_trapezoid(void)
     chain_close(&c);
 }
 
-/* Pairs that come over a ramp touch before SAP with the gap of SAP: the relief unloads them there
-   as much as behind it. */
+/* A pair whose load begins with a ramp touches before SAP, with the gap of SAP: the relief must
+   reduce its load before SAP as after it. */
 static void test_relief_before_sap(void)
 {
     chain c = open_pair("250 N m");
@@ -72,7 +72,7 @@ static void test_relief_before_sap(void)
     while (i < n && roll[i] < sap)
         i++;
     check_near("the points before SAP reach it", roll[i - 1], sap - step, 1e-9);
-    /* the ramp's own rise is F/2 in 40 such steps, more where the other pair leaves it the load */
+    /* the ramp increases by F/2 in 40 such steps, or faster if the other pair's load decreases */
     check_below("no jump at SAP", fabs(force[i] - force[i - 1]), 0.05 * force[i]);
     check_true("loaded", force[i] > 0);
     chain_close(&c);
@@ -97,7 +97,8 @@ static void test_light_load(void)
     chain_close(&d);
 }
 
-/* C_B = 1 - 0.02 (20 - alpha), alpha in degrees, of a rack with a dedendum of 1.2 module. */
+/* C_B must be 1 - 0.02 (20 - alpha), alpha in degrees, for a rack with a dedendum of 1.2
+   modules. */
 static void test_pressure_angle(void)
 {
     chain c = open_pair("250 N m");
@@ -121,7 +122,7 @@ static void test_relief_unloads_a_pair(void)
     chain_close(&c);
 }
 
-/* A pair in both orders: the values of gear 2 come second, or first. */
+/* An unequal pair, entered in either order: gear 2 second or first. */
 typedef struct unequal {
     double teeth[2], shift[2], modulus[2], dedendum[2]; /* GPa */
     double module, width, centre, blank;                /* mm; centre 0: from the shifts */
@@ -188,8 +189,8 @@ static void test_printed_reports(void)
         }
 }
 
-/* The series and its factors of ISO 6336-1, clause 9, typed a second time, for a steel pinion with
-   a wheel of cast iron. */
+/* The series and factors of ISO 6336-1, clause 9, programmed again, for a steel pinion with a wheel
+   of cast iron. */
 static void test_series(void)
 {
     static const unequal pairs[] = {
@@ -217,7 +218,7 @@ static void test_series(void)
         }
 }
 
-/* A third party's gear may say which gear it is, and nothing else than 1 or 2. */
+/* A plugin may give the number of the pinion, which must be 1 or 2. */
 static void test_pinion_told(void)
 {
     chain c = open_pair("250 N m");

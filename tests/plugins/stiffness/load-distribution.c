@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Load distribution over the teeth of the 50/50 pair of Li & Kahraman 2011. */
+/* stiffness/load-distribution for the 50/50 pair of Li & Kahraman 2011. */
 #include "chain.h"
 #include "check.h"
 #include "pair.h"
@@ -58,8 +58,9 @@ static void test_size_of_the_stiffness(void)
     check_true("sharp fillets are softer", mean_with("gear.tool_tip_radius", "0.1") < standard);
 }
 
-/* What plane stress in the contact would add: under ten times the load Q ln 10 less of it, with Q =
-   2/(pi E b) in place of 2 (1 - nu^2)/(pi E b). */
+/* With `plane: stress`, the contact still has plane strain. The line contact_in_plane_strain is the
+   increase of the deflection if the contact had plane stress, too. Over the force, it must decrease
+   by Q ln 10 with ten times the load, Q: difference of 2/(pi E b) and 2 (1 - nu^2)/(pi E b). */
 static void test_contact_in_plane_strain(void)
 {
     double add[2] = {0};
@@ -87,8 +88,8 @@ static void test_mesh_convergence(void)
     check_near("450 elements", mean_with("mesh.elements_per_tooth", "450"), fine, 2e-3);
 }
 
-/* Alone, a pair has 1/k = C + P - Q ln f with Q = 2 (1 - nu^2)/(pi E b): nothing else depends on
-   the load. */
+/* A single pair has 1/k = C + P - Q ln f with Q = 2 (1 - nu^2)/(pi E b), f: its force; only this
+   term depends on the load. */
 static void test_torque_stiffens_by_hertz_alone(void)
 {
     chain low = chain_with(model, "50 N m", NULL, NULL),
@@ -124,7 +125,8 @@ static void test_definitions(void)
     chain_close(&less);
 }
 
-/* Unlike gears, run backwards: age a of one is age eps - a of the other. */
+/* Unequal gears in exchanged order: `a` pitches after the begin of contact correspond to contact
+   ratio minus `a`. */
 static void test_swapped_driver(void)
 {
     chain a = chain_open(model, "100 N m"), b = chain_open(model, "178.2608695652174 N m");
@@ -140,7 +142,7 @@ static void test_swapped_driver(void)
         stage_set_text(sides[i].c->gear, "bore_diameter", sides[i].bore);
         stage_set_text(sides[i].c->gear, "tip_relief", i ? "[4 um, 8 um]" : "[8 um, 4 um]");
         stage_set_text(sides[i].c->mesh, "corner_contact", "true");
-        stage_set_text(sides[i].c->mesh, "definition", "secant"); /* whose mean converges faster */
+        stage_set_text(sides[i].c->mesh, "definition", "secant"); /* its mean converges faster */
     }
     check_near("mean", chain_mean(&a), chain_mean(&b), 1e-5);
     check_near("bodies of both gears", stage_quality(a.mesh, "half_plane"),
@@ -192,7 +194,7 @@ static void test_corner_contact(void)
     check_true("about 2", last > 1.9 && last < 2.1);
 }
 
-/* Long teeth: two or three pairs. */
+/* Long teeth, with two or three pairs in contact. */
 static void test_high_contact_ratio(void)
 {
     spur_pair p = spur_pair_make(60, 60, 3e-3, 1.3, 0, 0);
@@ -216,7 +218,7 @@ static void test_high_contact_ratio(void)
     stage_close(corner);
 }
 
-/* Corner contact without load is where the gap is 0: nowhere but on the path of contact. */
+/* Without load, contact must be only where the gap is 0, on the path of contact. */
 static void test_corner_contact_vanishes_with_the_load(void)
 {
     chain c = chain_with(model, "0.001 N m", "mesh.corner_contact", "true");
@@ -233,7 +235,7 @@ static void test_analytical_compliance(void)
     chain_close(&c);
 }
 
-/* Distance of a flank from the axis of its tooth along the normal, where the roll angle is that. */
+/* Returns the distance along the flank's normal from a roll angle to the axis of the tooth. */
 static double depth_of(const chain *c, int gear, double roll)
 {
     const double base = stage_get(c->gear, "base_radius", NULL)[gear],
@@ -245,9 +247,10 @@ static double depth_of(const chain *c, int gear, double roll)
     return hypot(base, base * roll) * sin(half) / cos(angle - half);
 }
 
-/* Weber's approach by hand, h (2 ln 2d - ln(4 R w (h1 + h2)) - nu/(1 - nu)) with h = (1 - nu^2)/(pi
-   E b) of each flank: what a pair alone gives more than with the constant contact of the beams, 4
-   (1 - nu^2)/(pi E b) of both. Gears of unlike metals. */
+/* Weber's contact approach, h (2 ln 2d - ln(4 R w (h1 + h2)) - nu/(1 - nu)) for each flank with h =
+   (1 - nu^2)/(pi E b): the deflection of a single pair must exceed that with the beams' constant
+   contact compliance, 4 (1 - nu^2)/(pi E b) for both flanks, by the difference. Gears of different
+   metals. */
 static void test_approach(void)
 {
     const double nu[2] = {0.24, 0.36}, E[2] = {206e9, 118e9}, width = 0.02, load = 3500;
@@ -297,7 +300,8 @@ static double seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* The compliance is kept from one run to the next: a new torque costs the mesh positions alone. */
+/* The compliance must be stored between runs: with a new torque, only the mesh positions are solved
+   again. */
 static void test_cost(void)
 {
     chain c = chain_open(model, "250 N m");
@@ -315,7 +319,7 @@ static void test_cost(void)
     stage_give_scalar(c.mesh, "operating.line_force", other_force);
     check_near("kept, not mixed up", chain_mean(&c), mean, 1e-14);
     chain_close(&c);
-    /* a fiftieth where nothing disturbs it */
+    /* a fiftieth on an idle computer */
     check_below("time of 200 mesh positions, over that of the compliance", again / first, 0.25);
 }
 
@@ -367,7 +371,7 @@ static void test_no_load(void)
     chain_close(&c);
 }
 
-/* Against beams on a foundation, which know nothing of elements: 14 % apart at the most. */
+/* The difference to beams on an elastic foundation must be at most 14 %. */
 static void test_unlike_gears(void)
 {
     static const char *const pairs[][3] = {

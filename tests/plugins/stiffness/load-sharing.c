@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The contact problem of one mesh position against closed forms and against trying all sets. */
+/* Compares solutions of the contact problem of a mesh position with closed forms, and with a search
+   over all sets of pairs. */
 #include "../../../plugins/stiffness/load-sharing.h"
 
 #include "check.h"
@@ -34,7 +35,7 @@ static void test_wide_gap_carries_nothing(void)
     check_true("solved", stiffness_share(&c, 3000, &r));
     check_true("open", !(r.force[0] > 0) && !(r.force[1] < 3000));
     check_near("alone", r.deflection, 15e-6, 1e-14);
-    /* it is lifted by the neighbour's 3 um, so that a gap of 12 um is enough */
+    /* its neighbour moves it away by 3 um, so that a gap of 12 um is enough */
     c.gap[0] = 12.001e-6;
     check_true("solved", stiffness_share(&c, 3000, &r));
     check_true("still open", !(r.force[0] > 0));
@@ -54,7 +55,7 @@ static void test_hertz(void)
     check_true("no contact is pressed through its tooth", !stiffness_share(&c, 3000, &r));
 }
 
-/* Linear problem with coupling: the only set of pairs that fits, found by trying all. */
+/* Whether a set of pairs solves the linear problem with coupling. */
 static int fits(const stiffness_contacts *c, double total, unsigned set, double force[4],
                 double *approach)
 {
@@ -126,8 +127,8 @@ static void test_all_sets(void)
     check_below("equilibrium", imbalance, 1e-15);
 }
 
-/* Forces of all sizes keep the law of complementarity, also when they are found from a smaller or
-   a larger one. */
+/* Forces of all sizes must be complementary to the gaps, also if the solution starts from that of a
+   smaller or larger force. */
 static void test_extremes(void)
 {
     uint64_t random = 3;

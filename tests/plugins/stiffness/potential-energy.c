@@ -20,7 +20,8 @@ static stage *run_pair(const spur_pair *pair)
     return s;
 }
 
-/* Largest stiffness of a single pair; at the pitch point of a unity pair. */
+/* Returns the largest stiffness of a single tooth pair, which equal gears have at the pitch
+   point. */
 static double single_highest(const stage *s)
 {
     size_t n;
@@ -32,9 +33,9 @@ static double single_highest(const stage *s)
     return highest;
 }
 
-/* 50/50 teeth, module 3: figures of an independent code, to the digits that it printed. Its
-   harmonics come from samples of a function with jumps of 1.4e8 N/m: some 400 of them leave
-   1.4e8/400 N/m in doubt. */
+/* 50/50 teeth, module 3: compares values with those of an independent program, to their digits. Its
+   harmonics come from about 400 samples of a function with jumps of 1.4e8 N/m, so that they are
+   uncertain by 1.4e8/400 N/m. */
 static void test_reference_pair(void)
 {
     static const double row[4][8] = {
@@ -48,7 +49,8 @@ static void test_reference_pair(void)
         spur_pair p = spur_pair_make(50, 50, 3e-3, 1, 0, 0);
         p.root[0] = p.root[1] = 1e-3 * row[i][0];
         p.bore[0] = p.bore[1] = 1e-3 * row[i][1];
-        p.thickness[0] = p.thickness[1] -= 0.07e-3; /* circular backlash 0.14 mm, half on each */
+        p.thickness[0] = p.thickness[1] -= 0.07e-3; /* circular backlash 0.14 mm, half on each
+                                                       gear */
         stage *s = run_pair(&p);
         const double *harmonic = stage_get(s, "stiffness_harmonics", NULL);
         double ends = stage_get(s, "load_share", NULL)[0] * stage_get(s, "stiffness", NULL)[0];
@@ -65,7 +67,8 @@ static void test_reference_pair(void)
     }
 }
 
-/* Backlash 0.14 mm on the reference circle thins each tooth by 0.07 mm there. */
+/* A backlash of 0.14 mm on the reference circle must reduce each tooth thickness by 0.07 mm
+   there. */
 static void test_backlash_thins_the_teeth(void)
 {
     spur_pair p = spur_pair_make(50, 50, 3e-3, 1, 0, 0);
@@ -210,7 +213,8 @@ static void test_high_contact_ratio(void)
     stage_close(s);
 }
 
-/* Straight lines between points: the mean's error falls as points^-2. */
+/* With straight lines between points, the error of the mean decreases with the square of their
+   number. */
 static void test_mean_converges(void)
 {
     spur_pair p = spur_pair_make(23, 57, 2e-3, 1, 0, 0);
@@ -228,7 +232,8 @@ static void test_mean_converges(void)
     check_below("200 points would do", fabs(mean[2] / mean[3] - 1), 1e-4);
 }
 
-/* E/(1-nu^2) in bending and compression alone: stiffer, by less than 1/(1-nu^2). */
+/* In plane strain, E/(1-nu^2) in bending and compression only must increase the stiffness by less
+   than 1/(1-nu^2). */
 static void test_plane_strain_is_stiffer(void)
 {
     spur_pair p = spur_pair_make(50, 50, 3e-3, 1, 0, 0);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Measured profiles: values between their points, and where they have corners. */
+/* Measured profiles: values between points, and detection of kinks. */
 #include "../../../plugins/stiffness/deviations.h"
 
 #include "check.h"
@@ -11,7 +11,7 @@ static double roll[KNOTS], profile[KNOTS];
 static const stiffness_deviations deviations = {
     .points = KNOTS, .roll = {roll, roll}, .profile = {profile, profile}};
 
-/* A relief from roll angle `start` on, at points of unequal distance. */
+/* Makes a relief that begins at roll angle `start`, at unequally spaced points. */
 static void relieve(double start, double power)
 {
     for (int i = 0; i < KNOTS; i++) {
@@ -21,7 +21,8 @@ static void relieve(double start, double power)
     }
 }
 
-/* The slope changes by 1/(KNOTS - 2) of its range from point to point of a parabola. */
+/* A sampled parabola, whose slope changes by 1/(KNOTS - 2) of its range from point to point, must
+   have no kink. */
 static void test_a_sampled_curve_has_no_corner(void)
 {
     double found[KNOTS];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Stiffness of pairs that gear/involute-spur and operating/steady describe. */
+/* Stiffness of pairs from gear/involute-spur and operating/steady. */
 #include "check.h"
 #include "stage.h"
 
@@ -32,7 +32,7 @@ static void close_chain(chain *c)
     stage_close(c->gear);
 }
 
-/* Stations of the gear where the roll angle is that of LPSTC or HPSTC. */
+/* Returns the first station of the gear at LPSTC or HPSTC. */
 static size_t first_at(const stage *gear, const char *point)
 {
     size_t n, i = 0;
@@ -104,9 +104,9 @@ static void test_table_on_a_gear(void)
     close_chain(&c);
 }
 
-/* Teeth with relief that touch late under light loads: neither the mean of k nor an amplitude is
-   off by more than twice the mean distance of its straight lines, and that is no more than a few
-   times as large. */
+/* Teeth with relief that touch late under light loads: the errors of the mean and of the amplitudes
+   of k must be at most twice the mean error of linear interpolation that the model states, which
+   must be at most a few times as large as they are. */
 static void test_straight_lines(const char *definition)
 {
     static const char *const torques[] = {"1 N m", "20 N m", "1000 N m"};
@@ -138,7 +138,7 @@ static void test_straight_lines(const char *definition)
     }
 }
 
-/* What a stiffness knows of other forces than its own is what it says under those. */
+/* Results at other force levels must be those of runs with these forces. */
 static void test_levels(void)
 {
     static const char *const torques[] = {"90 N m", "40 N m", "160 N m"};
@@ -181,7 +181,8 @@ static void test_levels(void)
                 if (!single || fabs(at[b] - phase[a]) > 1e-12)
                     continue;
                 check_near("error", error[row * phases + a], loaded[b], 1e-9);
-                /* a pair that has just touched bears so little that its force has few digits */
+                /* a pair that has just touched has so small a force that few digits of it are
+                   exact */
                 check_near("slope", slope[row * phases + a], k[b], 1e-5);
                 equal++;
             }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Outline, elements and compliance of a gear. */
+/* Outline, finite elements and compliance of a gear. */
 #include "../../../plugins/stiffness/elements/ring.h"
 #include "../../../plugins/stiffness/elements/condense.h"
 
@@ -11,7 +11,8 @@
 
 static const stiffness_material steel = {206e9, 0.3, 0.02, 1};
 
-/* 20 deg teeth, module 3; contact from the lowest point that an equal gear reaches. */
+/* Returns data of 20 deg teeth, module 3, with contact from the lowest point that an equal gear
+   reaches. */
 static stiffness_contour_data tooth(double teeth, double dedendum)
 {
     double r = 1.5e-3 * teeth, base = r * cos(M_PI / 9), tip = sqrt(pow((r + 3e-3) / base, 2) - 1);
@@ -73,7 +74,8 @@ static void test_contours_that_do_not_exist(void)
     check_true("pointed tooth", stiffness_contour_make(&c, &data) != NULL);
 }
 
-/* The largest radius that fits is the one whose involute begins with the lowest contact. */
+/* With the largest possible fillet radius, the involute must begin at the lowest point of
+   contact. */
 static void test_largest_fillet(void)
 {
     for (double teeth = 24; teeth <= 60; teeth += 4) {
@@ -89,7 +91,7 @@ static void test_largest_fillet(void)
     }
 }
 
-/* Strain energy of u = (a x + b y, c x + d y) over the sector. */
+/* Returns the strain energy of u = (a x + b y, c x + d y) in the sector. */
 static double energy(const stiffness_sector *s, const stiffness_material *m, const double g[4])
 {
     double sum = 0, k[16][16];
@@ -108,7 +110,7 @@ static double energy(const stiffness_sector *s, const stiffness_material *m, con
     return sum;
 }
 
-/* The area between rim and outline by its boundary. */
+/* Returns the area between rim and outline by an integral along the boundary. */
 static double area(const stiffness_contour *c, double rim)
 {
     enum { STEPS = 20000 };
@@ -143,11 +145,12 @@ static void test_patch(void)
     stiffness_sector_free(&s);
 }
 
-/* The whole ring of elements at once. */
+/* The stiffness matrix of the whole ring of elements. */
 typedef struct ring_system {
     const stiffness_sector *sector;
     size_t teeth, nodes; /* nodes of one sector without its left side */
-    size_t *number;      /* of a sector's node; left side: as if of the sector before */
+    size_t *number;      /* number of a node of a sector; nodes of its left side belong to the
+                            sector before */
     int *left;
 } ring_system;
 
@@ -206,7 +209,7 @@ static stiffness_point rotate(stiffness_point p, double angle)
                              p.x * sin(angle) + p.y * cos(angle)};
 }
 
-/* Adds (or, with `from`, reads) a flank force of a sector. */
+/* Adds a flank force of a sector, or, with `from`, returns the displacement in its direction. */
 static double apply(const ring_system *r, size_t sector, const stiffness_nodal *f, double *to,
                     const double *from)
 {
@@ -237,7 +240,7 @@ static void compare_with_ring(const ring_system *r, const stiffness_ring *ring, 
     check_near("same tooth", ring->other[0][9][4], apply(r, 0, &near, NULL, x->x), 1e-8);
 }
 
-/* Twin: the assembled ring of all sectors instead of its harmonics. */
+/* Compares the compliance from harmonics of the sectors with that of the assembled ring. */
 static void test_twin_of_the_whole_ring(void)
 {
     stiffness_contour c = contour(24, 1.25);
@@ -320,8 +323,8 @@ static void test_compliance_converges(void)
     free(ring);
 }
 
-/* Approach of flank and axis under an elliptical pressure of that half width, less the half plane's
-   (Johnson 1985 eq. 5.57), times width of the face. */
+/* Returns the approach of flank and axis under an elliptical pressure of a half width, minus that
+   of a half-plane (Johnson 1985 eq. 5.57), times the face width. */
 static double beyond_half_plane(const stiffness_sector *sector, double roll, double half_width)
 {
     enum { PARTS = 200 };
@@ -351,7 +354,8 @@ static double beyond_half_plane(const stiffness_sector *sector, double roll, dou
     return approach - formula;
 }
 
-/* What a tooth adds to the half plane belongs to the tooth: it must not depend on the pressure. */
+/* The difference of a tooth's compliance from that of a half-plane must not depend on the width of
+   the pressure. */
 static void test_local_part(void)
 {
     stiffness_contour c = contour(50, 1.25);
@@ -373,8 +377,8 @@ static void test_local_part(void)
     free(ring);
 }
 
-/* An annulus between the radii r_i and r_o turns the base circle by
-   r_b^2/(4 pi G b) (1/r_i^2 - 1/r_o^2) under a unit force there. */
+/* Torsion of an annulus between radii r_i and r_o: under a unit force at the base circle, this
+   circle must move by r_b^2/(4 pi G b) (1/r_i^2 - 1/r_o^2). */
 static void test_torsion_of_the_body(void)
 {
     stiffness_contour c = contour(50, 1.25);

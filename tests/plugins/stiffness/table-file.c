@@ -42,7 +42,7 @@ static void test_stiffness_column(void)
     stage_close(s);
 }
 
-/* k = F/(e_l - e) at the table's phases, and both errors as given. */
+/* At the table's phases, k must be F/(e_l - e), and both transmission errors as given. */
 static void test_transmission_errors(void)
 {
     stage *s = open_file("phase,loaded_transmission_error [um],transmission_error [um]\n"
@@ -72,7 +72,7 @@ static void test_transmission_errors(void)
     stage_close(s);
 }
 
-/* The slope beside both errors: each is given as it stands. */
+/* With the slope and both transmission errors in the table, the outputs must be as given. */
 static void test_slope_and_errors(void)
 {
     stage *s = open_file("phase,stiffness [N/um],transmission_error [um],"
@@ -87,7 +87,7 @@ static void test_slope_and_errors(void)
     stage_close(s);
 }
 
-/* Stiffness with an unloaded error of its own: e_l = e + F/k. */
+/* With a stiffness and an error without load in the table, e_l must be e + F/k. */
 static void test_error_beside_stiffness(void)
 {
     stage *s = open_file("phase\tstiffness [N/um]\ttransmission_error [nm]\n0\t300\t1500\n");
@@ -97,7 +97,7 @@ static void test_error_beside_stiffness(void)
     stage_close(s);
 }
 
-/* Share of the entering pair: 0.3 to 0.7 over the two-pair zone, 1 after it. */
+/* Load fraction of the entering pair: 0.3 to 0.7 during double contact, 1 after it. */
 static void test_load_share(void)
 {
     char text[256];
@@ -134,8 +134,8 @@ static void test_load_share(void)
     stage_close(s);
 }
 
-/* Errors s = a(phase) F + b F^1.2 at five forces: at the line force, half-way between two of them,
-   both s and its slope, and the pairs' forces at each. */
+/* Transmission errors s = a(phase) F + b F^1.2 at five forces: checks s and its slope at the line
+   force, half-way between two of them, and the forces of the tooth pairs at each. */
 static double error_under(double phase, double force)
 {
     return (3 + 0.5 * cos(2 * M_PI * phase)) * 1e-9 * force + 4e-11 * pow(force, 1.2);
@@ -331,7 +331,7 @@ static void test_no_text(void)
     stage_close(s);
 }
 
-/* Text of a smooth table of that many rows. */
+/* Returns the text of a smooth table with a number of rows. */
 static char *long_table(int rows)
 {
     char *text = malloc(48 * (size_t)rows + 64), *end = text;

@@ -16,7 +16,8 @@ static stage *open_table(const spur_pair *pair, size_t n, const double *phase, c
 
 static spur_pair unity;
 
-/* Trapezoid of mean 1 with two-pair share 0.755 and ramps of 0.04, phase 0 amid two pairs. */
+/* Trapezoid of mean 1, with double contact for 0.755 of the cycle, ramps of 0.04, and phase 0 in
+   the middle of double contact. */
 enum { TRAPEZOID = 6 };
 static const double trapezoid_phase[TRAPEZOID] = {0, 0.3575, 0.3975, 0.6025, 0.6425, 1};
 static const double two = 1.093793e8, one = 0.710965e8;
@@ -55,7 +56,7 @@ static void test_trapezoid(void)
     stage_close(s);
 }
 
-/* Rectangular wave from 0.7547 on at the lower value: all jumps kept. */
+/* A rectangular wave with the lower value from 0.7547 on must keep all jumps. */
 static void test_jumps(void)
 {
     static const double phase[] = {0, 0.7547, 0.7547, 1}, k[] = {4e8, 4e8, 2e8, 2e8};
@@ -77,7 +78,7 @@ static void test_jumps(void)
     stage_close(s);
 }
 
-/* Phase 1 is phase 0: whichever is given, both ends have the value. */
+/* Phase 1 is phase 0: if either is given, both ends must have its value. */
 static void test_period_closes(void)
 {
     static const double phase[] = {0, 0.5}, k[] = {3e8, 2e8};
@@ -121,7 +122,8 @@ static double growing(double phase)
     return 2e8 * exp(phase);
 }
 
-/* Largest error of the output for a smooth function with a jump at 0, given at n + 1 phases. */
+/* Returns the largest error of the output for a smooth function with a jump at 0, given at n + 1
+   phases. */
 static double smooth_error(int n, const char *interpolation)
 {
     double phase[81], k[81], worst = 0;
@@ -142,7 +144,8 @@ static double smooth_error(int n, const char *interpolation)
     return worst;
 }
 
-/* Slopes of parabolas are of second order, so the cubic is of third. */
+/* Slopes from parabolas have errors of second order, so that the error of the cubic is of third
+   order. */
 static void test_cubic_converges(void)
 {
     double coarse = smooth_error(20, "cubic"), fine = smooth_error(40, "cubic");
@@ -171,7 +174,8 @@ static void test_cubic_does_not_overshoot(void)
     stage_close(s);
 }
 
-/* A run of pieces between jumps reproduces its parabola's slope at both ends. */
+/* Between two jumps, the slopes at both ends must be those of the parabola through the points
+   there. */
 static void test_cubic_keeps_jumps(void)
 {
     static const double phase[] = {0, 0.25, 0.5, 0.75, 1};
@@ -201,7 +205,7 @@ static void expect_refusal(size_t n, const double *phase, const double *k, const
     stage_close(s);
 }
 
-/* By the row of the parameter alone. */
+/* The parameter must refuse the values when they are set. */
 static void expect_limit(const char *param, const double *values, const char *word)
 {
     stage *s = stage_open("stiffness/table");
@@ -270,7 +274,7 @@ static stage *open_noisy(const spur_pair *pair, double noise)
     static double phase[SAMPLES + 1], k[SAMPLES + 1];
     unsigned random = 1;
     for (int i = 0; i <= SAMPLES; i++) {
-        int step = i > 240 ? i - 1 : i; /* 0.6 is there twice */
+        int step = i > 240 ? i - 1 : i; /* phase 0.6 has two values */
         phase[i] = step / 400.0;
         random = random * 1103515245u + 12345u;
         double uniform = (random >> 16 & 0x7fff) / 16383.5 - 1;
@@ -307,8 +311,8 @@ static void test_fit(void)
     stage_close(noisy);
 }
 
-/* One cubic is fitted as it is, also between the samples; a weight of 1e-4 straightens it by 1e-8.
- */
+/* The fit of a cubic must be the cubic, also between samples; a smoothing weight of 1e-4 changes it
+   by 1e-8. */
 static void test_fit_of_a_cubic(void)
 {
     double phase[9], k[9], worst = 0;

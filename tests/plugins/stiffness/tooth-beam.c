@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-/* 20 deg teeth of no profile shift, module 3. */
+/* Returns a 20 deg tooth without profile shift, module 3. */
 static stiffness_tooth tooth_of(double teeth, double dedendum)
 {
     double r = 1.5e-3 * teeth;
@@ -84,7 +84,7 @@ static void test_cantilever(void)
     check_near("a strut", c.axial, L / (E * b * H), 1e-13);
     check_below("does not bend", c.bending, 0);
 
-    /* a force at angle a on the face: a moment -sin(a) H/2 besides the force cos(a) at the end */
+    /* a force at angle a on the surface: the force cos(a) at the end, and a moment -sin(a) H/2 */
     const double a = 0.3, s = sin(a) * H / 2, k = cos(a), EI = E * b * H * H * H / 12;
     const stiffness_load face = {.x = root + L, .y = H / 2, .across = k, .along = sin(a)};
     c = (stiffness_compliance){0};
@@ -118,7 +118,7 @@ static double adaptive(twin w, double t0, double t1, gsl_integration_workspace *
     return result;
 }
 
-/* Adaptive Gauss-Kronrod quadrature of the same energy, to 1e-12, slow and obvious. */
+/* Returns the compliance from the same energy, by adaptive Gauss-Kronrod quadrature to 1e-12. */
 static double twin_compliance(const stiffness_tooth *tooth, double roll, int part)
 {
     gsl_integration_workspace *space = gsl_integration_workspace_alloc(1000);
@@ -150,7 +150,7 @@ static void test_twin(void)
     gsl_integration_glfixed_table_free(rule);
 }
 
-/* Gauss quadrature of analytic integrands: the error falls geometrically with the nodes. */
+/* The error of Gauss quadrature must decrease geometrically with the number of nodes. */
 static void test_quadrature_converges(void)
 {
     stiffness_tooth tooth = tooth_of(50, 1.55);

@@ -12,7 +12,7 @@ enum { N = 4000 };
 
 static double position[N], height[N];
 
-/* A trace over 4 mm; run with what the test sets. */
+/* Opens a trace of 4 mm, for the settings of the test. */
 static stage *open_trace(char path[PATH_ROOM])
 {
     for (int i = 0; i < N; i++)
@@ -35,7 +35,7 @@ static const double *run(stage *s, const char *path)
     return z;
 }
 
-/* Share of a wave that stays, from the middle of the record. */
+/* Returns the amplitude ratio of a filtered wave, from the middle of the record. */
 static double share_of_wave(double wavelength, const char *cutoff, const char *value)
 {
     char path[PATH_ROOM];
@@ -93,7 +93,7 @@ static void test_filter_keeps_a_constant_to_the_ends(void)
     stage_close(s);
 }
 
-/* A polynomial of the order that is taken off leaves nothing. */
+/* Removal of a polynomial must leave nothing of a polynomial of this order. */
 static void test_detrend(const char *order, int degree, double left)
 {
     char path[PATH_ROOM];

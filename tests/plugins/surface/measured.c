@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Measured flanks: resampling, directions, lengths and what follows the record. */
+/* Measured flanks: resampling, directions, lengths, and continuation beyond the record. */
 #include "trace-file.h"
 
 #include <check.h>
@@ -10,7 +10,7 @@
 
 enum { N = 300 };
 
-/* A trace of n points, evenly apart or not, with heights that no symmetry repeats. */
+/* Writes a trace of n points, equally or unequally spaced, with heights without symmetry. */
 static void write_rough(char path[PATH_ROOM], size_t n, double uneven)
 {
     double position[N], height[N];
@@ -88,7 +88,8 @@ static void test_flat_outside(void)
     unlink(path);
 }
 
-/* Trapezoids of the file against the heights of the record, the end cells of which are half. */
+/* The integral of the file, by the trapezoidal rule, must be that of the record's heights, with
+   half cells at both ends. */
 static void test_resampling_keeps_the_integral(void)
 {
     char path[PATH_ROOM];

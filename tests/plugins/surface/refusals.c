@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is wrong with a trace is told with its line and column. */
+/* Errors in a trace must be reported with their line and column. */
 #include "trace-file.h"
 
 #include <check.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Waves and dents against their formulas. */
+/* Compares waves and dents with their formulas. */
 #include <check.h>
 #include <stage.h>
 
@@ -64,7 +64,7 @@ static stage *open_dent(const char *shape)
     return s;
 }
 
-/* Height at a distance from where x = start lies at the first time. */
+/* Returns the height at a distance from the point that is at x = start at the first time. */
 static double height_at(const stage *s, double distance)
 {
     size_t n;

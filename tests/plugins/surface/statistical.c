@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* surface/statistical against its formula by hand. */
+/* Compares surface/statistical with its formula, computed here. */
 #include "check.h"
 #include "difference.h"
 #include "stage.h"
@@ -40,7 +40,7 @@ static void check_law(stage *s, double K, double sigma)
     check_true("finite", isfinite(p[0]) && isfinite(slope[0]));
 }
 
-/* F_5/2 by Simpson's rule in s itself, whose integrand has a root at its lower end. */
+/* Returns F_5/2 by Simpson's rule in s; the integrand has a square root at its lower end. */
 static double integral(double H)
 {
     enum { STEPS = 400000 };
@@ -92,7 +92,7 @@ static stage *open_table(const char *text)
     return open_flanks("table", table_path);
 }
 
-/* ln p is a straight line through these rows: so is the curve, and it goes on. */
+/* If ln p is linear in these rows, it must be linear in between and beyond. */
 static void test_table(void)
 {
     close(mkstemp(table_path));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Synthetic flanks: Rq, spectrum and what a seed changes. */
+/* Synthetic flanks: Rq, spectrum and effect of the seed. */
 #include <check.h>
 #include <stage.h>
 
@@ -19,7 +19,7 @@ static void run(stage *s)
     check_true("runs", stage_run(s) == FF_OK);
 }
 
-/* Amplitude of the wave that fits k times into the record. */
+/* Returns the amplitude of the wave with k periods in the record. */
 static double amplitude(const stage *s, const char *output, size_t k)
 {
     size_t n;
@@ -73,8 +73,8 @@ static void test_spectrum_follows_the_slope(double slope)
     stage_close(s);
 }
 
-/* The mean of |amplitude|^2 k^slope over both halves of the band, 195 waves each: their ratio
-   scatters by sqrt(2/195) = 10 %. */
+/* The mean of |amplitude|^2 k^slope must be equal in both halves of the band, with 195 waves each:
+   their ratio scatters by sqrt(2/195) = 10 %. */
 static void test_gaussian_spectrum_holds_on_average(void)
 {
     stage *s = open_rough();
@@ -134,7 +134,7 @@ static void test_rq_of_one_flank_leaves_the_other(void)
     stage_close(b);
 }
 
-/* These heights are what every machine must give. */
+/* These heights must be equal on every machine. */
 static void test_the_same_everywhere(void)
 {
     stage *s = open_rough();

@@ -7,8 +7,8 @@
 
 enum { PATH_ROOM = 64 };
 
-/* A new file with this text, or with n points in m; ends the program when it cannot be written.
-   The caller unlinks. */
+/* Write a new file with a text, or with n points in m; end the program if this fails. The caller
+   removes the file. */
 void write_text(char path[PATH_ROOM], const char *text);
 void write_trace(char path[PATH_ROOM], size_t n, const double *position, const double *height);
 

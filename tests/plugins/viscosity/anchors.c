@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Each viscosity law against numbers computed elsewhere and against its own limits. */
+/* Compares each viscosity law with values computed elsewhere and with its limits. */
 #include "check.h"
 #include "stage.h"
 
@@ -34,7 +34,8 @@ static stage *doolittle(double B, double K0)
     return s;
 }
 
-/* eta/eta0 of five constant sets at 0.2 ... 1.0 GPa, and the slope at 0: printed to four digits. */
+/* eta/eta0 with five sets of constants at 0.2 to 1.0 GPa, and the slope at 0, published to four
+   digits. */
 static void doolittle_table(void)
 {
     static const struct {
@@ -97,7 +98,8 @@ static void roelands_pao(void)
     stage_close(s);
 }
 
-/* All isotherms meet in one pole, so the rises of two viscosities are as their ln eta0 + 9.67. */
+/* All isotherms meet in one pole, so that ln(eta/eta0) of two oils is proportional to their ln eta0
+   + 9.67. */
 static void roelands_isotherms(void)
 {
     stage *thin = roelands("z", 0.6), *thick = stage_open("viscosity/roelands");
@@ -139,7 +141,7 @@ static stage *two_slope(double alpha_2, double width)
     return s;
 }
 
-/* The two lines, a kink or a bend between them, and Barus where they are one. */
+/* The two lines, a kink or a bend between them, and Barus' law for equal slopes. */
 static void two_slopes(void)
 {
     stage *kink = two_slope(7e-9, 0), *bend = two_slope(7e-9, 0.2e9), *one = two_slope(15e-9, 0);
@@ -158,7 +160,7 @@ static void two_slopes(void)
     stage_close(one);
 }
 
-/* A stiff liquid hardly loses volume: Doolittle-Tait becomes Barus with the same slope. */
+/* For a nearly incompressible liquid, Doolittle-Tait becomes Barus' law with the same slope. */
 static void doolittle_is_barus_when_stiff(void)
 {
     stage *s = doolittle(100, 1e12);

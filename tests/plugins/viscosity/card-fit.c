@@ -20,8 +20,8 @@ enum { LAWS = 4 };
 static const char *const ids[LAWS] = {"viscosity/roelands", "viscosity/doolittle-tait",
                                       "viscosity/two-slope", "viscosity/barus"};
 
-/* ln(eta/eta0) at p, Pa; NULL: the card's own Doolittle-Tait, where the data have no more than
-   alpha. c: constants of the oil. */
+/* Returns ln(eta/eta0) at p, Pa; c: constants of the oil. NULL instead: the card's Doolittle-Tait
+   law, if the data have only alpha. */
 typedef double shape(const double *c, double p);
 
 typedef struct card {
@@ -29,8 +29,8 @@ typedef struct card {
     double eta0, alpha; /* Pa s, 1/Pa, of the data */
     shape *data;
     double constant[5];
-    double range;       /* GPa, to which the laws are compared */
-    double reach[LAWS]; /* GPa, as the card says */
+    double range;       /* GPa, up to which the laws are compared */
+    double reach[LAWS]; /* GPa, stated by the card */
 } card;
 
 /* p/(A + B p), A = c0 + c1 T, B = c2 + c3 T */
@@ -45,7 +45,7 @@ static double roelands(const double *c, double p)
     return (log(c[0]) + 9.67) * (pow(1 + 5.1e-9 * p, c[1]) - 1);
 }
 
-/* 5P4E at 100 degC; from 0.75 GPa on, where it is a glass, constant. */
+/* 5P4E at 100 degC; constant above 0.75 GPa, where it is a glass. */
 static double yasutomi(const double *c, double p)
 {
     double part[2];
@@ -124,7 +124,7 @@ static void read_card(const char *name)
     check_true("  can be read", length > 0);
 }
 
-/* Sets what stands in the braces of the line "id: {key: value, ...}" of the card. */
+/* Opens a law with the parameters in the card's line "id: {key: value, ...}". */
 static stage *open_law(const char *id)
 {
     char line[128], key[64], value[64];
@@ -140,7 +140,7 @@ static stage *open_law(const char *id)
     return s;
 }
 
-/* With what the oil would tell it. */
+/* Opens a viscosity law with the values that it would get from the oil. */
 static stage *open_viscosity(const char *id, double eta0)
 {
     stage *s = open_law(id);
@@ -160,8 +160,8 @@ static double rise(const card *c, const ff_viscosity *shape_of_card, double p)
     return c->data ? c->data(c->constant, p) : ln_eta(shape_of_card, p) - ln_eta(shape_of_card, 0);
 }
 
-/* Simpson's rule to 4 GPa of exp(-ln(eta/eta0)) of a law, or of the data where v is NULL: the rest
-   is below exp(-17), the rule's error below 1e-8. */
+/* Returns the integral of eta0/eta to 4 GPa, of a law, or of the data if v is NULL, by Simpson's
+   rule: the rest is below exp(-17), the error of the rule below 1e-8. */
 static double film_forming(const card *c, const ff_viscosity *v, const ff_viscosity *own)
 {
     enum { N = 4000 };
@@ -174,7 +174,7 @@ static double film_forming(const card *c, const ff_viscosity *v, const ff_viscos
     return 3 / (sum * step);
 }
 
-/* GPa up to which eta is within 20 % of the data. */
+/* Returns the pressure, GPa, up to which eta is within 20 % of the data. */
 static double reach(const card *c, const ff_viscosity *v, const ff_viscosity *own)
 {
     enum { N = 400 };
@@ -208,14 +208,16 @@ static void check_viscosity(const card *c)
 
 static double stress(const ff_rheology *law, double ln_tau)
 {
-    /* a film of 1 m at 1 m/s, so that eta is the plain stress; p keeps the limiting stress away */
+    /* a film of 1 m at 1 m/s, whose Newtonian stress is eta; p is so high that the limiting stress
+       has no effect */
     const double p = 1e12, h = 1;
     double tau;
     law->shear(law->self, 1, &p, &ln_tau, &h, 1, &tau);
     return tau;
 }
 
-/* The law that takes a measured oil as it is has the data of the card. */
+/* viscosity/modulus, which uses the measured data directly, must agree with the data of the
+   card. */
 static void check_modulus(const card *c)
 {
     if (!strstr(text, "      viscosity/modulus: {base"))
@@ -233,8 +235,8 @@ static void check_modulus(const card *c)
     stage_close(s);
 }
 
-/* Carreau follows Ree-Eyring up to S = 100, tau = 5.3 tau0; where both stresses are auto,
-   tests/plugins/rheology/at-pressure.c holds it. */
+/* Carreau's law must agree with Ree-Eyring's up to S = 100, tau = 5.3 tau0; for stresses `auto`,
+   tests/plugins/rheology/at-pressure.c checks this. */
 static void check_rheology(void)
 {
     if (strstr(text, "      rheology/ree-eyring: {tau0: auto")) {
@@ -274,7 +276,7 @@ static void check_density(void)
     stage_close(oil);
 }
 
-/* eta0 and alpha of the correlations that give no more: ADORE, T in K. */
+/* eta0 and alpha of oils with correlations for only these: ADORE, T in K. */
 static void check_correlations(void)
 {
     double d = (311.1111 - 373.15) / (311.1111 * 373.15);
@@ -289,7 +291,7 @@ static void check_correlations(void)
     check_near("eta0 of PAO-B", pow(10, -4.2 + 4.57 * pow(1 + 80 / 135., -1.25)), 22.61e-3, 1e-3);
 }
 
-/* The laws of a card over pressure, for docs/validation. */
+/* Prints the laws of a card over pressure, for docs/validation. */
 static int print_card(const char *name)
 {
     const card *c = cards;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the interface asks of every viscosity law. */
+/* Requirements of the interface on every viscosity law. */
 #include "check.h"
 #include "stage.h"
 
@@ -102,7 +102,7 @@ static ff_status status(const ff_viscosity *v, double p)
     return v->eval(v->self, 1, &p, NULL, &ln_eta, NULL, NULL);
 }
 
-/* Pressures on both sides of 0 and of the cap, up to where only the continuation can be. */
+/* Pressures on both sides of 0 and of the cap, and far beyond, in the continuation of the law. */
 static const double pressures[] = {-1e30, -1e12, -5e9, -1e8, -1e5, -1.0, 1.0,  1e5,  1e7,  1e8, 3e8,
                                    6e8,   1e9,   2e9,  3e9,  5e9,  9e9,  2e10, 1e12, 1e20, 1e30};
 enum { PRESSURES = sizeof pressures / sizeof *pressures };
@@ -115,15 +115,16 @@ static void check_derivative(const ff_viscosity *v, double cap, double scale)
         double room = fmin(fabs(p), fabs(p - cap));
         double h = fmin(0.5 * room, p < 0 || p > cap ? HUGE_VAL : 1e-3 * (p + scale));
         double given = slope(v, p);
-        /* differences near 0 only see rounding: the tangent there is checked by itself */
+        /* differences near 0 have only rounding errors: the tangent there has a separate check */
         if (h * given > 1e-4)
             worst = fmax(worst, fabs(difference(value, v, p, h) / given - 1));
     }
     check_below("  derivative against differences", worst, 1e-8);
 }
 
-/* Value and slope on both sides of p, where a straight line meets the law. Over one step the slope
-   may change by curvature times the step, and the value by half of that times the step. */
+/* Checks that value and slope are continuous at p, where a straight line continues the law. Over a
+   step, the slope may change by the curvature times the step, and the value by half of that times
+   the step. */
 static void check_smooth(const ff_viscosity *v, double p, double step, const char *what)
 {
     double below = slope(v, p - step), above = slope(v, p + step);
@@ -163,7 +164,7 @@ static void check_rising(const ff_viscosity *v)
     check_true("  never falls with pressure", rising);
 }
 
-/* One call for all points, with and without the optional outputs, against single calls. */
+/* Compares one call for all points, with and without optional outputs, with single calls. */
 static void check_batch(const ff_viscosity *v)
 {
     double ln_eta[PRESSURES], dp[PRESSURES], dT[PRESSURES], again[PRESSURES], T[PRESSURES];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* viscosity/modulus against figures computed from its constants by hand, and over grades of oil. */
+/* Compares viscosity/modulus with values computed from its constants, for several grades of oil. */
 #include <check.h>
 #include <stage.h>
 
@@ -17,7 +17,7 @@ typedef struct scene {
     const ff_viscosity *v;
 } scene;
 
-/* An oil by its base and grade, which the law takes A and B of. */
+/* Opens an oil with a base and grade, from which the law gets A and B. */
 static scene open_scene(const char *base, const char *grade)
 {
     scene s = {stage_open("lubricant/grade"), stage_open("viscosity/modulus"), NULL};
@@ -49,7 +49,7 @@ static double rise(const scene *s, double p, double T)
     return ln - ambient;
 }
 
-/* 1/int_0^3GPa eta0/eta dp by Simpson's rule. */
+/* Returns 1/int_0^3GPa eta0/eta dp by Simpson's rule. */
 static double film_coefficient(const scene *s, double T)
 {
     enum { PARTS = 6000 };
@@ -100,7 +100,8 @@ static double ln_over_T(const void *where, double T)
     return ln;
 }
 
-/* Of another grade the slope at ambient pressure follows the oil's own coefficient, and B stays. */
+/* With another grade, the slope at ambient pressure must be the pressure coefficient of the oil,
+   with B unchanged. */
 static void test_grades(void)
 {
     const double T = 353.15;
@@ -154,7 +155,7 @@ static void test_refusals(void)
            (const char *const[][2]){{"a1", "60 MPa"}, {"b1", "-0.0062"}, {NULL, NULL}}, "a1");
 }
 
-/* A + B p stays above 0 with the scale of the grade, however cold, hot and compressed. */
+/* A + B p, with the scale factor of the grade, must be above 0 at any temperature and pressure. */
 static void test_range_of_grades(void)
 {
     static const char *const grades[] = {"ISO VG 10", "ISO VG 100", "ISO VG 1000"};
@@ -173,7 +174,7 @@ static void test_range_of_grades(void)
     }
 }
 
-/* Beyond what was measured of the oil the law is extrapolated, and says so. */
+/* Beyond the measured range, the law is extrapolated and must report it. */
 static void test_extrapolation(void)
 {
     static const double p[] = {1 * GPa, 1.05 * GPa, 0.5 * GPa, 0.5 * GPa};

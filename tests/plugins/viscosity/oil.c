@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Laws with an oil: what they take from it, over temperature. */
+/* Laws with an oil: the values that they get from it, over temperature. */
 #include "check.h"
 #include "stage.h"
 
@@ -54,7 +54,7 @@ static stage *open_law(size_t k)
     return law;
 }
 
-/* The same law, given the oil's viscosity and pressure coefficient at T. */
+/* Opens law k without an oil, with the oil's viscosity and pressure coefficient at T. */
 static stage *open_law_at(size_t k, stage *oil, double T)
 {
     stage *law = open_law(k);
@@ -64,7 +64,8 @@ static stage *open_law_at(size_t k, stage *oil, double T)
     return law;
 }
 
-/* Pressures from tension to beyond the cap, and one temperature at all or at neighbours. */
+/* Sets pressures from negative ones to beyond the cap, and temperatures that are equal or in
+   pairs. */
 static void fill(double *p, double *T, double first, double step)
 {
     for (int i = 0; i < POINTS; i++) {
@@ -117,7 +118,8 @@ static void slopes_agree(size_t k)
     stage_close(oil);
 }
 
-/* Without a temperature the law answers, but says that it guessed one; it stays finite at any. */
+/* Without a temperature, the law must use an assumed one and report it. It must be finite at any
+   temperature. */
 static void answers_without_and_at_any_temperature(size_t k)
 {
     static const double T[] = {-DBL_MAX, 0, 1, 1e4, DBL_MAX}, p[] = {1e9, -1e30, 1e30, 1e12, 0};
@@ -134,7 +136,7 @@ static void answers_without_and_at_any_temperature(size_t k)
     stage_close(oil);
 }
 
-/* A law whose only constant is the pressure coefficient of an oil that does not tell it. */
+/* A law that needs the pressure coefficient, with an oil that does not have it. */
 static void needs_the_coefficient_of_the_oil(void)
 {
     static const char *const ids[] = {"viscosity/barus", "viscosity/roelands"};
@@ -168,7 +170,7 @@ static void densities_take_the_oil(void)
     stage_close(oil);
 }
 
-/* A liquid that fails below 300 K, and has an infinite slope above 400 K. */
+/* A wrong lubricant: it fails below 300 K, and has an infinite slope above 400 K. */
 static ff_status answer_badly(const void *self, int32_t what, size_t n, const double *T,
                               double *value, double *slope)
 {
@@ -196,7 +198,7 @@ static void tells_of_an_oil_that_fails(void)
                numerics_liquid_values(&bad, FF_LIQUID_LN_ETA0, 1, &T[2], &value, &slope) == FF_BUG);
 }
 
-/* A density whose slope is no number. */
+/* A wrong density law, with a slope of NaN. */
 static ff_status steepen(const void *self, size_t n, const double *p, const double *T, double *rho,
                          double *drho_dp, double *drho_dT)
 {

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Parameters of viscosity laws that do not go together are refused, by name. */
+/* Contradictory parameters of viscosity laws must be reported with their name. */
 #include "check.h"
 #include "stage.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* Opens the law, sets up to five texts, and expects a refusal that names `item`. */
+/* Opens a law, sets up to five parameters, and expects an error at `item`. */
 static void refuse(const char *id, const char *const set[][2], const char *item)
 {
     stage *s = stage_open(id);

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * Laws over temperature: they pass through the oil at ambient pressure, their slopes are those of
- * central differences, whose error falls at second order, and at one temperature they are the law
- * of that temperature.
- */
+/* Laws over temperature: at ambient pressure, they must have the oil's viscosity; their slopes must
+   agree with central differences, to second order; and at one temperature, they must be the
+   isothermal law. */
 #include "check.h"
 #include "stage.h"
 
@@ -108,7 +106,7 @@ static answer at(const ff_viscosity *v, double p, double T)
     return a;
 }
 
-/* From tension to 6 GPa, and -3 to 147 degC. */
+/* From negative pressures to 6 GPa, and -3 to 147 degC. */
 enum { PRESSURES = 14, TEMPERATURES = 11, POINTS = PRESSURES * TEMPERATURES };
 
 static void fill(double p[POINTS], double T[POINTS])
@@ -133,13 +131,13 @@ static void passes_through_the_oil(const ff_viscosity *v, const ff_liquid *oil)
     check_true("  passes through the oil at ambient pressure", same);
 }
 
-/* No bend lies within 2 K: beyond its range a law has some. */
+/* Whether the law has no kink within 2 K; beyond its range, it has some. */
 static bool is_smooth(const ff_viscosity *v, double p, double T)
 {
     return at(v, p, T + 2).status == FF_OK && at(v, p, T - 2).status == FF_OK;
 }
 
-/* Sum of squares of what differences of 2 h miss. */
+/* Returns the sum of squares of the errors of differences over 2 h. */
 static double missed(const ff_viscosity *v, const double *p, const double *T, double h)
 {
     double sum = 0;
@@ -189,7 +187,7 @@ static void has_its_slopes(const ff_viscosity *v, const double *p, const double 
     check_below("  dln_dp against differences", worst_p, 1e-7);
 }
 
-/* A batch of one temperature, which laws answer by other loops, and without slopes. */
+/* Points at one temperature, for which laws use other loops, and calls without slopes. */
 static void one_temperature_is_no_other_law(const ff_viscosity *v, const double *p)
 {
     double T[PRESSURES], ln_eta[PRESSURES], by_p[PRESSURES], worst = 0;
@@ -226,8 +224,8 @@ static double rise(stage *s, double p, double T)
     return at(v, p, T).ln_eta - at(v, 0, T).ln_eta;
 }
 
-/* Doolittle-Tait of another temperature is the isothermal law with the constants of that one; the
-   cap of 2 GPa belongs to `at` and moves with K0. */
+/* Doolittle-Tait at another temperature must be the isothermal law with the constants there; the
+   cap, 2 GPa at the temperature `at`, is proportional to K0. */
 static void free_volume_is_that_of_its_temperature(void)
 {
     for (double T = 293.15; T < 430; T += 25) {
@@ -245,8 +243,8 @@ static void free_volume_is_that_of_its_temperature(void)
     }
 }
 
-/* Houpert 1985, as the equation stands: eta0 exp{(ln eta0 + 9.67) [(1 + p/p0)^z
-   [(T - 138)/(T0 - 138)]^-S0 - 1]}. */
+/* Roelands' law must be Houpert's (1985): eta0 exp{(ln eta0 + 9.67) [(1 + p/p0)^z [(T - 138)/(T0 -
+   138)]^-S0 - 1]}. */
 static void roelands_is_houperts(void)
 {
     stage *s = open_law(&laws[8], NULL);
@@ -260,8 +258,8 @@ static void roelands_is_houperts(void)
     stage_close(s);
 }
 
-/* 5P4E as Ehret, Dowson & Taylor give it, lg eta = 12 - 16.01 X/(20.69 + X), to the four digits
-   that were computed from it elsewhere. */
+/* 5P4E by Ehret, Dowson & Taylor, lg eta = 12 - 16.01 X/(20.69 + X), compared with values of four
+   digits computed from it elsewhere. */
 static void glass_of_5p4e(void)
 {
     stage *s = open_law(&laws[16], NULL);
@@ -272,7 +270,7 @@ static void glass_of_5p4e(void)
     stage_close(s);
 }
 
-/* A slope over temperature without the temperature that it starts from. */
+/* A slope over temperature needs the temperature at which the constants are given. */
 static void needs_where_constants_hold(void)
 {
     static const law bad[] = {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Spoils another discretisation of the film: what the checks of ehl/finite-volume must find. */
+/* A discretisation with deliberate errors, which the checks of ehl/finite-volume must find. */
 #include <flankfilm/author.h>
 #include <flankfilm/film.h>
 
