@@ -100,7 +100,15 @@ for cells in (128, 256, 512, 1024, 2048):
     print("| %d | %.0f | %.0f | %.0f | %.1e | %.1e | %.1e |" % (
         cells, preset["newton_steps"], preset["convolutions"], tight["convolutions"], move(preset["h_min"], tight["h_min"]),
         move(preset["p_max"], tight["p_max"]), quality["h_min_space_error"]))
+cycles = subprocess.run(["python3", "tests/plugins/ehl/cycles.py", program, "."], capture_output=True, text=True, check=True).stdout
 print("""
+Errors of `h_min` at the points I, II and III, compared with 8 times the cells and steps, where the load is above 2 % of its largest (`python3
+tests/plugins/ehl/cycles.py build/flankfilm .`):
+
+""" + cycles + """
+The mean error is due to the cells and falls with the square of their number: it is 0.051 % at point I with 576 cells. The largest error at point
+I is due to the steps; it occurs when the film step caused by a jump of the load reaches the outlet, one passage after LPSTC and HPSTC.
+
 ## A tenth of a per cent
 
 The same film with steps in proportion to its cells, compared with 4096 cells and 8000 steps at 251 instants: the largest error of `h_min(t)` and of `h_central(t)`
