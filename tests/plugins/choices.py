@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Models and laws chosen for an accuracy, held against finer films of the references: choices.py FLANKFILM SOURCE"""
+"""Compares films with the models and laws chosen for an accuracy with finer films of reference models: choices.py FLANKFILM SOURCE"""
 import json
 import os
 import subprocess
@@ -41,7 +41,7 @@ def value_of(output):
 
 
 def check(file, sets, expected):
-    """The models, and that the bar holds the answer of the references."""
+    """Checks the chosen models, and that the error bar covers the difference to the reference models."""
     answer, truth = run(file, sets), run(file, [*sets, *REFERENCES])
     models = {stage["stage"]: stage["model"] for stage in answer["stages"]}
     for name, output in answer["outputs"].items():
@@ -62,13 +62,13 @@ def main():
         file = place + "/discs.yaml"
         with open(file, "w", encoding="utf-8") as to:
             to.write(DISCS)
-        # a hard contact needs the rise of viscosity, and its film neither the density nor the shear
+        # a hard contact needs the increase of viscosity with pressure; its film depends little on density and shear thinning
         check(file, [], {"viscosity": "!viscosity/isoviscous", "flow": "rheology/newtonian"})
-        # a soft one needs none of them
+        # a soft contact needs none of these laws
         check(file, SOFT, {"viscosity": "viscosity/isoviscous", "density": "density/incompressible"})
-        # friction lives of what the film does not feel
+        # friction depends on laws that hardly change the film
         check(file, SHEARED, {"flow": "rheology/ree-eyring", "viscosity": "!viscosity/isoviscous"})
-        # rough answers by a formula
+        # low accuracy: a formula is chosen
         check(file, ["accuracy=30 %"], {"film": "!ehl/finite-volume"})
 
 

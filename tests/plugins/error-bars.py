@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Random scenes with `accuracy: 10 %`, 2 % and 0.5 %: do the error bars hold what is refined, and are they as small?
+"""Random scenes with `accuracy: 10 %`, 2 % and 0.5 %: are true errors within the error bars, and the bars within the accuracy?
 
 error-bars.py FLANKFILM SOURCE [--seed HEX] [--first N] [--count N] [--longest S] [--loose] [--cache FOLDER] [--table FILE.csv]
 
@@ -9,18 +9,17 @@ relief and index errors, pitch line speeds from 0.3 to 40 m/s, Hertz pressures f
 quasi-static and dynamic motions; steady contacts; histories from 1e-5 to 1e3 s, smooth and with
 jumps. Each is solved to three accuracies with the settings that the program chooses, and once
 refined: eight times the cells and counts of the presets (four times the steps of a motion), a tenth of the time tolerance. The reference
-is known to its own measured error; where that is above a quarter of the accuracy, or the film of the answer has as many cells, the
-output is listed as open and not judged. An error bar above the accuracy is a refusal: it is judged like the others, and counted.
+has a measured error, too; if it is above a quarter of the accuracy, or the film of the answer has as many cells, the output is listed
+as open and not judged. An error bar above the accuracy counts as a refusal; it is judged like the others.
 
-Scalars: held, when |answer - reference| <= bar + error of the reference. Series: the share of the
-points at which that holds; from 0.2 of a passage before a jump of a history to 1.2 after it with a shift along the series of up
-to 0.2 of one.
---cache keeps what was computed, so that the campaign can be stopped and goes on.
+A scalar is within its bar if |answer - reference| <= bar + error of the reference. For a series, the fraction of points within their bars
+is found; from 0.2 passages of the oil before a jump of a history to 1.2 after it, a shift along the series of up to 0.2 passages is allowed.
+--cache stores results, so that an interrupted campaign can be continued.
 
-Cost is the CPU time of all runs of an answer over that of the first, which has the presets. A cost is as allowed, if it is at
-most 1.4 where the presets are the answer and keep every goal, else at most 1.4 times (1 + cost of the settings chosen).
---lattice also compares it with six fixed settings of the film: the first from which on all finer ones keep the accuracy too,
-in each output whose error bar is within it, is what a user who had tried them all would take.
+Cost is the CPU time of all runs of an answer over that of the first, which has the presets. The allowed cost is 1.4 if the presets
+are the answer and reach every goal, else 1.4 times (1 + cost of the chosen settings).
+--lattice also compares the cost with the cheapest of six fixed settings of the film for which it and all finer settings reach the accuracy,
+in each output whose error bar is within the accuracy: a user who had tried all would choose it.
 """
 import argparse
 import bisect
@@ -98,7 +97,7 @@ def gear_scene(r):
 
 
 def history(r):
-    """Rows of a history: time, radius, both speeds, load."""
+    """Returns rows of a history: time, radius, both speeds, load."""
     span, radius = log_uniform(r, 1e-5, 1e3), log_uniform(r, 2, 50)
     load = 2 * math.pi * radius * log_uniform(r, 0.2, 2) ** 2 / 226.4 * 1e3
     speed, slip = log_uniform(r, 0.3, 40), r.uniform(-0.5, 0.5)
@@ -198,7 +197,7 @@ def sample(times, values, at):
 
 
 def passage_of(answer):
-    """Seconds that the oil takes through the contact, about."""
+    """Returns about how many seconds the oil takes to pass the contact."""
     a, u = answer['outputs']['tooth.hertz_half_width']['value'], answer['outputs']['tooth.entrainment_speed']['value']
     if a is None or u is None:
         return 0
@@ -207,7 +206,7 @@ def passage_of(answer):
 
 
 def jumps_of(scene):
-    """Times at which a history jumps: two rows have the same one."""
+    """Returns the times at which a history jumps, which two rows have."""
     rows = scene.get('rows', [])
     return [row[0] for row, before in zip(rows[1:], rows) if row[0] == before[0]]
 
@@ -237,7 +236,7 @@ def judge_series(answer, exact, name, goal):
 
     ref = dict(ref, bar=[math.inf if bar is None else bar for bar in ref['bar']])
     for x, value, bar in zip(t, own['value'], own['bar']):
-        if bar is None:  # the answer says that it does not know
+        if bar is None:  # the answer states that its error is not known
             continue
         judged += 1
         scale = max(abs(at(ref, 'value', x)), 0.1 * most)
@@ -325,7 +324,7 @@ def is_open(row):
 
 
 def wilson(good, count):
-    """Interval of 95 % of a share."""
+    """Returns the 95 % confidence interval of a fraction."""
     z, share = 1.96, good / count
     middle, half = share + z * z / (2 * count), z * math.sqrt(share * (1 - share) / count + (z / (2 * count)) ** 2)
     return (middle - half) / (1 + z * z / count), (middle + half) / (1 + z * z / count)
@@ -376,7 +375,7 @@ def print_sums(rows, out):
 
 
 def with_goal(answer, exact, name, goal):
-    """The answer with bars as large as the goal allows."""
+    """Returns the answer with error bars as large as the goal."""
     own, ref = dict(answer['outputs'][name]), exact['outputs'][name]
     if name in SCALARS:
         own['bar'] = goal * abs(ref['value'] or 1)

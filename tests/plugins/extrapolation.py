@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Would Richardson's extrapolation give a better answer than the finest film, and a bar that holds?
+"""Would Richardson's extrapolation give a better answer than the finest film, and a correct error bar?
 
 extrapolation.py FLANKFILM SOURCE [--seed HEX] [--count N] [--cache FOLDER]
 
-The scenes are those of error-bars.py. Each is solved at four levels of the film, which are those of its twins, all else as fine as
-there, and held against a fifth. A level has half the cells and four times the time tolerance of the next. From the levels f, 2f and 4f
-the order is observed; where it is from 1.5 to 2.5 the answer at f plus a third of its difference from 2f is the extrapolated one,
-and 1.25 times what it differs by from that of 2f and 4f is its bar. Prints a row for each output and finest level.
+The scenes are those of error-bars.py. Each is solved at four levels of the film, those of the program's error bars, with all other settings as
+fine as there, and compared with a fifth level. A level has half the cells and four times the time tolerance of the next. Levels f, 2f and 4f
+give the order of convergence; if it is from 1.5 to 2.5, the extrapolated answer is that at f plus a third of its difference from 2f, and its
+error bar is 1.25 times the difference from the answer extrapolated from 2f and 4f. Prints a row for each output and finest level.
 """
 import argparse
 import importlib.util
@@ -31,7 +31,7 @@ def load_campaign():
 
 
 def solve(campaign, runner, seed, number, cache):
-    """The answers of all levels; None: one of them fails or takes too long."""
+    """Returns the answers of all levels, or None if one of them fails or takes too long."""
     kept = cache and os.path.join(cache, f'{seed}-{number}-levels.json')
     if kept and os.path.exists(kept):
         with open(kept) as stream:

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""The same two gears entered in either order: pinion first, and wheel first so that the wheel drives at the same power.
+"""Two gears entered in either order: pinion first, or wheel first, so that the wheel drives at the same power.
 
   roles.py FLANKFILM PLUGINS
 
-Every output of every stage is held against its fellow; how follows from its dimensions, and EXCEPT names the others. What
-may change is in MAY with the reason, and is held within what was seen. An output without a rule fails, as does a kind of
-models that no scene has a stage of.
+Compares every output of every stage with the corresponding output of the exchanged pair. The rule follows from its dimensions,
+or is in EXCEPT. Outputs that may differ are in MAY, with the reason and the largest difference found. An output without a rule
+is an error, and so is a kind of models that no scene uses.
 
-mirrored   The quasi-static chain. The wheel drives: contact goes along the same line of action, but from the other end.
+mirrored   The quasi-static pipeline. If the wheel drives, contact moves along the same line of action, but from the other end.
            At the place where a flank pair meets, forces, radii, pressures, films by formula, losses and ratings are the
            same; speeds and flanks exchange their numbers, sliding and friction their sign. Reliefs exceed C_eff and no
            addendum contact ratio is 1.5 times the other, so that X_J, X_Q and X_Ca of the scuffing standard, which ask
@@ -67,7 +67,7 @@ def duty(pair, order, torque=TORQUE, speed=SPEED):
 
 
 def mirrored(order):
-    """All sources of stiffness, each with the quasi-static chain behind it."""
+    """All stiffness models, each with the quasi-static stages after it."""
     stages = {'gears': gear(RELIEVED, order), 'duty': duty(RELIEVED, order), **{k: '{%s}' % v for k, v in OIL.items()}}
     ratio = run(lambda _: {'gears': stages['gears']}, 0)['of']['gears.contact_ratio']['value']
     double, single = [(0, 3.2), (0.2, 3.3), (ratio - 1, 3.1)], [(ratio - 1, 2.0), (0.8, 2.3), (1, 2.2)]
@@ -119,7 +119,7 @@ def motions(order):
 
 
 def rattle(order):
-    """Oil between parted flanks, whose wedge bears the load of an idling pair."""
+    """Oil between separated flanks, whose entrainment carries the load of an idling pair."""
     return {
         'gears': gear(ALIKE, order, backlash='0.1 mm'), 'duty': duty(ALIKE, order, 1, 1500), 'mesh': '{use: stiffness/iso-6336}',
         **{k: '{%s}' % v for k, v in OIL.items()},
@@ -212,7 +212,7 @@ def match(path, table):
 
 
 class Pair:
-    """Both runs of a scene."""
+    """The results of both runs of a scene."""
 
     def __init__(self, scene):
         self.scene = scene.__name__

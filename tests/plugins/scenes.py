@@ -16,7 +16,7 @@ LAWS = ['roelands', 'barus', 'doolittle-tait']
 
 
 def draw(seed, swift=False):
-    """Gears, load by the Hertz pressure at the pitch point, speed of the pitch line, oil."""
+    """Returns random gears, a load from the Hertz pressure at the pitch point, a pitch line speed and an oil."""
     r = random.Random(seed)
     z1 = r.randint(18, 45)
     z2 = round(z1 * r.choice([1, 1, 1.5, 2, 3]))
@@ -76,14 +76,14 @@ def stage(answer, name):
 
 
 def chosen(answer, name):
-    """The candidate that was taken, and its proposals as a map."""
+    """Returns the chosen candidate, and its settings as a map."""
     found = next(c for c in stage(answer, name)['choice']['candidates'] if c['chosen'])
     pairs = [p.split(': ') for p in found['proposals'].split(', ') if p]
     return found, dict(pairs)
 
 
 def sample(times, values, at):
-    """A straight line between the times."""
+    """Interpolates linearly between the times."""
     i = min(max(bisect.bisect_right(times, at), 1), len(times) - 1)
     span = times[i] - times[i - 1]
     share = min(max((at - times[i - 1]) / span, 0), 1) if span > 0 else 1
@@ -91,7 +91,7 @@ def sample(times, values, at):
 
 
 def off_on_the_mean(times, values, exact_times, exact):
-    """Mean of the difference over the mean of what is exact."""
+    """Returns the mean difference over the mean of the exact values."""
     begin, span = exact_times[0], exact_times[-1] - exact_times[0]
     points = [begin + span * k / 2000 for k in range(2001)]
     a = [sample(exact_times, exact, t) for t in points]

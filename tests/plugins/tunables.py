@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Each setting that twins make coarser has room for two levels below its preset: tunables.py FLANKFILM
+"""Each setting that the coarser runs for error bars change must allow two levels below its preset: tunables.py FLANKFILM
 
-One without them takes the third level, and with it the order, from all that its model answers."""
+If a setting does not, the third level, and with it the order of convergence, is missing for all results of its model."""
 import json
 import subprocess
 import sys
@@ -16,7 +16,7 @@ def ask(*words):
 
 
 def coarse(parameter):
-    """The preset so many levels coarser: half a count each, or four times a tolerance."""
+    """Returns the preset some levels coarser: half a count per level, or four times a tolerance."""
     preset = float(parameter['preset'].split()[0])
     return preset / 2 ** LEVELS if parameter['type'] == 'whole number' else preset * 4 ** LEVELS
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Contact, film and losses of the flanks that the mean load does not press, in a motion that loads both flanks in turn.
+"""Contact, film and losses of the back flanks, in a motion that loads both flanks alternately.
 
-Equal gears under a torque that swings about 0: the second half of the motion mirrors the first, so that both flanks give the same.
-Unequal gears with unequal reliefs: what the back flanks give is what the driving flanks of the exchanged pair give. The pairs carry the mesh
-force; the losses of both flanks add up; a flank that never bears has no force and no loss, and its film is the gap.
+Equal gears under a torque that oscillates about 0: the second half of the motion mirrors the first, so that both flanks must give equal results.
+Unequal gears with unequal reliefs: the results of the back flanks must be those of the driving flanks of the exchanged pair. The tooth pairs
+must carry the mesh force; the losses of both flanks must add up; a flank without load must have no loss, and a film as thick as the gap.
 
 back-tooth-pair.py FLANKFILM SOURCE
 """
@@ -106,7 +106,7 @@ def exchanged():
 
 
 def sums():
-    """Driving flanks carry the mean load and what the back flanks carry; losses add up, from the films on."""
+    """The mean load of the driving flanks minus that of the back flanks must be the given load; losses must add up."""
     duty = "torque: 8 N m, mesh_frequency: 1300 Hz, torque_fluctuation: {amplitude: [80 N m], order: [27], phase: [25 deg]}"
     parts = [f"losses.{part}_loss_mean" for part in ("power", "sliding", "rolling")]
     names = both(parts + ["tooth.mesh_load_mean", "film.roll_angle", "film.power_loss", "tooth.load_per_width", "tooth.gap", "tooth.radius_1", "tooth.speed_2", "tooth.roll_angle"])

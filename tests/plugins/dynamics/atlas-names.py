@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Motions by name against the atlas of the same file, for six gear pairs.
+"""Compares motions requested by name with the atlas of the same file, for six gear pairs.
 
-At each fold of the atlas that ends a stable part: 0.1 Hz inside the name leads to a stable motion on the branch, 0.1 Hz outside it is refused
-with where it runs; where `upper` has ended it says so at a fold, 0.1 Hz before that it has not. And at 40 speeds stable_motions is never
-below the number of stable branches of the atlas, nor changed by the outputs beside it.
+At each fold that ends a stable part of a branch: 0.1 Hz inside the branch, its name must give a stable motion on it; 0.1 Hz outside, the run must
+fail and name the branch's range. Beyond the end of `upper`, the run must report the end at a fold, but not 0.1 Hz before it. At 40 speeds,
+stable_motions must be at least the number of stable branches of the atlas, and not depend on the other outputs.
 
 atlas-names.py FLANKFILM [--speeds 40] [--files 6]
 """
@@ -68,7 +68,7 @@ outputs: [motion.dte_rms]
         return answer
 
     def stable_ends(self):
-        """Fold, branch and side of each stable part that ends at a fold and is longer than OFF."""
+        """Returns fold, branch and side for each stable part that ends at a fold and is longer than OFF."""
         for number, points in self.branches.items():
             for end, way in ((0, 1), (len(points) - 1, -1)):
                 fold = points[end][0]
@@ -92,7 +92,7 @@ outputs: [motion.dte_rms]
         return count
 
     def check_upper(self, name):
-        """The first end of `upper` as falling speeds tell it, and what it is on either side of that."""
+        """Finds the first end of `upper` with decreasing speed, and checks it on both sides."""
         end, said = None, self.run(1010, "dte_rms", branch="upper")["motion"].get("branch_end")
         speed = 1010
         while said:

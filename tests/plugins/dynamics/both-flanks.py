@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A mesh force of both signs: back flanks with stiffness, error and relief of their own, along their own phase.
+"""A mesh force of both signs, with separate stiffness, transmission error and relief of the back flanks.
 
-Equal gears under a torque that swings about 0 once in a mesh cycle: the second half of the motion mirrors the first.
-Unequal gears with unequal reliefs on all four flanks: the exchanged pair. A twin by small steps on the curves that the
-stiffness tells. What a flank that never bears is like does not change a bit.
+Equal gears under a torque that oscillates about 0 once in a mesh cycle: the second half of the motion must mirror the first.
+Unequal gears with unequal reliefs on all four flanks: the exchanged pair must have the same motion. An integration in small steps,
+with the curves of the stiffness, must agree. The data of a flank without load must not change any bit.
 
 both-flanks.py FLANKFILM SOURCE
 """
@@ -57,7 +57,7 @@ outputs: [{', '.join(outputs)}]
 
 
 def series(phase, value):
-    """A function of the phase, straight between the points, by the values behind jumps."""
+    """Returns a function of the phase, linear between the points, with the values after jumps."""
     def at(x):
         i = min(max(bisect.bisect_right(phase, x) - 1, 0), len(phase) - 2)
         return value[i] + (value[i + 1] - value[i]) * (x - phase[i]) / (phase[i + 1] - phase[i])
@@ -68,7 +68,7 @@ CURVES = ["stiffness", "transmission_error"]
 
 
 def phases():
-    """Equation 5 of the theory: half a cycle between the flanks of equal gears; of unequal ones, the driving curves of the exchanged pair."""
+    """Equation (5) of the theory: for equal gears, the flanks differ by half a cycle; for unequal gears, the back flanks have the curves of the exchanged pair's driving flanks."""
     names = ["mesh.phase", "mesh.back_phase", "mesh.back_offset"] + [f"mesh.{b}{name}" for name in CURVES for b in ("", "back_")]
     found = run(EQUAL, "torque: 100 N m, mesh_frequency: 1000 Hz", "quasi-static", names)
     places = [0.013 + 0.05 * i for i in range(20)]
@@ -107,7 +107,7 @@ def halves():
 
 
 def exchanged():
-    """Their angles of swing count from a pair at the start of the profile of gear 1, which is the end of that of gear 2."""
+    """Exchanged gears. The phase of the oscillation refers to a tooth pair at the start of gear 1's profile, the end of gear 2's."""
     names = ["gears.contact_ratio", "motion.dte_rms", "motion.dte_peak_to_peak", "motion.dynamic_factor_mesh", "motion.back_contact", "motion.contact_loss", "motion.floquet_max"]
     for motion in "shooting, damping: contact", "shooting, damping: always", "time-integration, damping: contact", "shooting, damping: contact, force: shared":
         def swing(gears, torque, order, phase):
@@ -121,7 +121,7 @@ def exchanged():
 
 
 def twin():
-    """Straight springs of both flanks in one equation, by Runge and Kutta's method."""
+    """Integrates the equation with linear springs of both flanks by Runge and Kutta's method."""
     names = ["mesh.phase", "mesh.back_phase"] + [f"mesh.{b}{name}" for name in CURVES for b in ("", "back_")]
     names += ["gears.equivalent_mass", "gears.backlash", "duty.line_force", "mesh.stiffness_mean", "motion.dte_rms", "motion.dte_mean", "motion.mesh_force", "motion.back_contact"]
     found = run(FIRST, "torque: 8 N m, mesh_frequency: 1300 Hz, torque_fluctuation: {amplitude: [80 N m], order: [27], phase: [25 deg]}",
@@ -173,7 +173,7 @@ def steps():
         for found in one, other:
             for line in "energy_balance", "determinant":
                 report(abs(found["lines"][line]["value"]) < 1e-11, f"damping: {damping}, {line} {found['lines'][line]['value']:.2g}")
-    # driving flanks without an error, so that a flight is one step unless it ends at the nodes of the back flanks
+    # without error of the driving flanks, a separation is one step unless it ends at the nodes of the back flanks
     gears = "teeth: [27, 52], module: 2 mm, face_width: 20 mm, backlash: 0.004 mm, back_relief: [40 um, 30 um], back_relief_length: [3.2 mm, 2.9 mm]"
     one, other = (run(gears, "torque: 30 N m, mesh_frequency: 5600 Hz", f"{motion}, damping_ratio: 0.05, damping: contact, branch: upper", names, "points: 100")
                   for motion in ("shooting", "time-integration"))
@@ -198,7 +198,7 @@ def shares():
             backs = [a + n for a in ((found["mesh.back_offset"] - x) % 1,) for n in range(3) if a + n < roll[-1]]
             sums = sum(map(driving, ages)), -sum(map(back, backs))
             if abs(mesh(x + 2e-3) - mesh(x - 2e-3)) > 0.03 * largest:
-                continue  # flanks meet or part, or a pair enters or leaves
+                continue  # flanks touch or separate, or the number of tooth pairs changes
             worst = max(worst, min(map(abs, sums)) / largest, abs(sum(sums) - mesh(x)) / largest)
             seen[sums[0] == 0] += abs(mesh(x)) > 0.02 * largest
         report(min(seen) > 15 and worst < 5e-3, f"{force}: pairs carry the mesh force at {seen[0]} phases on driving and {seen[1]} on back flanks, off by {worst:.2g}")
@@ -206,10 +206,10 @@ def shares():
 
 
 def unloaded():
-    """A motion that loses contact and lands on the driving flanks alone."""
+    """A motion that loses contact, and touches again on the driving flanks only."""
     names = ["motion.dte", "motion.mesh_force", "motion.floquet_max", "motion.contact_loss", "motion.back_contact", "motion.landing_speed"]
     for motion in "shooting", "time-integration":
-        # backs of 1 and of 30 um; the tips of the driving flanks stay
+        # back flanks with 1 and 30 um of relief; equal reliefs of the driving flanks
         one, other = (run(EQUAL.replace("0.04 mm", "0.3 mm") + f", back_relief: {amount} um", "torque: 100 N m, mesh_frequency: 2350 Hz", f"{motion}, branch: upper", names)
                       for amount in (1, 30))
         report(one["motion.contact_loss"] > 0.05 and one["motion.back_contact"] == 0, f"{motion}: contact is lost for {one['motion.contact_loss']:.2f} of the time")
@@ -217,14 +217,14 @@ def unloaded():
 
 
 def deviations():
-    """Index deviations, whose stiffness has no curves of the back flanks: a motion that never lands on them needs none."""
+    """With index deviations, there are no curves for the back flanks: a motion that never touches them needs none."""
     for motion in "shooting", "time-integration", "shooting, force: shared":
         found = run(FIRST + ", pitch_error: [2 um, 1 um]", "torque: 100 N m, mesh_frequency: 900 Hz", motion + ", damping_ratio: 0.1", ["motion.dte_rms"])
         report(found["motion.dte_rms"] > 0, f"{motion}: index deviations")
 
 
 def one_relief():
-    """Gears that are relieved on one flank alone: there the error differs from that of the other flank, which is 0."""
+    """Gears with relief on one flank only: its transmission error differs from that of the other flank, which is 0."""
     plain = "teeth: [27, 52], module: 2 mm, face_width: 20 mm"
     names = ["mesh.transmission_error", "mesh.back_transmission_error", "motion.dte_rms"]
     for relief, relieved in (("back_relief: [25 um, 8 um], back_relief_length: [3.2 mm, 2.9 mm]", 1), ("tip_relief: [25 um, 8 um], tip_relief_length: [3.2 mm, 2.9 mm], back_relief: 0 um", 0)):

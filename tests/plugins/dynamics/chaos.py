@@ -44,7 +44,7 @@ def quality(answer, stage, name):
 
 
 def check_accuracy():
-    """The motion says that it is chaos, and no error bar of it is small."""
+    """The run must report a chaotic motion, and none of its error bars may be small."""
     wild = ['duty.speed=4500 rpm', 'outputs=[motion.dte_rms]']
     answer = call(*wild)
     assert answer['status'] == 'ok' and quality(answer, 'motion', 'stability') > 1, answer['errors']

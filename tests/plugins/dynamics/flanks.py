@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A torque below 0 is that of the exchanged pair above 0: the back flanks bear, and gear 2 drives.
+"""A torque below 0 must act like a torque above 0 on the exchanged pair: the back flanks carry the load, and gear 2 drives.
 
-An unequal pair, of unequal materials and reliefs, at -T and as written with gear 2 first, at T z_2/z_1 and the
-same mesh frequency, its tip relief that of the back flanks: motion and losses to 1e-4, films to 1e-3, each place
-on the flanks at the roll angle of its own gear. What the driving flanks alone have plays no part.
+Compares an unequal pair, with unequal materials and reliefs, at -T with the exchanged pair at T z_2/z_1 and the same
+mesh frequency, with the tip relief of the back flanks: motion and losses must agree to 1e-4, films to 1e-3, at corresponding
+roll angles. Data of the driving flanks must have no effect.
 
 flanks.py FLANKFILM SOURCE
 """

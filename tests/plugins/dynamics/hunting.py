@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What one tooth that stands out does to a motion, over all the mesh cycles in which teeth meet anew.
+"""The effect of a tooth with a pitch error on the motion, over all mesh cycles until the same teeth meet again.
 
-A motion of the program repeats the mesh cycle that the mesh shows (mesh_cycle). The period is that of all teeth of gear 1: the curves
-of its 25 mesh cycles behind each other are a table of one long cycle, at a 25th of the frequency, which any motion takes. Prints rms of
-the transmission error and the largest mesh force of the short and the long motion for some pitch errors. Not in the suite.
+A motion of the program repeats one mesh cycle (parameter mesh_cycle). Here, the period is a revolution of gear 1: the curves of its 25
+mesh cycles in succession become a table of one long cycle, at 1/25 of the frequency. Prints the rms transmission error and the largest
+mesh force of the short and the long motion for some pitch errors. Not in the test suite.
 
 hunting.py FLANKFILM
 """

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Gears without a torque, which float, and gears whose torque or speed swings.
+"""Gears without torque, and gears whose torque or speed oscillates.
 
-Without a torque: no force, no loss, and what a reference torque stands for. Swings: when flanks stay together under F + F_1 cos w t, in
-closed form, and under a given speed in the rigid limit; a torque of both signs against small steps of a twin; the exchanged pair; energy.
+Without torque: no force, no loss, and the use of reference_torque. Oscillations: when flanks stay in contact under F + F_1 cos w t, in closed
+form, and with a given speed and rigid teeth; a torque of both signs, compared with an integration in small steps; the exchanged pair; energy.
 
 idle.py FLANKFILM SOURCE
 """
@@ -69,7 +69,7 @@ K, TEETH, BASE = 2e8, (27, 52), (27 * math.cos(math.radians(20)) * 1e-3, 52 * ma
 
 
 def swing(duty, motion="shooting, damping_ratio: 0.1", gap=100e-6, names=(), mass="equivalent_mass: 0.4 kg", inertia=""):
-    """A motion with a constant stiffness and no error."""
+    """Returns a motion with constant stiffness and no transmission error."""
     with tempfile.NamedTemporaryFile("w", suffix=".csv") as table, tempfile.NamedTemporaryFile("w", suffix=".yaml") as file:
         table.write(f"phase; stiffness [N/m]\n0; {K}\n1; {K}\n")
         table.flush()
@@ -109,7 +109,7 @@ def together():
 
 
 def driven():
-    """Stiff teeth whose gear 1 turns as it is told: they stay together where the drag slows gear 2 as fast as gear 1 ever slows down."""
+    """Stiff teeth and a given speed of gear 1: they stay in contact if drag slows gear 2 at least as fast as gear 1 slows down."""
     inertia, rpm, order = 1e-2, 600, 2
     omega, most = rpm * math.pi / 30, 20 * math.pi / 30
     slowing = most * order * omega
@@ -148,7 +148,7 @@ def twin(mean, swings, frequency, zeta, half_gap, cycles, steps=4000):
 
 
 def both_signs():
-    """A torque that crosses 0 loads both flanks in turn."""
+    """A torque that changes sign must load both flanks alternately."""
     duty = "torque: 4 N m, mesh_frequency: 6000 Hz, torque_fluctuation: {amplitude: [30 N m, 12 N m], order: [1, 2], phase: [0 deg, 70 deg]}"
     expected = twin(4 / BASE[0], [(30 / BASE[0], 1, 0), (12 / BASE[0], 2, math.radians(70))], 6000, 0.3, 10e-6, 81, 400)
     for motion in "shooting", "time-integration":
@@ -171,7 +171,7 @@ def both_signs():
 
 
 def folds():
-    """Swings too small to be felt leave a motion and its folds, whatever mesh cycles they take to repeat themselves."""
+    """Negligible oscillations must not change a motion and its folds, whatever their period in mesh cycles."""
     names = ["motion.fold_frequency", "motion.dte_harmonics", "motion.dte_rms"]
     none, *others = (run(names, "20 N m", "shooting, damping_ratio: 0.02, max_period: 1",
                          more=f", torque_fluctuation: {{amplitude: [1e-7 N m], order: [{order}]}}" if order else "") for order in (0, 27, 9))
@@ -185,14 +185,14 @@ def folds():
 
 
 def small_torque():
-    """What a motion is held against follows what swings where next to nothing presses the flanks."""
+    """With nearly no mean load, the scale of a motion's errors must come from the oscillation."""
     one, other = (swing(f"torque: {torque} N m, mesh_frequency: 3000 Hz, torque_fluctuation: {{amplitude: [10 N m], order: [27]}}",
                         "shooting, damping_ratio: 0.05, max_period: 1, atlas: {from: 1000 Hz, to: 6000 Hz}", 1e-7, ["motion.atlas_rms"]) for torque in (1e-3, 1))
     check("the atlas goes on to its resonance under a torque of next to nothing", max(one["motion.atlas_rms"]), max(other["motion.atlas_rms"]), 1e-3)
 
 
 def landing():
-    """Oil between the flanks under a swing too small to be felt: pairs, radii and speeds are those of each of the three mesh cycles."""
+    """Oil between the flanks with a negligible oscillation: tooth pairs, radii and speeds must be equal in each of the three mesh cycles."""
     names = ["motion.squeeze_loss", "motion.dte_rms", "motion.period", "motion.contact_loss"]
     for rolling in "true", "false":
         one, three = (run(names, "30 N m", f"shooting, damping_ratio: 0.01, squeeze: series, squeeze_rolling: {rolling}, handover_film: 0.5 um",
@@ -222,7 +222,7 @@ def exchanged():
 
 
 def idle():
-    """The file that is shipped: by small steps, too, and with its energies."""
+    """The file in configs/: compared with an integration in small steps, and its energy balance."""
     found = []
     for motion in "shooting", "time-integration":
         names = "motion.period, motion.dte_rms, motion.back_contact" + (", motion.torque_power, motion.damper_loss, motion.excitation_power" if motion == "shooting" else "")
@@ -257,7 +257,7 @@ def floats():
 
 
 def reference():
-    """What stiffness, natural frequency and shares are taken at."""
+    """The force at which stiffness, natural frequency and load fractions are computed."""
     names = ["motion.natural_frequency", "mesh.stiffness_mean", "mesh.load_share", "mesh.force_level"]
     loaded, at_rest = run(names, "90 N m"), run(names, more=", reference_torque: 90 N m")
     for name in names:

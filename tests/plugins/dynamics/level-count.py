@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How many levels of force a motion with force: shared needs: five pairs at twelve speeds against a direct solution.
+"""The number of force levels that a motion with `force: shared` needs: five gear pairs at twelve speeds, compared with a direct solution.
 
-The statics of stiffness/load-distribution under 43 forces, each solved as the mean force, with slopes, stand for the direct solution: a
-twin integrates the motion over them by Runge and Kutta's method, from the start that the program found. The program gets the same
-statics at N + 1 forces 9 F (i/N)^2 by a file of stiffness/table. Largest departure of dte_rms and of the largest mesh force over the
-speeds, in per cent, and that of the force in units of what the line force_levels states, which is to be below 1. Not in the suite: a minute of CPU. Needs numpy.
+The direct solution integrates the motion by Runge and Kutta's method, from the program's start, with deflections and slopes of
+stiffness/load-distribution under 43 forces, each solved as the mean force. The program gets the same data at N + 1 forces 9 F (i/N)^2 in a
+file for stiffness/table. Prints the largest difference of dte_rms and of the largest mesh force over the speeds, in per cent, and that of the
+force over the quality line force_levels, which must be below 1. Not in the test suite: takes a minute of CPU time and needs numpy.
 
 level-count.py FLANKFILM [CASE...]
 """
@@ -108,7 +108,7 @@ outputs: [motion.dte_rms, motion.period, motion.dte, motion.dte_velocity, motion
 
 
 def twin(grid, error, force, start, mass, damper, load, gap, speeds):
-    """rms of s and the largest mesh force, of all speeds at once."""
+    """Returns the rms of s and the largest mesh force, for all speeds at once."""
     T = 1 / np.array(speeds, float)
     s, v = start.T.copy()
 

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The tooth force between the stations against the same motion at thirty times as many of them.
+"""Compares the tooth force between the stations with the same motion at thirty times as many stations.
 
-The line station_sampling is how far it leaves the span of both stations, half-way; dynamic_factor_tooth
-has its largest. A wave that turns by w from station to station leaves it by w^2/8, and the parabola
-through three points is off by w^3/125 at most: by less than the line's value to the power of 3/2, over 4.
-On the stations that a doubtful line names it is good, and on half of them it is not; where it says that more
-than so many are needed, it is not good on these.
+The quality line station_sampling states by how much the force, half-way between two stations, lies outside the range of both
+values; dynamic_factor_tooth contains the largest. A wave with the phase step w between stations exceeds the range by w^2/8, and the
+parabola through three points has an error of at most w^3/125: less than a quarter of the line's value to the power of 3/2.
+With the number of stations that a doubtful line recommends, the line must be good, and with half of them doubtful; if it says that more
+than a number are needed, it must be doubtful with this number.
 
 sampling.py FLANKFILM SOURCE
 """

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What stands behind a motion with force: shared reads W(phase, DMF) as it reads any tooth force.
+"""Stages after a motion with `force: shared`: they use its tooth forces as those of any motion.
 
-configs/relief-under-load.yaml, as it is, with one tooth of 25 that stands out in the cycle that is shown, and with three
-pairs in mesh: at every phase the forces of the pairs add up to the mesh force; each is what the levels of the stiffness
-give at that force; the contact passes it on; loss and ratings are others than with the shares of the mean load. One tooth
-that stands out takes a period of 25 mesh cycles, which the motion has not, and the mesh says so. Wired back, a film of a number of
-steps settles the loop, and one that chooses it anew in each round is named.
+configs/relief-under-load.yaml, unchanged, with a pitch error of one tooth of 25, and with three tooth pairs in contact: at every phase, the
+forces of the pairs must add up to the mesh force, and be those of the stiffness's levels at this force; the contact must pass them on; loss
+and ratings must differ from those with the load fractions at the mean load. A pitch error has a period of 25 mesh cycles, which the motion does
+not have: the mesh must report this. In a loop, a film with a fixed number of steps must converge; a film that chooses its steps in each round
+must be named as the reason if the loop does not converge.
 
 shared-chain.py FLANKFILM SOURCE
 """

@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """effectivity.py FLANKFILM SOURCE [--seed HEX] [--count N] [--only SORT] [--least SHARE]
 
-Errors that films state of themselves against what they are: drawn scenes of several sorts, each on
-the cells and steps of the draw and on four times as many of both, on one domain. For each sort and
-output: the ratio of the estimate, a bar over 1.5, to the error of h_min and h_central at all
-instants above 2 % of the largest load; the share of these that the bar holds, and of the scenes in
-which it holds at 95 % of them. The seed is the first 8 hex digits of the commit that is measured.
-Errors below 2e-5 of the film, which the solution leaves of the equations, are held and count in no
-ratio.
+Compares the errors that films state with true errors, for random scenes of several sorts: each is solved
+with random numbers of cells and steps, and with four times as many of both, on the same domain. Prints
+for each sort and output the ratio of the estimate (error bar over 1.5) to the error of h_min and
+h_central at all instants above 2 % of the largest load; the fraction of instants with the error within
+the bar; and the fraction of scenes in which this holds at 95 % of the instants. The seed is the first 8
+hex digits of the tested commit. Errors below 2e-5 of the film, the tolerance of the solution, count as
+within the bar and are in no ratio.
 """
 import argparse
 import json
@@ -46,7 +46,7 @@ def log(draw, low, high):
 
 
 def scene(draw, sort):
-    """Oil, pipeline, cells and steps of a scene."""
+    """Returns oil, pipeline, cells and steps of a scene."""
     oil, temp = draw.choice(OILS), draw.uniform(40, 100)
     cells = draw.choice((192, 256, 384, 512))
     steps = draw.choice((0, 0, 400, 1000))  # 0: auto

@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """extreme-films.py FLANKFILM SOURCE [--gears] [--count N] [--first K]
 
-Steady films at the ends of what contacts are: R 0.1 to 300 mm, Hertz pressures of 1 MPa to 4 GPa,
+Steady films of extreme contacts: R 0.1 to 300 mm, Hertz pressures of 1 MPa to 4 GPa,
 1e-3 to 100 m/s, 1e-4 to 1e3 Pa s, slide-roll 0 to 1.99, at corners of that box and inside it, on
 presets and on four times the cells. With --gears passages of a tooth of steel gears of module 0.1 to
-24 mm, 8 to 60 teeth, contact ratio 1.04 to 2.33, 0.1 to 1.5 GPa and 0.1 to 50 m/s. No run may crash, hang or give what is no number; no film or
-pressure whose lines are all good may be off by more than the limits of these lines; and what is
-refused is refused in a sentence.
+24 mm, 8 to 60 teeth, contact ratio 1.04 to 2.33, 0.1 to 1.5 GPa and 0.1 to 50 m/s. No run may crash, hang or give NaN; if all quality
+lines are good, the errors of film and pressure must be within the limits of these lines; a run that
+fails must give a message.
 """
 import argparse
 import json
@@ -65,7 +65,7 @@ outputs: [film.h_min, film.h_central, film.p_max]
 
 
 def gears(k):
-    """Teeth, module, height of the addendum, Hertz pressure at the pitch point, speed there."""
+    """Returns random numbers of teeth, module, addendum, Hertz pressure and speed at the pitch point."""
     share = [halton(k + 1, base) for base in (2, 3, 5, 7, 11, 13)]
     z1 = round(between(8, 60, share[0]))
     return {'z1': z1, 'ratio': between(1, 6, share[1]), 'module': between(0.1, 30, share[2]),

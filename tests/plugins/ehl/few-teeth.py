@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """few-teeth.py FLANKFILM SOURCE [--only TEXT] [--times N] [--set STAGE.NAME=VALUE]...
 
-The film at both ends of a tooth: gears of 8 to 40 teeth against 60 and 60 against them, at 1, 0.03
-and 1e-3 of 2.5 z N m, a gear of a watch and one of a mill. The film on presets is held against N (8)
-times the cells, with the inlet that these have: h_min_lowest, and h_central at SAP and at the last
-instant. Each row has the film that both say is missing by their inlets, and the doubtful lines.
+The film at both ends of a tooth: gears of 8 to 40 teeth (z) with 60, in both orders, at 1, 0.03 and
+1e-3 times 2.5 z N m, a gear pair of a watch and one of a mill. Compares h_min_lowest, and h_central at
+SAP and at the last instant, on the default cells and on N (8) times as many cells with the same inlet.
+Each row has the part of the film that both state as missing because of the inlet, and the doubtful lines.
 """
 import argparse
 import json

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Holds the counts of the dynamic film in docs/performance.md to those of a run.
+"""Compares the counts for the dynamic film in docs/performance.md with those of a run.
 
 performance-page.py PROGRAM SOURCE
 
-Counts of Newton steps and convolutions do not depend on the machine, but for the rounding of its mathematical functions, which may
-turn a step: they are held to 3 %. A page that claims more or less than the solver does is stale.
+Counts of Newton steps and convolutions depend on the machine only by the rounding of its mathematical functions, which may change
+some steps: they must agree to 3 %. Otherwise, the page is out of date.
 """
 import json
 import pathlib

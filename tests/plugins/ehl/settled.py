@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A film's mass is balanced at each instant to what its tolerance allows.
+"""The mass of a film must be in balance at each instant, within its tolerance.
 
   settled.py FLANKFILM SOURCE
 
 A pair at 100 rpm under 1500 N m takes thousands of short steps, of which almost each is accepted
-after its first Newton step. A step that leaves some of the flow unbalanced passes it on to the next.
+after its first Newton step. A residual of the mass balance in a step would add to that of the next.
 """
 import json
 import os

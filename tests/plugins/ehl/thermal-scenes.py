@@ -1,5 +1,5 @@
 # Random line contacts with thermal: full, steady and in time: slide-roll ratios from -1.9 to 1.9, 0.1 to 100 m/s, up to 4 GPa,
-# oils of 40 to 200 degC, Newtonian and Eyring's. None may crash, hang, give a number that is none, or leave the heat balance
+# oils of 40 to 200 degC, Newtonian and Eyring's. No run may crash, hang, give NaN, or leave the heat balance
 # open; a film that is not found is refused in a sentence, and looked for with 1024 cells in place of 256. Each scene is a
 # line of LOG, and is not run again. With `rough` the flanks of all scenes are, Rq 0.02 to 0.5 um.
 #   thermal-scenes.py FLANKFILM SOURCE_ROOT LOG [COUNT [SECONDS [rough]]]

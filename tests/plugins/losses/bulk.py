@@ -1,4 +1,4 @@
-# The temperature that teeth take by their own loss: the loop film.bulk against its closed form. Over a few kelvins the loss
+# The tooth temperature that results from the losses: compares the loop film.bulk with its closed form. Over a few kelvins the loss
 # is a parabola, L(r) = L0 - s r + b r^2 with r over the oil, and G r = L(r) has a root of its own.
 #   bulk.py FLANKFILM PLUGINS SOURCE_ROOT
 import json

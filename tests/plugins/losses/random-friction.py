@@ -5,9 +5,9 @@
 Friction of gears and oils at random: 18 to 60 teeth, module 1 to 10 mm, Hertz pressures of 0.3 to
 2.5 GPa at the pitch point, 0.1 to 50 m/s there, four base oils of seven grades at 20 to 130 degC, Ra
 0.05 to 2 um, by formulas of the film: cold or with the heat of the contact, smooth or with
-statistical asperities, with the law of flow of the card, a Newtonian one among it. No friction
-coefficient above 0.2 under more than 1 % of the largest load may go without a line that says it, and
-what is refused is refused in a sentence. A summary of all is printed."""
+statistical asperities, with the law of flow of the card, a Newtonian one among it. A friction
+coefficient above 0.2 under more than 1 % of the largest load must be reported by a quality line, and a run
+that fails must give a message. Prints a summary."""
 import argparse
 import json
 import math
@@ -36,7 +36,7 @@ def between(low, high, share):
 
 
 def scene(k, source):
-    """The text of case k."""
+    """Returns the file of case k."""
     share = [halton(k + 1, base) for base in (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31)]
     z = [round(between(18, 60, share[0]))]
     z.append(round(z[0] * between(1, 5, share[1])))

@@ -55,7 +55,7 @@ base = film()
 mu = abs(base['friction_coefficient'][-1])
 limit = abs(film('flow.limiting_stress_coefficient=%g' % (1.1 * LAMBDA))['friction_coefficient'][-1])
 rise = abs(film('viscosity.pressure_factor=1.1')['friction_coefficient'][-1])
-# the film goes with alpha^0.47 (Pan & Hamrock 1989)
+# the film thickness is proportional to alpha^0.47 (Pan & Hamrock 1989)
 good = [
     hold('friction', mu, by_hand(base), 1e-3),
     hold('Lambda +10 %', limit / mu, by_hand(base, stress=1.1) / by_hand(base), 2e-3),
