@@ -56,7 +56,7 @@ void report_quantity_text(const char *name, const char *si_unit, double si,
                           char out[REPORT_TEXT_SIZE]);
 /* Prints the error bar of an SI value with two digits. */
 void report_bar_text(const char *si_unit, double bar, char out[REPORT_TEXT_SIZE]);
-/* Returns the name of an output in a figure, from its doc: "least film thickness" for h_min. */
+/* Returns the name of an output in a figure, from its doc: "minimum film thickness" for h_min. */
 const char *report_output_words(const results_view_variable *of, char out[REPORT_TEXT_SIZE]);
 /* Returns the name of a path, which has no doc: its last word. */
 const char *report_plain_name(const char *path, char out[REPORT_TEXT_SIZE]);

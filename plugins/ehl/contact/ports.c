@@ -507,8 +507,11 @@ const ff_port ehl_estimate_inputs[EHL_ESTIMATE_INPUTS] = {
 const ff_port ehl_estimate_outputs[EHL_ESTIMATE_OUTPUTS] = {
     COMMON_OUTPUTS(EHL_ESTIMATE),
     [EHL_ESTIMATE_TIME] = {.name = "time", .unit = "s", .doc = "times of the results", .dims = "t"},
-    [EHL_ESTIMATE_H_MIN] =
-        {.name = "h_min", .unit = "m", .doc = "least film thickness", .dims = "t", .max = INFINITY},
+    [EHL_ESTIMATE_H_MIN] = {.name = "h_min",
+                            .unit = "m",
+                            .doc = "minimum film thickness",
+                            .dims = "t",
+                            .max = INFINITY},
     [EHL_ESTIMATE_P_MAX] = {.name = "p_max",
                             .unit = "Pa",
                             .doc = "Hertz pressure of the load",

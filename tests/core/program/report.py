@@ -187,12 +187,12 @@ class Report(lab.Lab):
         dom, figures = self.look("pair/report.html")
         self.see("pair/report.html")
         self.assertGreater(figures, 12)
-        for words in ("least film thickness", "roll angle", "LPSTC", "HPSTC", "µm", "MPa",
+        for words in ("minimum film thickness", "roll angle", "LPSTC", "HPSTC", "µm", "MPa",
                       "Quality of the numbers", "unity-50.yaml", "@article"):
             self.assertIn(words, page)
         films = next(f for f in self.drawn if f["title"] == "Film thickness")
         self.assertEqual([curve["name"].split(" film")[0] for curve in films["curves"]],
-                         ["film_static: least", "film_static: central", "film: least", "film: central"])
+                         ["film_static: minimum", "film_static: central", "film: minimum", "film: central"])
         self.assertEqual(films["y"]["label"], "film thickness (µm)")
         self.read_extremes(page)
         self.assertRegex(dom, r'"extremes">film_static: least film 0\.\d+ µm, highest pressure [\d.]+ MPa')
