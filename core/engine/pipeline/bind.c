@@ -243,9 +243,9 @@ static bool may_be_replaced(const binding *k, size_t index)
            (!k->chosen && ff_model_param(k->loaded->model, index)->instead);
 }
 
-/* Whether two given members of a group contradict each other. They do if both stand in files. They
-   do not if one is an assignment, or if one is the stage's own key and the other stands in a set
-   under `with`: the assignment or the own key then replaces the other member. */
+/* Whether two given members of a group contradict each other. Two members in files do, but the
+   stage's own key replaces a member in a set under `with`. An assignment replaces a member in a
+   file. */
 static bool contradict(const binding *k, const fe_setting *a, const fe_setting *b)
 {
     const uint64_t later = a->priority > b->priority ? a->priority : b->priority;

@@ -46,8 +46,8 @@ static void bind_anew(fe_build *b, ff_stage *stage)
 
 /* Whether an object can be reused for the next case. If its values are unchanged, its results
    depend on its inputs only. An object with a service wire is not reused, since the service table
-   may belong to a destroyed object. An object with a chain state is not reused, since it would
-   start from the previous case. */
+   may belong to a destroyed object. An object with a chain state is not reused, since the new case
+   would start from the previous one. */
 static bool stays(const ff_stage *stage, bool changed)
 {
     bool kept = !changed && stage->loaded && stage->instance->alive && !ff_stage_has_state(stage);

@@ -86,8 +86,8 @@ static int32_t host_progress(void *ctx, double fraction)
 }
 
 /* Runs engine code that allocates memory or calls the program, so that a fault in it is not
-   attributed to the plugin. It must not jump across the plugin's frames, which may be on another
-   thread. If memory is missing, the call fails when the plugin returns. */
+   attributed to the plugin. The engine code must not jump across the plugin's frames, which may be
+   on another thread. If memory is missing, the call fails when the plugin returns. */
 static ff_status protect(fe_instance *instance, void (*function)(void *ctx), void *ctx)
 {
     ff_guard_mark mark = fe_guard_enter((ff_guard_mark){.path = NULL});

@@ -73,7 +73,7 @@ typedef struct bounds {
 } bounds;
 
 /* Returns the bounds of a row. Before 1.3 a model could not mark a number in K as a temperature
-   difference, so it has no lower bound. */
+   difference, so such a number has no lower bound. */
 static bounds bounds_of(const ff_model *model, const ff_port *row)
 {
     const bool point = !(row->flags & FF_DIFFERENCE) && !strcmp(row->unit, "K");

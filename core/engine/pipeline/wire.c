@@ -148,8 +148,8 @@ static bool is_kind_installed(fe_build *b, const char *use)
     return false;
 }
 
-/* Whether some stage has no model or an unknown kind, which is already reported. That stage may be
-   the one that should feed a wire. */
+/* Whether some stage has no model or an unknown kind, which is already reported. A wire without a
+   source may be meant for this stage. */
 static bool is_some_kind_unknown(fe_build *b)
 {
     bool some = false;

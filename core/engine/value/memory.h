@@ -14,7 +14,7 @@
 #include <stddef.h>
 
 /* A resource other than memory that must be closed, such as a parser or a plugin's object. This
- * struct lies in memory of the heap. */
+   struct itself lies in memory that the heap manages. */
 typedef struct fe_resource {
     void (*close)(void *object);
     void *object;

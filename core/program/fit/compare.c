@@ -17,8 +17,8 @@ const fit_law *fit_best(const fit *f)
     return best;
 }
 
-/* Reports a law that could not be fitted. It is an error if the user named the law, or if no law
-   could be fitted. */
+/* Reports a law that could not be fitted: as an error if the user named the law, or if no law could
+   be fitted; otherwise as a warning. */
 static bool report_unfitted(const fit *f)
 {
     bool none = !fit_best(f), same = none && f->law_count > 1, good = true;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A result directory. It belongs to this program if it contains ".flankfilm", the manifest, which
- * lists the result files. All files of a run are written under temporary names,
+/* A result directory. A directory belongs to this program if it contains ".flankfilm", the
+ * manifest, which lists the result files. All files of a run are written under temporary names,
  * ".flankfilm.<name>.part", and then renamed together; files of an earlier run that the new one
  * does not write are removed. The file that was begun last is the first to be removed and the last
  * to be renamed: if it is missing, the run was interrupted. All other files in the directory are

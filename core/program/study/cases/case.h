@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A case is the file with the case's assignments. It is built, run and recorded. */
+/* A case is the pipeline of the file with the case's assignments. These functions build, run and
+   record a case. */
 #ifndef STUDY_CASE_H
 #define STUDY_CASE_H
 

@@ -26,8 +26,8 @@
 enum { MOST_ROWS = 1024, MOST_TERMS = 160, MOST_DEGREE = 8, SPARE = 4 };
 
 /* Limits of a surface: the degree of its polynomials, and the number of samples for each term. For
- * a mean a higher degree is not used, since it is so large at the rarest samples that these would
- * dominate. */
+   a mean a higher degree is not used, since its terms are so large at the rarest samples that these
+   samples would dominate. */
 typedef struct limits {
     size_t degree;
     double samples_each;
@@ -226,11 +226,11 @@ static double growth_of(const rows *of, size_t n, const double *gain, const doub
 }
 
 /* Computes the errors of the coefficients from the residual at each sample if it is left out of the
- * fit (HC3: MacKinnon & White 1985, J. Econometrics 29, 305). This is valid for missing terms as
- * well as for noise. `x` and `gain` have a row for each sample; a coefficient is the sum of gain
- * and value. `part`, unless it is NULL, receives the part of each value that the terms explain in a
- * fit to all other values: beta_(-i) = beta - A^-1 x_i e_i / (1 - h_i) (Sherman & Morrison 1950).
- */
+ * fit (HC3: MacKinnon & White 1985, J. Econometrics 29, 305). These errors are valid both for noise
+ * and for terms that the fit lacks. `x` and `gain` have a row for each sample; a coefficient is the
+ * sum of gain and value. `part`, unless it is NULL, receives the part of each value that the terms
+ * explain in a fit to all other values: beta_(-i) = beta - A^-1 x_i e_i / (1 - h_i) (Sherman &
+ * Morrison 1950). */
 static bool judge(const rows *of, surface *s, const double *x, const double *gain, double *part)
 {
     size_t n = s->count + 1;

@@ -237,7 +237,7 @@ static estimate_explanation explain(const estimate_samples *s, double *value, si
 }
 
 /*
- * Estimates the mean of g. It is a sum over the contributions of the samples to
+ * Estimates the mean of g: the sum over the contributions of the samples to
  *   mean_0(m_0) + sum_k weight_k (mean_k(m_k) - mean_k(m_(k-1))).
  * Samples of a block are on the same levels, so their contributions are independent with equal
  * distributions. The variance of the sum follows from the spread within the blocks, with the

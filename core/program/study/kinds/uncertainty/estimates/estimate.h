@@ -101,8 +101,8 @@ typedef struct estimate_explanation {
 } estimate_explanation;
 
 /* estimate-surface.c: writes to `part` the part of each value that a surface over the numbers from
-   which they were made explains. The parts have the mean 0. They are 0 if there are too few
-   samples, and NaN where the value is NaN. */
+   which they were made explains. The parts have the mean 0. All parts are 0 if there are too few
+   samples; the part of a NaN is NaN. */
 estimate_explanation estimate_explained(const double *values, const double *numbers, size_t count,
                                         const estimate_input *inputs, size_t input_count,
                                         double *part);
