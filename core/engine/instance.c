@@ -300,8 +300,8 @@ static bool wire(ff_instance *i)
     return good;
 }
 
-/* Sets the parameters in order. Stops at the first one that the model refuses; the message names
-   it. */
+/* Sets the parameters in order. Stops at the first parameter that the model refuses; the message
+   names it. */
 static bool set_all(ff_instance *i)
 {
     fe_place_params(&i->stage);

@@ -29,7 +29,7 @@ typedef struct fe_instance {
     void *self;
     bool created; /* `self` must be destroyed */
     bool alive;   /* created, set, wired and ready */
-    bool broken;  /* the report says why it cannot run */
+    bool broken;  /* the report says why the object cannot run */
     ff_stage *stage;
     ff_guard_mark mark; /* marks of its own code and of the services on its wires */
     fe_serial alone;    /* lock of its shared object */

@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Gives an output the next position among the requested ones, unless it has one. */
+/* Gives an output the next position among the requested outputs, unless the output has a
+   position. */
 static void request(fe_build *b, ff_result *result)
 {
     if (!result->requested)

@@ -10,8 +10,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Adds `directory` and takes ownership of it. Repeated and empty ones are left out; "" would mean
-   the current directory. */
+/* Adds `directory` and takes ownership of it. Repeated and empty directories are left out; "" would
+   mean the current directory. */
 static void add(fe_search_path *search, char *directory)
 {
     bool known = !directory[0];

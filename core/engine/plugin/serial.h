@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Locks for models with the flag FF_SERIAL: a shared object with such a model runs only one call at
-   a time in the process, for all engines together. A call takes all its locks at once: those of its
-   model and of the services wired to the model. While it waits it holds none of them, so that calls
-   cannot deadlock. Locks are recursive: a thread may take a lock again that it holds. */
+   a time in the process, for all engines together. A call takes the locks of its model and of the
+   services wired to the model at once. While a call waits it holds no lock, so that calls cannot
+   deadlock. Locks are recursive: a thread may take a lock again that it holds. */
 #ifndef FE_SERIAL_H
 #define FE_SERIAL_H
 

@@ -97,7 +97,7 @@ static char *near_example(const char *path)
     return hint;
 }
 
-/* Suggests a file to use instead of one that does not exist: a file with a similar name in the same
+/* Suggests a file to use instead of a missing file: a file with a similar name in the same
    directory or among the examples, or the example meant by "../gears/x.yaml" in a copy of an
    example. NULL: none. The caller frees it. */
 static char *hint_at(const char *whole, const char *path)

@@ -85,7 +85,8 @@ static bool is_same(const struct fe_kept_table *a, const struct fe_kept_table *b
            !strcmp(ff_columns_place(a->table, SIZE_MAX, SIZE_MAX).source->name, path);
 }
 
-/* Takes the table from the previous instance if it has read the same one, otherwise reads it. */
+/* Takes the table from the previous instance if that instance has read the same table, otherwise
+   reads the table. */
 static void find_table(fe_tables *tables, struct fe_kept_table *kept, const char *path,
                        const ff_param *rows, size_t count, size_t stride, ff_report *report)
 {

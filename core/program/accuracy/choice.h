@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Replaces reference models by cheaper ones in stages that say `use: KIND/auto` (models.h). */
+/* Replaces reference models by cheaper models in stages that say `use: KIND/auto` (models.h). */
 #ifndef ACCURACY_CHOICE_H
 #define ACCURACY_CHOICE_H
 

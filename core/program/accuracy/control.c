@@ -28,8 +28,8 @@ static const double reference_error = 0.25;
 /* Two levels show no order, so their error bar assumes order 1/2. A third level may reduce the bar
  * to an eighth (estimate.c). */
 static const double less_by_third_level = 8;
-/* A series whose error falls with less than this order, the lowest one that estimate.c assumes,
- * does not visibly converge. */
+/* A series whose error falls with less than this order, the lowest order that estimate.c assumes,
+   does not visibly converge. */
 static const double least_order = 0.5;
 /* The presets and the three finer levels. */
 enum { MOST_ATTEMPTS = 4 };

@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Estimates the error of an answer from coarser answers to the same question. */
+/* Estimates the error of an answer, the numbers of one output of a run, from runs with coarser
+   settings. */
 #ifndef ACCURACY_ESTIMATE_H
 #define ACCURACY_ESTIMATE_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Answers to one question at the points of one of them. In `half` all settings are one level
-   coarser than in the answer, in `quarter` two; in each of `refined` one setting is back at the
-   level of `half`; in `twice` all are one level finer. One level halves a count and quadruples a
-   tolerance. All but the answer may be NULL; `twice` is ignored if both coarser ones exist. */
+/* The numbers of one output at the same points, from runs with different settings. In `half` all
+   settings are one level coarser than in the answer, in `quarter` two; in each of `refined` one
+   setting is back at the level of `half`; in `twice` all are one level finer. One level halves a
+   count and quadruples a tolerance. All but the answer may be NULL; `twice` is ignored if both
+   coarser values exist. */
 typedef struct accuracy_ladder {
     size_t count;
     const double *at;    /* the axis, which never falls; NULL if it is the index */

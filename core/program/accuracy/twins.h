@@ -36,7 +36,7 @@ bool accuracy_twins_find(accuracy_twins *twins);
 /* Runs the twin that shows the effect of the settings that the file fixes, if there are any. `half`
  * and `quarter` must exist. */
 void accuracy_twins_run_fixed(accuracy_twins *twins);
-/* Returns a twin whose settings are all a level finer: an earlier run, or one with the outputs of
+/* Returns a twin whose settings are all a level finer: an earlier run, or a run with the outputs of
    the answer. NULL if no setting can be finer. The first three members are given. */
 const accuracy_twin *accuracy_twins_find_finer(accuracy_twins *twins);
 

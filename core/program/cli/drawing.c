@@ -118,7 +118,8 @@ static void set_end(ff_run *run, const study_toleranced *t, bool high)
     free(text);
 }
 
-/* Records the numbers of a run. The first run gives the values; later ones widen their ranges. */
+/* Records the numbers of a run. The first run gives the values; later runs widen the ranges of the
+   numbers. */
 static void take(drawing *d, ff_run *run, bool first)
 {
     for (size_t i = 0; i < ROWS; i++) {
@@ -161,8 +162,8 @@ static ff_run *read_file(const cli_session *session, const cli_options *options)
     return run;
 }
 
-/* Evaluates the gears. Bit k of `corner` says which end the k-th value with a tolerance takes; a
- * negative `corner` leaves all at their middle. */
+/* Evaluates the gears. Bit k of `corner` says which end of its range the k-th value with a
+ * tolerance takes; a negative `corner` leaves all at their middle. */
 static bool evaluate(drawing *d, long corner)
 {
     ff_run *run = read_file(d->session, d->options);

@@ -229,8 +229,8 @@ static json_t *settings_of(const study_definition *study, size_t index)
     return list;
 }
 
-/* Returns [{model, settings, fault}] for the models that a study compares with the file's;
- * `fault` says why one cannot be compared, or is null. */
+/* Returns [{model, settings, fault}] for the models that a study compares with the file's; `fault`
+ * is the reason why the model cannot be compared, or null. */
 static json_t *describe_compared(const cli_session *session, const cli_options *options)
 {
     json_t *list = json_array();

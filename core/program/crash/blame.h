@@ -18,8 +18,8 @@ typedef struct crash_stack {
 /* Reads the stack of the current thread. */
 void crash_stack_read(crash_stack *stack);
 
-/* Returns the innermost plugin on the stack: the one in `running`, or one that serves it. Returns
-   NULL if there is none. */
+/* Returns the innermost plugin on the stack: the plugin in `running`, or a plugin that serves it.
+   Returns NULL if there is none. */
 const ff_guard_mark *crash_stack_blame(const crash_stack *stack, const ff_guard_mark *running);
 
 /* Like crash_stack_find, for a call from a library into this program: only the code that called the

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Writes the sections of a study: each scalar over the varied values, the cases, and the failed
- * ones. */
+   cases. */
 #include "page.h"
 
 #include "../memory/memory.h"

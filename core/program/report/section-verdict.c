@@ -345,7 +345,7 @@ static void write_spans(report_page *page)
                                           sample ? " sample" : "", "head", head, "rows", rows));
 }
 
-/* Sorts the worst lines first, and equally bad ones by frequency. */
+/* Sorts the worst lines first, and equally bad lines by frequency. */
 static int compare_checks(const void *a, const void *b)
 {
     const report_check *x = a, *y = b;

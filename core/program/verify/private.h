@@ -132,7 +132,7 @@ typedef struct verify_setup {
 } verify_setup;
 
 /* Which parameters are drawn: those within the calibrated range; those within and at the physical
-   limits; or only the required ones, within the calibrated range. */
+   limits; or only the required parameters, within the calibrated range. */
 typedef enum verify_range { VERIFY_CALIBRATED, VERIFY_PHYSICAL, VERIFY_REQUIRED } verify_range;
 
 /* makes a setup with the simple laws and nothing else */

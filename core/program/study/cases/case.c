@@ -182,7 +182,7 @@ static void note_warning(void *ctx, const ff_stage *stage, int32_t level, const 
         json_array_append_new(reuse->warnings, json_sprintf("%s: %s", stage->name, text));
 }
 
-/* Runs the case, and sets its pipeline to the one that gave the result. */
+/* Runs the case, and sets its pipeline to the pipeline that gave the result. */
 static void compute(study_case *c, const study_run *run, study_reuse *reuse,
                     accuracy_record *errors)
 {

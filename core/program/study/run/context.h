@@ -2,7 +2,7 @@
 /* Common part of the drivers. A driver is a kind of study whose later cases depend on the results
    of earlier ones. A driver reads its keys and submits the cases that are known beforehand. Later
    it runs them, reads their results and submits others. An interrupted study continues in the next
-   run, which submits the same cases and finds the finished ones in the journal. */
+   run, which submits the same cases and finds the finished cases in the journal. */
 #ifndef STUDY_CONTEXT_H
 #define STUDY_CONTEXT_H
 

@@ -60,8 +60,8 @@ static bool is_among(const char *name, const char *const *names, size_t count)
     return false;
 }
 
-/* Evaluates a condition; false if it does not hold, or if the answer does not have its line or
- * output. */
+/* Evaluates a condition; false if the condition is not met, or if the answer does not have its line
+ * or output. */
 static bool condition_holds(const study_map *s, const study_condition *c,
                             const study_outcome *answer, double *value)
 {

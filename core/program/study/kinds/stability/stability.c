@@ -99,8 +99,8 @@ static void add_between(study_map *map, size_t axis, size_t low, size_t high)
                     &unit); /* the number as rounded by printing */
 }
 
-/* Submits the case of a cell. `scaled` has assignments of the knobs, or NULL for one that keeps its
- * value; a knob that is also an axis replaces the value of the axis. */
+/* Submits the case of a cell. `scaled` has assignments of the knobs, or NULL for a knob that keeps
+   its value; a knob that is also an axis replaces the value of the axis. */
 static int64_t submit_cell(const study_map *map, const study_cell *cell, const char *const *scaled)
 {
     study_context *context = map->context;

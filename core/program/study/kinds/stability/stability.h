@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A map of where a pipeline can be trusted. Its cells are cases on a grid and, between neighbours
  * that are judged differently, cases that halve the distance. Each is judged by the quality lines
- * of its stages, and by a twin: a case with coarser numerical parameters and, if that one does not
- * confirm the answer, a case with finer ones. */
+ * of its stages, and by a twin: a case with coarser numerical parameters and, if that case does not
+ * confirm the answer, a case with finer parameters. */
 #ifndef STUDY_STABILITY_H
 #define STUDY_STABILITY_H
 
