@@ -217,11 +217,12 @@ static int nearly_rests(const ehl_history *h)
 }
 
 /* Whether the errors of such films are found by their transport. A matrix that knows no temperature
-   does not tell those of a heated film (docs/theory.md, 12). */
+   does not tell those of a heated film, and GMRES seldom solves that of touching asperities to the
+   accuracy that errors need (docs/theory.md, 12). */
 static int has_transport(const ehl_model *m, const ehl_run *r)
 {
     return r->solver.maker == ehl_newton_krylov && m->thermal == 0 && r->rough.count == 0 &&
-           !nearly_rests(&r->history);
+           !ehl_is_statistical(m) && !nearly_rests(&r->history);
 }
 
 static ff_status transport_create(const ehl_model *m, uint64_t wanted, ehl_run *r)

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "error-transport.h"
 
-#include "../equations/asperities.h"
-
 #include <flankfilm/simd.h>
 
 #include <stdlib.h>
@@ -172,9 +170,6 @@ static void spread(const ehl_march *m, ehl_transport *t)
     double *mass = t->mass[0];
     add_h00(t->nodes, t->e.v, t->e.h00, t->h);
     fill_mass(r->last + 1, q->rho, q->rho_p, r->h, t->h, t->e.p, mass);
-    for (size_t i = 0; r->touching && i <= r->last;
-         i++) /* the asperities' part of p is not oil's */
-        mass[i] -= q->rho_p[i] * r->h[i] * r->p_a_h[i] * t->h[i];
     for (size_t i = r->last + 1; i < t->nodes; i++)
         mass[i] = r->mass[i] / r->h[i] * t->h[i];
     for (size_t i = 1; r->conserving && i + 1 < t->nodes; i++)
@@ -187,7 +182,7 @@ static void spread(const ehl_march *m, ehl_transport *t)
 static int is_evaluated(const ehl_march *m)
 {
     const ehl_reynolds *r = m->solver->reynolds;
-    return m->evaluated && !r->statistical.law && m->trial.film.full[r->last - 1];
+    return m->evaluated && m->trial.film.full[r->last - 1];
 }
 
 /* Half-widths of the largest contact within which the oil leaves it: with its inlet some 3. */
@@ -205,8 +200,6 @@ void ehl_transport_step(ehl_march *m)
     if (!is_evaluated(m)) {
         ehl_reynolds_evaluate(r, &m->trial_step, film);
         ehl_reynolds_slopes(r, &m->trial_step, film);
-        if (r->statistical.law)
-            ehl_statistical_rows(r, film);
     }
     truncate_cells(t, r, &m->trial_step, film);
     if (m->known > 0)
