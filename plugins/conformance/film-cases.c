@@ -99,8 +99,8 @@ static void set_up(film_case *c, unsigned how)
                                    .load = pi * a * 4e8 / 2};
 }
 
-/* Sets the initial pressure: a low parabola for rigid flanks, the Hertz pressure for elastic
-   flanks. */
+/* Sets the initial pressure to a semi-ellipse: for elastic flanks the Hertz pressure, for rigid
+   flanks a low pressure of the same shape. */
 static void guess(film_case *c)
 {
     for (size_t i = 0; i < FILM_NODES; i++) {

@@ -219,8 +219,8 @@ static void check_rates(const ff_fixture *fixture)
     fixture->close(fixture->ctx, instance);
 }
 
-/* Checks that psi is the derivative of the shear rate over the stress, and that psi and stress
-   depend on u_s/h only. */
+/* Checks that psi is the derivative of the shear rate with respect to the stress, and that the
+   stress depends on u_s/h only. */
 static void check_tangent(const ff_fixture *fixture, const ff_rheology *law)
 {
     const double d = 1e-4;
@@ -243,7 +243,7 @@ static void check_tangent(const ff_fixture *fixture, const ff_rheology *law)
         ff_check_failf(
             fixture,
             "flow: psi is %.6g at ln_eta = %g, u_s = %g m/s, h = %g m, but the derivative of the "
-            "shear rate over the stress is %.6g",
+            "shear rate with respect to the stress is %.6g",
             psi, ln_eta, u, h, slope);
 }
 

@@ -95,8 +95,8 @@ static void periodic(const ff_fixture *fixture)
     conformance_close(&run);
 }
 
-/* Returns the force at a roll angle, linear between stations; *beside: a jump, which is a repeated
-   station, is near. */
+/* Interpolates the force linearly at a roll angle. Sets *beside if the angle is near the ends of
+   the path or near a jump, where a station is repeated. */
 static double at_roll(conformance_array roll, conformance_array force, double angle, bool *beside)
 {
     size_t i = 1;
@@ -153,8 +153,8 @@ static void balance(const ff_fixture *fixture)
 /* The stiffness of a pair does not change when another pair enters or leaves. Therefore mesh
    stiffness times the load share of the pair is the same on both sides of this phase, except for
    the Hertzian contact, whose load changes. Thus the share must fall where the mesh stiffness
-   rises. Loads, ramps and deviations change the product by less than a factor of 1.75. The phases
-   follow from the contact ratio. */
+   rises. The load, a gradual engagement and flank deviations change the product by less than a
+   factor of 1.75. The phases with one and with two pairs follow from the contact ratio. */
 static void pairs(const ff_fixture *fixture)
 {
     conformance_evaluation run;

@@ -59,7 +59,7 @@ ff_status contact_history_open(contact_history *h, const ff_host *host, uint64_t
 /* Writes the wanted outputs of instant i. Refuses an instant with a non-finite number. */
 ff_status contact_history_set(contact_history *h, size_t i, const contact_point *point);
 
-/* Reports as quality how well Hertz pressure and half width balance the load. */
+/* Reports, in a quality line, how well Hertz pressure and half width balance the load. */
 void contact_history_report(const contact_history *h);
 
 #endif

@@ -257,9 +257,9 @@ static void report_engagements(const tooth_pair *s, const contact_tooth_path *p)
                      text);
 }
 
-/* Reports the mean load as quality. Over whole periods the mean mesh force equals the static force,
-   since the gears do not accelerate on average. A negative tooth force acts on the opposite flank,
-   so it is not counted as load. */
+/* Reports the mean load in a quality line. Over whole periods the mean mesh force equals the static
+   force, since the gears do not accelerate on average. A negative tooth force acts on the opposite
+   flank, so it is not counted as load. */
 static void report_load(const tooth_pair *s, const contact_tooth_path *p, const load_record *r)
 {
     const double limit = 0.01, turns = p->pitch * (double)p->count;

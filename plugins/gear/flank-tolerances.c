@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The text of ISO 1328-1:1995 was not available. Its formulas for class 5 come from public code
-   (f_pt, f_f_alpha, f_H_alpha). All five formulas, with the standard's ranges, steps and rounding,
-   reproduce every value of class 6 printed in the public reports of the NREL 5 MW gearbox
-   (gfsReboucas/Drivetrain, stage_01.rtf to stage_03.rtf; test `tolerances`). */
+/* The text of ISO 1328-1:1995 was not available. The formulas of f_pt, f_f_alpha and
+   f_H_alpha for class 5 come from public code. These and the formulas of F_p and F_alpha, with the
+   standard's ranges, steps and rounding, reproduce every value of class 6 printed in the public
+   reports of the NREL 5 MW gearbox (gfsReboucas/Drivetrain, stage_01.rtf to stage_03.rtf; test
+   `tolerances`). */
 #include "flank-tolerances.h"
 
 #include <flankfilm/author.h>
@@ -24,8 +25,9 @@ static double range_mean(const double *ends, size_t count, double value)
     return 0;
 }
 
-/* Returns the tolerance of a class from that of class 5; one class is a factor of sqrt 2. Values
-   above 10 um are rounded to 1 um, values from 5 um to 0.5 um, smaller ones to 0.1 um. */
+/* Returns the tolerance of a class from that of class 5; one class is a factor of sqrt 2. The
+   value is rounded to a multiple of 1 um above 10 um, of 0.5 um between 5 and 10 um, and of 0.1 um
+   below 5 um. */
 static double of_class(double class_5, double quality)
 {
     const double value = class_5 * pow(2, 0.5 * (quality - 5));

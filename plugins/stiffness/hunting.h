@@ -26,8 +26,8 @@ typedef struct stiffness_hunting {
 ff_status stiffness_hunting_scan(const stiffness_source *s, const stiffness_cycle *grid,
                                  stiffness_hunting *h);
 
-/* Reports as quality the difference between mesh cycle `number`, whose outputs are written, and the
-   worst mesh cycle. */
+/* Reports, in a quality line, the difference between mesh cycle `number`, whose outputs are
+   written, and the worst mesh cycle. */
 void stiffness_hunting_report(const stiffness_source *s, const stiffness_hunting *h, size_t number);
 
 #endif

@@ -8,7 +8,7 @@
 #include <string.h>
 
 /* Compares the dimension names from the last to the first. An optional first dimension may be
-   absent on either side; the run checks that. */
+   absent on either side; the rank of the data is checked when the stage runs. */
 static bool dims_agree(const ff_dims *given, const ff_dims *taken)
 {
     const ff_dims *longer = given->rank > taken->rank ? given : taken;
@@ -46,7 +46,8 @@ static const char *row_misfit(fe_build *b, const ff_loaded *to, size_t input, co
     return NULL;
 }
 
-/* Whether the row is a second service of its wire. */
+/* Whether the row is an optional further service on a wire that carries another service already,
+   such as "rheology.at_pressure" on the wire "rheology". */
 static bool is_further_service(const ff_port *row)
 {
     return (row->flags & FF_OPTIONAL) && strchr(row->name, '.');
@@ -239,10 +240,11 @@ void fe_link_from(fe_build *b, ff_stage *stage)
             fe_link_from(b, &b->pipeline->stages[stage->wires[i].stage]);
 }
 
-/* The stage and output that determine the length of a dimension. */
+/* The stage whose output determines the points of a dimension. */
 typedef struct fe_origin {
     const ff_stage *stage;
-    bool known; /* false for a model older than 1.3, whose dimensions do not tell their origin */
+    bool known; /* false if the model was built for an interface before version 1.3, in which a
+                   dimension does not name its wire */
 } fe_origin;
 
 static int find_dim(const ff_dims *dims, const char *name)
@@ -292,8 +294,8 @@ static fe_origin origin_of(const ff_pipeline *pipeline, const ff_stage *stage, s
     return (fe_origin){.known = false};
 }
 
-/* Checks input `i`, whose dimension number `at` belongs to another wire: it must be fed along that
-   wire's dimension. */
+/* Checks dimension number `at` of input `i`. If the dimension belongs to another wire, the input
+   must get the points of this dimension from the same stage as that wire. */
 static bool check_dim(fe_build *b, const ff_stage *stage, size_t i, uint32_t at)
 {
     const ff_loaded *loaded = stage->loaded;
@@ -311,11 +313,11 @@ static bool check_dim(fe_build *b, const ff_stage *stage, size_t i, uint32_t at)
     return ff_error(
         b->report, FF_FAULT_INPUT, fe_input_wire(stage, i)->place,
         fe_pipeline_print(b->pipeline,
-                          "a model whose output runs along that dimension writes \"WIRE.%s\" in "
-                          "the output's row, where WIRE is its wire to \"%s\"",
-                          dim, there.stage->name),
-        "%s.%s runs along \"%s\" of the stage \"%s\"; %s takes it along that of \"%s\"",
-        stage->name, row->name, dim, here.stage->name, stage->use, there.stage->name);
+                          "if the output has the points of \"%s\", its model must declare the "
+                          "dimension as \"WIRE.%s\", where WIRE is the wire to \"%s\"",
+                          there.stage->name, dim, there.stage->name),
+        "%s.%s is fed along \"%s\" of the stage \"%s\", but %s requires \"%s\" of the stage \"%s\"",
+        stage->name, row->name, dim, here.stage->name, stage->use, dim, there.stage->name);
 }
 
 void fe_check_dims(fe_build *b)

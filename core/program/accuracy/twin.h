@@ -13,7 +13,7 @@ typedef struct accuracy_runs {
     size_t count;
 } accuracy_runs;
 
-/* What all twins of an answer share. */
+/* What all twins of an answer share. The answer is the run whose error the twins measure. */
 typedef struct accuracy_scene {
     accuracy_runs *runs; /* receives the twins */
     const ff_run *file;  /* the file that a twin copies */
@@ -21,7 +21,9 @@ typedef struct accuracy_scene {
     /* Stages that do not depend on the changes reuse the results of this pipeline; NULL: none do.
      */
     const ff_pipeline *reuse_from;
-    const ff_pipeline *start; /* same file; in a chain of cases the twin starts from its states */
+    /* The answer's pipeline, or a pipeline of the same file before there is an answer. In a chain
+       of cases a twin starts from the states of this pipeline. */
+    const ff_pipeline *start;
     const char *outputs;      /* "outputs=[film.h_min]"; NULL if the outputs are unchanged */
     const ff_observer *watch; /* receives the progress; may be NULL */
 } accuracy_scene;
@@ -50,13 +52,14 @@ typedef struct accuracy_twin {
    computed; if a stage of a loop is computed, all stages of the loop are. */
 const accuracy_twin *accuracy_twin_run(const accuracy_scene *scene, const char *const *sets,
                                        size_t count, const ff_place *place, const bool *changed);
-/* In a chain of cases the answer started from its neighbour's state. Its twin starts from the
-   answer's final state, so that both follow the same branch. */
+/* Copies the states of all stages if the case belongs to a chain, in which each case starts from
+   the final state of the previous case. A twin gets the final states of the answer, so that twin
+   and answer follow the same branch of solutions. */
 void accuracy_copy_states(const ff_pipeline *from, ff_pipeline *to);
 /* Returns why the twin is not usable. */
 const char *accuracy_twin_reason(const accuracy_twin *twin);
-/* True if a setting at that place changes nothing, such as a tolerance of steps that the file
-   fixes. */
+/* True if the report says that the setting given at `place` changes nothing. An example is the
+   tolerance of the automatic steps if the file fixes the number of steps. */
 bool accuracy_is_idle(const ff_report *report, ff_place place, const char *stage,
                       const char *setting);
 /* Copies the run's messages to the report, except those that the report already has and those about

@@ -119,9 +119,8 @@ static bool write_all(const cli_options *options, const char *folder, ff_report 
     if (good)
         printf("%s was written to %s; its README.md lists the next three commands\n", id, folder);
     if (good && !own[0])
-        printf("the kind \"%s\" has no template: it is a stage without a place in a "
-               "pipeline yet\n",
-               kind);
+        printf("no template exists for the kind \"%s\": %s.yaml contains only the new stage\n",
+               kind, name);
     free(c);
     free(yaml);
     free(kind);
@@ -145,8 +144,7 @@ int cli_new(const cli_options *options)
         !strcmp(slash + 1, "auto")) {
         ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
                  "\"%.100s\" is not a valid name of a model: write kind/name, with lower-case "
-                 "letters, digits "
-                 "and hyphens; \"auto\" leaves the choice to the program",
+                 "letters, digits and hyphens, but not \"auto\", which has a meaning of its own",
                  id);
     } else {
         const char *folder = options->directory ? options->directory : slash + 1;

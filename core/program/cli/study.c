@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The commands run and plan for studies. */
+/* The commands run and plan for studies. The driver of a study chooses later cases from the results
+ * of earlier cases; a plain sweep has no driver. */
 #include "../terminal/terminal.h"
 #include "command.h"
 #include "spectrum.h"
@@ -34,10 +35,10 @@ typedef struct study_progress {
     const char *directory;
     bool driven; /* the study's driver has run */
     bool entered;
-    char *replaced;     /* how the inputs of earlier results differ, or NULL */
-    char *removed;      /* files derived from earlier results that are gone, or NULL */
-    study_context sums; /* the sums over the rows of a spectrum; no files until they have been
-                         * written */
+    char *replaced; /* how the inputs of earlier results differ, or NULL */
+    char *removed;  /* removed files that were derived from earlier results, or NULL */
+    /* the sums over the rows of a load spectrum; empty until all rows are done */
+    study_context sums;
     bool terminal;
     double printed_at; /* time of the last progress line, s after the start */
 } study_progress;
@@ -93,7 +94,7 @@ static void answer_row(void *ctx, size_t index, const json_t *record, bool known
     json_decref(set);
 }
 
-/* Reads which paths the rows will set. */
+/* Reads the heading of standard input, which names the parameters that the rows set. */
 static bool begin_rows(study_run *run, const cli_options *options, ff_report *report)
 {
     const study_definition *study = run->study;
@@ -176,7 +177,8 @@ json_t *cli_json_savings(const study_reuse_counts *savings)
 /* Prints the known cases of a study whose driver has not run. */
 static void print_known_cases(const study_definition *study)
 {
-    printf("these are %s; a run in one process does the rest and reuses them\n",
+    printf("these are %s that are known beforehand; a run in one process does the rest and reuses "
+           "them\n",
            study_cases(study));
 }
 
@@ -271,8 +273,9 @@ static void answer_end(const study_progress *t, const study_counters *counters, 
     results_json_print(answer);
 }
 
-/* Decides whether the driver runs the study. Its first cases can be distributed, unless their costs
- * are measured. False after an error. */
+/* Decides whether the driver runs the study. A distributed run computes only the cases that are
+ * known beforehand, without the driver. A study that measures costs cannot be distributed. False
+ * after an error. */
 static bool settle_driver(const study_run *run, bool *driven, ff_report *report)
 {
     bool spread = run->executor || run->shards > 1;
@@ -364,18 +367,19 @@ int cli_run_study(cli_session *session, const cli_options *options)
     char *directory = cli_study_directory(options);
     char input[20];
     study_run run = run_of(session, options, directory);
-    study_progress t = {.session = session,
-                        .sums = {.report = session->report},
-                        .options = options,
-                        .input = {.file = options->operand,
-                                  .sets = options->sets,
-                                  .set_count = options->set_count,
-                                  .pipeline = session->pipeline,
-                                  .accuracy = "", /* the inputs are part of the keys of the cases */
-                                  .key = results_input_key(session->pipeline, ""),
-                                  .replace = cli_option(options, "replace") != NULL},
-                        .directory = directory,
-                        .terminal = isatty(STDERR_FILENO) != 0};
+    study_progress t = {
+        .session = session,
+        .sums = {.report = session->report},
+        .options = options,
+        .input = {.file = options->operand,
+                  .sets = options->sets,
+                  .set_count = options->set_count,
+                  .pipeline = session->pipeline,
+                  .accuracy = "", /* each case compares its own accuracy, as part of its key */
+                  .key = results_input_key(session->pipeline, ""),
+                  .replace = cli_option(options, "replace") != NULL},
+        .directory = directory,
+        .terminal = isatty(STDERR_FILENO) != 0};
     snprintf(input, sizeof input, "%016llx", (unsigned long long)t.input.key);
     run.input = input;
     if (session->study->spectrum)
@@ -432,7 +436,7 @@ static void print_plan(const study_run *run, const study_plan *plan)
         printf(", about %.3g s with %zu workers", plan->seconds, run->jobs);
     putchar('\n');
     if (plan->again)
-        printf("an earlier run did %zu of these with other inputs; the first of them:\n",
+        printf("an earlier run did %zu of these with other inputs; changes of the first:\n",
                plan->again);
     for (const char *line = plan->changed; *line; line += strcspn(line, "\n") + 1)
         printf("  %.*s\n", (int)strcspn(line, "\n"), line);

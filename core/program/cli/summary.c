@@ -217,7 +217,8 @@ static void print_limits(const paper *page, const limits_verdict *limits)
     free(sentence);
 }
 
-/* Selects the lines of quality below a heading. */
+/* The quality lines of the stages are printed below three headings: doubts that the file accepts,
+ * numbers in doubt, and models outside their range. */
 typedef enum { ACCEPTED, OF_NUMBERS, OF_RANGE } lines;
 
 static bool is_among(const ff_quality *line, lines which)
@@ -303,10 +304,10 @@ static void print_search(const accuracy_record *errors, size_t missed)
     if (missed > 0 && *errors->fixed)
         terminal_print_wrapped(errors->fixed, printf("  settings fixed by the file: "), 4);
     else if (missed > 0 && errors->attempts > 1)
-        puts("  the repeat, with the settings predicted from the observed order, missed the "
-             "others");
+        puts("  a repeat with the settings predicted from the observed order of convergence did "
+             "not reach the other goals");
     else if (missed > 0)
-        puts("  no finer settings that may be tried are expected to reach the others");
+        puts("  no finer settings that the search may try are expected to reach the other goals");
     char *text = memory_print_text(
         "%s", errors->chosen_count ? "" : "nothing: the file leaves no setting open");
     for (size_t i = 0; i < errors->chosen_count; i++)
@@ -330,7 +331,8 @@ static int survey_errors(const accuracy_record *errors, size_t *goals, size_t *m
     return (int)width;
 }
 
-/* Prints which goals were reached, and the sources of error, the largest first. */
+/* Prints which goals were reached, and the sources of error, the largest first. A twin is a second
+ * run of the file with other settings. */
 static void print_errors(paper *page, const results_outcome *outcome)
 {
     const accuracy_record *errors = outcome->errors;
@@ -431,7 +433,7 @@ void cli_print_summary(const results_outcome *outcome, bool all)
     print_errors(&page, outcome);
     static const char *const headings[] = {
         [ACCEPTED] = "Doubts that the file accepts",
-        [OF_NUMBERS] = "Numbers in doubt (the page and the guide say what each means)",
+        [OF_NUMBERS] = "Numbers in doubt (the report page and the guide say what each means)",
         [OF_RANGE] = "Models outside their range"};
     for (int which = ACCEPTED; which <= OF_RANGE; which++) {
         page.heading = headings[which];

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Finds out which of several plugins wrote outside its memory. If a law writes past the arrays that
- * a stage passes to it, the stage crashes, and the sentence names both plugins.
+ * a stage passes to it, the stage crashes, and the sentence that reports the crash names both
+ * plugins.
  */
 #ifndef CRASH_SUSPECT_H
 #define CRASH_SUSPECT_H

@@ -24,8 +24,8 @@ uint64_t results_input_key(const ff_pipeline *pipeline, const char *accuracy)
     return *accuracy ? study_hash_text(key, accuracy) : key;
 }
 
-/* Whether both texts name the same file. A file that was moved or renamed cannot be found, and
- * counts as the same. */
+/* Whether the two paths lead to different files. If the recorded file cannot be found, for example
+ * because it was renamed, it counts as the same file. */
 static bool is_other_file(const char *recorded, const char *file)
 {
     struct stat then, now;
@@ -165,7 +165,8 @@ static bool check(const char *directory, const char *name, const results_input *
     return !other || input->replace;
 }
 
-/* Whether result.json has the same inputs. Its first members contain their hash. */
+/* Whether result.json has the same inputs. The first members of result.json contain the hash of its
+ * inputs. */
 static bool begins_alike(const char *directory, const results_input *input)
 {
     char words[64], found[64] = "", *path = memory_print_text("%s/result.json", directory);

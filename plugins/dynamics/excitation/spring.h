@@ -3,16 +3,17 @@
    the deflection g = s - e. It is the largest of several straight lines, slope g - offset. The
    slopes increase from line to line, and the first line passes through g = 0. A knee is the
    intersection of two consecutive lines. The band of a deflection is the index of the line that
-   gives its force. A spring that is frozen at the mean force F has two lines. For small vibrations
-   the slope of the mesh is k = dF/d(e_l), which is steeper than the chord F/(e_l - e). With e_t =
-   e_l - F/k, the force above half the mean force is k (s - e_t) = k g - offset, offset = k (e_t -
-   e) = k (e_l - e) - F >= 0. Below half the mean force it is the straight line from that point to
-   the unloaded e, so that contact is lost at e (theory, eq. 4.3a). The force is k g without lines
-   if there is no loaded transmission error, or if k is the chord. A shared spring has a line for
-   each force level of the stiffness: the tangent of the mesh force G(phase, s) at the level
-   (theory, eq. 4.3b). Two tangents intersect where a further pair comes into contact, even if the
-   force at which this happens varies with the phase. If no slopes are given, the lines are the
-   chords between the levels. */
+   gives its force. The spring of `force: frozen` is made for the mean force F and has two lines.
+   For small vibrations the slope of the mesh is k = dF/d(e_l), which is steeper than the chord
+   F/(e_l - e). With e_t = e_l - F/k, the force above half the mean force is k (s - e_t) = k g -
+   offset, offset = k (e_t - e) = k (e_l - e) - F >= 0. Below half the mean force it is the straight
+   line from that point to the unloaded e, so that contact is lost at e (theory, eq. 4.3a). If there
+   is no loaded transmission error, or if k is the chord, the spring has no lines and its force is k
+   g. The spring of `force: shared`, the shared spring, has a line for each force level of the
+   stiffness: the tangent of the mesh force G(phase, s) at the level (theory, eq. 4.3b). Two
+   tangents intersect where a further pair comes into contact, even if the force at which this
+   happens varies with the phase. If no slopes are given, the lines are the chords between the
+   levels. */
 #ifndef DYNAMICS_SPRING_H
 #define DYNAMICS_SPRING_H
 
@@ -46,8 +47,8 @@ static inline int dynamics_spring_band(const dynamics_piece *p, double since, do
     return bend < 0 ? -band : band;
 }
 
-/* Returns the coefficients of the slope of the force in a band. The second function returns the
-   offset, which has the sign of the band. */
+/* Return the coefficients of slope and offset of the line that belongs to a band, as polynomials in
+   the phase. The force is slope bend - dynamics_spring_sign(band) offset. */
 static inline const double *dynamics_spring_slope(const dynamics_piece *p, int band)
 {
     return p->lines ? p->line[band < 0 ? -band : band].slope : p->k;
@@ -95,8 +96,9 @@ typedef struct dynamics_spring_nodes {
     double *stiffness;   /* NULL: the stiffness of the curves */
     double *rows;        /* slopes of each line, then its offsets */
     double steeper;      /* mean over the nodes of k divided by the chord F/(e_l - e), minus 1 */
-    /* share of the nodes where k is below this chord and is replaced by it; if the force is shared,
-       share of the nodes and levels where the slope is below the chord to the previous level */
+    /* share of the nodes where k is below this chord and is replaced by it; for a
+       shared spring, share of the nodes and levels where the slope is below the chord to the
+       previous level */
     double soft;
     double unknown; /* share of the nodes where e_l does not exceed e */
 } dynamics_spring_nodes;
@@ -120,9 +122,9 @@ int dynamics_spring_nodes_make(const dynamics_mesh_curves *curves, const double 
    largest level. Returns the number of selected levels. */
 size_t dynamics_spring_levels(const dynamics_force_levels *levels, double force, int every,
                               size_t taken[DYNAMICS_LINES]);
-/* Makes the lines of a shared spring from the levels selected by dynamics_spring_levels. `levels`
-   must have errors. Sets `convex` to the largest deviation from a convex curve, relative to the
-   mean force. Returns 0 if out of memory. */
+/* Makes the lines of a shared spring from the levels selected by dynamics_spring_levels.
+   levels->error must not be NULL. Sets `convex` to the largest deviation from a convex curve,
+   relative to the mean force. Returns 0 if out of memory. */
 int dynamics_spring_nodes_share(const dynamics_force_levels *levels, double force, int every,
                                 dynamics_spring_nodes *nodes, double *convex);
 void dynamics_spring_nodes_free(dynamics_spring_nodes *nodes);

@@ -3,9 +3,10 @@
  * A track is a set of pieces of the mesh cycle that a motion follows. Driving flanks touch at s - e
  * = half_gap. Back flanks touch at s - e = -half_gap, with their own k, e (the negative of their
  * transmission error) and nodes. In free flight, a damper that also acts in the gap uses the e of
- * the driving flanks. If the force presses both flanks in turn, the damper uses a weighted mean of
- * the e of both flanks, which is the middle of the gap if neither flank prevails. On every track s
- * = delta + e, and s and s' are continuous when the motion changes to another track.
+ * the driving flanks. If a fluctuating force presses the driving flanks and the back flanks in
+ * turn, the damper uses a weighted mean of the e of both; with equal weights this mean is the
+ * middle of the gap. On every track s = delta + e, and s and s' are continuous when the motion
+ * changes to another track.
  *
  * If the back flanks have no track of their own, they are the mirror image of the driving flanks in
  * the middle of the gap.

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The oil between separated flanks, in series with the teeth. On each flank, with the sign s of its
    force (1: driving, -1: back), the load W, the tooth stiffness k and q = s delta - b: W = k (q +
-   y), y' = -V(W, h), h = h_c + y, Here h_c is the film thickness of the loaded flanks (the
+   y), y' = -V(W, h), h = h_c + y. Here h_c is the film thickness of the loaded flanks (the
    hand-over film), y the film thickness beyond h_c, q + y the deflection of the teeth, and V the
    speed of approach at the load W (squeeze-law.h). While y = 0 a flank is called held: the film of
    the loaded flanks is stiff and keeps its thickness. While W = 0 a flank is called free; oil does

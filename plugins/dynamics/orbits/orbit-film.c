@@ -28,8 +28,9 @@ void dynamics_films_monodromy(const dynamics_state *y, double m[4][4])
     }
 }
 
-/* Eliminates the films y from the monodromy M, whose blocks belong to x = (delta, rate) and y: (1 -
-   M_yy) dy = r_y + M_yx dx + slope dlambda, with the residual r_y of the films. */
+/* Eliminates the changes dy of both flanks' oil films y (orbit.h) by (1 - M_yy) dy = r_y + M_yx dx
+   + slope dlambda. M_yx and M_yy are blocks of the monodromy in x = (delta, rate) and y, r_y is the
+   residual of the films, and lambda gives the speed. */
 void dynamics_films_eliminate(const dynamics_state *y, double T, dynamics_orbit *o)
 {
     dynamics_films *films = &o->films;

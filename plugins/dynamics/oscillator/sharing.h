@@ -25,8 +25,8 @@ double dynamics_level_error(const dynamics_inputs *inputs, double least, double 
 
 /* Compares the frozen spring with the mesh between the deflections at the forces `least` and
    `largest` (N): returns the secant stiffness of the mesh minus that of the frozen spring, relative
-   to that of the frozen spring, as a mean over the phases. The levels must have errors. Natural
-   frequencies change by half of this value. Returns NAN if out of memory. */
+   to that of the frozen spring, as a mean over the phases. The levels must contain transmission
+   errors. Natural frequencies change by half of this value. Returns NAN if out of memory. */
 double dynamics_slope_change(const dynamics_inputs *inputs, int on_chord, double least,
                              double largest);
 

@@ -15,7 +15,8 @@ static const double longest_step = 0.25;
 /* Accuracy, in mesh cycles, to which a change of contact is located. */
 static const double instant = 1e-14;
 
-/* State of the integration through the mesh cycle along a series. */
+/* State of the integration through the mesh cycle. The motion is the Fourier series with the
+   coefficients x. */
 typedef struct walk {
     dynamics_motion *motion;
     const dynamics_piece *piece;
@@ -67,8 +68,8 @@ static void disturb(double zeta, const double *k, double h, double *u, double *u
     }
 }
 
-/* Advances the disturbances and the clocks over a stretch of the cycle with one state of
-   contact. */
+/* Advances the disturbances and the times of contact (dynamics_clocks) over a stretch of the cycle
+   with one state of contact. */
 static void pass_stretch(const walk *w, double from, double to, contact c)
 {
     dynamics_motion *motion = w->motion;

@@ -38,7 +38,7 @@ enum {
     EHL_IN_HEAT, /* first of three rows: thermal data of the gears */
     EHL_IN_HARDNESS = EHL_IN_HEAT + NUMERICS_HEAT_INPUTS,
     EHL_IN_SHEAR_RATE,
-    EHL_IN_ASPERITIES, /* asperity pressure of statistical flanks */
+    EHL_IN_ASPERITIES, /* asperity pressure of flanks whose roughness is given by its statistics */
     EHL_IN_CUTOFF,
     EHL_IN_BULK,
     EHL_IN_DISCRETISATION, /* for ehl/finite-volume only */

@@ -3,7 +3,7 @@
    shear leaves only by conduction to walls of equal temperature. With y = z/h - 1/2 across the film
    and theta = beta (T - T_wall), the equations are theta'' = -(a + b y)^2 exp(theta), theta(-1/2) =
    theta(1/2) = 0, int y (a + b y) exp(theta) dy = sqrt(F), int (a + b y) exp(theta) dy = sqrt(S), F
-   = eta beta U^2/k, S = eta beta u_s^2/k, R = b/(12 sqrt(F)), Here sqrt(beta h^2/(eta k)) tau = a +
+   = eta beta U^2/k, S = eta beta u_s^2/k, R = b/(12 sqrt(F)). Here sqrt(beta h^2/(eta k)) tau = a +
    b y is the dimensionless stress, u_s the sliding speed, and U the difference between the mean
    speed of the flow and u_r. R is the pressure gradient over that of the isothermal film with the
    same flow. Flow and speeds are given, since there is exactly one solution for them. For a given

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Computes the film that enters a line contact through its inlet, after Ertel and Grubin. Upstream
    of x = -a the gap is that of the Hertzian contact plus the film thickness: h = h_e + (a^2/(2R))
-   [s sqrt(s^2 - 1) - arcosh s], s = -x/a, The steady Reynolds equation dp/dx = 12 u (rho h - rho_e
+   [s sqrt(s^2 - 1) - arcosh s], s = -x/a. The steady Reynolds equation dp/dx = 12 u (rho h - rho_e
    h_e)/(rho h^3 psi) is integrated up to x = -a with the laws of the oil. In the theory of Ertel
    and Grubin the pressure tends to infinity there. Here it tends to p_e, which combines two bounds.
    The first, p_d, is the pressure of the Hertzian contact at a depth of the order of the length l

@@ -48,12 +48,12 @@ static double carried_at(scene *s, double apart)
     return fmin(p_a / mean, 1);
 }
 
-/* Returns the mean gap of flanks whose mean planes have the distance H sigma, times (1 - s)^0.13,
-   minus c->h, with the share s of the load on asperities. The result is 0 if the gap equals the
-   film h (1 - s)^-0.13 that the oil forms under its share 1 - s of the load (Johnson, Greenwood &
-   Poon 1972, with the exponent of the load in Dowson & Higginson's film). The mean gap of Gaussian
-   heights, cut off where they would cross, is sigma (H Phi(H) + phi(H)) (Patir & Cheng 1978), and H
-   sigma above 3 sigma. Flanks without an oil film approach until the asperities carry the load. */
+/* Returns g (1 - s)^0.13 - c->h, where g is the mean gap and s the share of the load on asperities
+   if the mean planes of the flanks have the distance H sigma. The result is 0 if the mean gap
+   equals the film h (1 - s)^-0.13 that the oil forms under its share 1 - s of the load (Johnson,
+   Greenwood & Poon 1972, with the exponent of the load in Dowson & Higginson's film). The mean gap
+   of Gaussian heights, cut off where they would cross, is g = sigma (H Phi(H) + phi(H)) (Patir &
+   Cheng 1978). Flanks without an oil film approach until the asperities carry the load. */
 static double unbalanced(scene *s, double H)
 {
     const double sigma = s->l->asperities->sigma;
@@ -96,8 +96,8 @@ static double share_of(const ehl_local *l, const ehl_local_contact *c, ff_status
     return share;
 }
 
-/* Computes the friction at the temperature T from the oil's share of p. If T is NaN, uses the
-   temperature of the laws. */
+/* Computes the friction at the temperature T from the oil's share of p. If T is NaN, the laws
+   use their reference temperature. */
 static void rub(scene *s, double T)
 {
     const ehl_laws *laws = s->l->laws;

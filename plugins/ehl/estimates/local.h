@@ -3,7 +3,7 @@
    which its own friction heats it, and asperities carry a share of the load. The oil is warmer than
    the teeth by the mean flash temperature of two half-spaces under the contact (Jaeger 1942, in the
    form of ISO/TS 6336-20) plus the mean rise across the film: T_f = T_bulk + 0.752 tau u_s
-   sqrt(2a)/(B_1 sqrt(u_1) + B_2 sqrt(u_2)) + h tau_f u_s/(8 k), Here tau is the mean shear stress
+   sqrt(2a)/(B_1 sqrt(u_1) + B_2 sqrt(u_2)) + h tau_f u_s/(8 k). Here tau is the mean shear stress
    over 2a of the whole friction, tau_f that of the oil, and B = sqrt(k rho c) is taken for each
    flank. T_f minus the right-hand side increases with T_f, so there is one root. */
 #ifndef EHL_LOCAL_H
@@ -19,10 +19,9 @@ enum { EHL_GREENWOOD_TRIPP, EHL_MASJEDI_KHONSARI, EHL_CLARKE };
 
 typedef struct ehl_local {
     const ehl_laws *laws;
-    double bulk;         /* temperature of the teeth, K; 0: the oil stays at the temperature of
-                            the laws */
-    double contact[2];   /* B of both flanks, J/(m2 K s^0.5) */
-    double conductivity; /* conductivity of the oil at ambient pressure, W/(m K) */
+    double bulk; /* temperature of the teeth, K; 0: the laws use their reference temperature */
+    double contact[2];              /* B of both flanks, J/(m2 K s^0.5) */
+    double conductivity;            /* conductivity of the oil at ambient pressure, W/(m K) */
     ehl_conductivity_rise conducts; /* increase of the conductivity with the mean pressure */
     const ff_asperity *asperities;  /* NULL: smooth flanks */
     int32_t share;

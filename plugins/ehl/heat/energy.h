@@ -1,18 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Temperature and flow across a film with given pressure and gap: rho c (dT/dt + u dT/dx + w dT/dz)
-   = k d2T/dz2 - (T/rho)(d rho/dT)(dp/dt + u dp/dx) + tau du/dz tau = tau_m + (z - h/2) dp/dx, u =
-   u_1 at z = 0 and u_2 at z = h, |tau_m| <= limiting stress du/dz = rate(tau_s) + (d rate/d
-   tau)(tau_s) (tau - tau_s), int rate(tau_s) dz = u_2 - u_1 The conductivity k depends on p. Across
-   the film the equations are solved in weak form in zeta = z/h, at the nodes of across.h, so that
+/* Temperature and flow across a film with given pressure and gap. The balance of energy is rho c
+   (dT/dt + u dT/dx + w dT/dz) = k d2T/dz2 - (T/rho)(d rho/dT)(dp/dt + u dp/dx) + tau du/dz. The
+   stress is tau = tau_m + (z - h/2) dp/dx with |tau_m| <= limiting stress, and the speed is u_1 at
+   z = 0 and u_2 at z = h. The shear rate is du/dz = rate(tau_s) + (d rate/d tau)(tau_s) (tau -
+   tau_s), where tau_s is the stress without dp/dx: int rate(tau_s) dz = u_2 - u_1. This
+   linearisation is that of the isothermal film, so that a film with uniform temperature has the
+   same flow as an isothermal film. The conductivity k depends on p. Across the
+   film the equations are solved in weak form in zeta = z/h, at the nodes of across.h, so that
    the heat flux into the flanks is the natural boundary condition. Along x they use second-order
-   upwind differences. w follows from the balance of mass. The rates are linearised about tau_s, as
-   for the mobility of the isothermal film, so that a film with one temperature has the same flow.
-   Oil that enters, and flanks before they enter the contact, have the temperature T_in. Where there
-   is no film, the oil moves without change of temperature and without heat flow. The nodes of rough
-   flanks move with the mean speed of the flanks. For these, u is the speed relative to the nodes
-   and changes in time are taken along the path of the nodes; the equations are the same, and oil
-   and flanks enter from both sides. Where asperities are in contact, their friction heats the oil
-   between them. That oil and both flanks have nearly the same temperature. */
+   upwind differences. w follows from the balance of mass. Oil that enters, and flanks before they
+   enter the contact, have the temperature T_in. Where there is no film, the oil moves without
+   change of temperature and without heat flow. The nodes of rough flanks move with the mean speed
+   of the flanks. For these, u is the speed relative to the nodes and changes in time are taken
+   along the path of the nodes; the equations are the same, and oil and flanks enter from both
+   sides. Where asperities are in contact, their friction heats the oil between them. That oil and
+   both flanks have nearly the same temperature. */
 #ifndef EHL_ENERGY_H
 #define EHL_ENERGY_H
 
@@ -25,7 +27,7 @@
 typedef struct ehl_energy_film {
     size_t count; /* number of nodes that pressure can reach */
     double dx, rate;
-    double speed[2]; /* speed of the flanks, along the nodes */
+    double speed[2]; /* speed of each flank relative to the nodes */
     double frame;    /* speed of the nodes along the film: 0, or the mean speed of the flanks */
     const double *p, *h;
     const double *p_t;             /* dp/dt; NULL: steady */
@@ -35,7 +37,7 @@ typedef struct ehl_energy_film {
     const unsigned char *asperity; /* 1: asperities are in contact; NULL: nowhere */
     const double *friction;        /* friction heat of asperities, W/m2, at the nodes; 0 where none
                                       touch; NULL: nowhere */
-    const double *weight;          /* weight of a change at a node; NULL: 1 */
+    const double *weight;          /* weight of each node in `change` of ehl_energy; NULL: 1 */
     const double *past;            /* dT/dt = rate T + past; NULL: steady */
     const double *past_modes[2];   /* past contribution to the time derivative of the temperature
                                       modes of both flanks */
@@ -55,17 +57,19 @@ typedef struct ehl_temperature {
 
 /* Coefficients of the equations of one column of nodes. */
 typedef struct ehl_column {
-    double damped;                /* conductance of the highest modes across the film, W/(m2 K) */
+    double damped;                /* artificial conductance, W/(m2 K), that damps the highest
+                                     modes of the temperature across the film */
     double lift[EHL_ACROSS_MOST]; /* transverse transport, as a factor of the slope at the point */
     /* transport along the nodes, from the previous and from the next column */
     double on[EHL_ACROSS_MOST], back[EHL_ACROSS_MOST];
     double own[EHL_ACROSS_MOST];      /* storage, transport and compression, as a factor of the
                                          temperature at the point */
     double source[EHL_ACROSS_MOST];   /* heat produced, and storage terms from earlier instants */
-    double level[EHL_ACROSS_MOST];    /* resistance to a temperature change that is uniform
-                                         across the film, without tau_m */
-    double diagonal[EHL_ACROSS_MOST]; /* level, plus the resistance to temperature differences
-                                         across the film */
+    double level[EHL_ACROSS_MOST];    /* derivative of the equation at the point with respect to a
+                                         temperature change that is uniform across the film and
+                                         does not change tau_m */
+    double diagonal[EHL_ACROSS_MOST]; /* level, plus the diagonal entries of conduction and
+                                         transport across the film */
 } ehl_column;
 
 typedef struct ehl_energy {
@@ -92,12 +96,12 @@ typedef struct ehl_energy {
                                     evaluated */
     /* results of the last evaluation */
     double *called_ln_eta, *ln_eta_p, *ln_eta_T, *called_rho, *rho_p, *rho_T;
-    double *bend;   /* curvature of ln(eta) with respect to its first-order change since the last
-                       evaluation */
-    double *before; /* ln(eta) of the last flow */
+    double *bend; /* ln(eta) is extrapolated by a parabola in its first-order change since the last
+                     evaluation; this is the curvature of the parabola */
+    double *before; /* ln(eta) when the flow was last computed */
+    int guessed;    /* 1: tau_m has been computed before; 0: tau_m must be guessed first */
     /* one value per node */
-    int guessed;            /* 1: tau_m has been computed before; 0: tau_m must be guessed first */
-    double *tau_m;          /* tau_s, Pa: the stress without dp/dx, whose rates give the flow */
+    double *tau_m;          /* Pa: first tau_s, then the solution tau_m of the linearised flow */
     double *excess;         /* part of tau_m beyond the limiting stress, Pa; it is subtracted from
                                tau */
     double *p_x;            /* pressure gradient of the flow, Pa/m */
@@ -109,7 +113,7 @@ typedef struct ehl_energy {
     unsigned char *there;   /* 1: tau_m has been found */
     double highest, lowest; /* bounds of the temperatures with which the laws are evaluated, K */
     double reach;           /* change of ln(eta) up to which the laws are extrapolated */
-    double damping;         /* factor on the conductance of the highest modes across the film */
+    double damping;         /* factor on the artificial conductance `damped` */
     double share;           /* share of the change of each temperature that a sweep takes */
     double change;          /* largest change of ln(eta) in the last sweep, weighted */
     ff_status law_status;

@@ -11,7 +11,7 @@
 
 typedef struct ehl_band ehl_band;
 
-/* Number of rows upstream of a node that contain its column. */
+/* The column of a node has entries in the rows of this many nodes upstream of it. */
 enum { EHL_BAND_REACH = 13 };
 
 ehl_band *ehl_band_create(size_t nodes, const double *kernel); /* NULL: out of memory */

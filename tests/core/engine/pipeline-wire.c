@@ -150,8 +150,8 @@ static void lengths(void)
     a = try_build(HISTORIES "  s: {use: toy/together, one: a, two: b}\noutputs: [s.series]\n",
                   false);
     check_error("lengths that are made apart", &a, 7, 39,
-                "s.two.t runs along \"t\" of the stage \"b\"; toy/together takes it along that of "
-                "\"a\"");
+                "s.two.t is fed along \"t\" of the stage \"b\", but toy/together requires \"t\" of "
+                "the stage \"a\"");
     try_close(&a);
     a = try_run(HISTORIES "  s: {use: toy/together, one: a, two: d}\noutputs: [s.series]\n");
     check_good("made in one stage, handed on by two", &a);

@@ -150,8 +150,8 @@ static void test_changes(void)
     outcome r = cli("$F plan g.yaml --set walk.foot=3 --set 'walk.work=1 ms'");
     cli_expect("old and new values", &r,
                cli_has(r.out, "\n0 done, 0 failed, 2 to run, about ") &&
-                   cli_has(r.out, "\nan earlier run did 2 of these with other inputs; the first of "
-                                  "them:\n") &&
+                   cli_has(r.out, "\nan earlier run did 2 of these with other inputs; changes of "
+                                  "the first:\n") &&
                    cli_has(r.out, "\n  walk.work: 0 s -> 0.001 s\n") &&
                    cli_has(r.out, "\n  walk.foot: not given -> 3\n"));
     write_walk("g.yaml", "", "{sweep: {walk.step: [1 m, 2 m, 3 m]}}");

@@ -21,7 +21,7 @@
 static void isolate_process(void)
 {
     int null = open("/dev/null", O_RDWR);
-    setpgid(0, 0); /* to end processes that a plugin starts together with this one */
+    setpgid(0, 0); /* one signal then also ends the processes that a plugin has started */
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     signal(SIGINT, SIG_IGN);
     signal(SIGTERM, SIG_IGN);
