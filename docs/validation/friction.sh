@@ -20,7 +20,7 @@ LAWS = {"PAO100 (the choice)": [],
         "PAO100, tau_E +10 %": ["flow.limiting_stress_coefficient=0.0385"],
         "paraffinic M100": [*MINERAL, "viscosity.base=paraffinic", "flow.limiting_stress_coefficient=0.047"],
         "naphthenic N100": [*MINERAL, "viscosity.base=naphthenic", "flow.limiting_stress_coefficient=0.053"],
-        "the card 75w90: Roelands, tau0 5 MPa": ["viscosity={use: viscosity/roelands}", "flow={use: rheology/ree-eyring, tau0: 5 MPa}"]}
+        "`lubricants/75w90.yaml`: Roelands, tau0 5 MPa": ["viscosity={use: viscosity/roelands}", "flow={use: rheology/ree-eyring, tau0: 5 MPa}"]}
 
 
 def run(file, sets):
@@ -72,8 +72,8 @@ pressure, and that asperities touch at 2000 rpm. At 2000 and 10000 rpm the resul
 
 ## Friction coefficients
 
-The film's coefficient is weighted with load and sliding speed; the formula is that of ISO/TR 14179-2; the measured
-coefficient is the loss over power and loss factor, which assumes half the load on each of two pairs.
+The film's coefficient is weighted with load and sliding speed; the formula is that of ISO/TR 14179-2; the measured coefficient is the loss
+divided by the power and by a loss factor that assumes half the load on each of two pairs.
 
 | rpm | film | formula | measured |
 |---|---|---|---|""")

@@ -215,7 +215,7 @@ Written by
 sh docs/validation/rattle.sh build
 ```
 
-No film is wired back on this page: it uses `squeeze: series` of `dynamics/shooting` ([theory](../theory.md#oil-between-landing-flanks)).
+On this page no film stage acts back on the motion; the oil between the flanks is that of `squeeze: series` of `dynamics/shooting` ([theory](../theory.md#oil-between-landing-flanks)).
 
 ## Where the branch of parted flanks ends
 
@@ -278,7 +278,7 @@ piezoviscosity, which both make the film thicker, matter above some 50 MPa.
 
 ## Points I, II and III
 
-The pair with its own stiffness at 250 N m: rms of the alternating part of s, and the speed at which its upper branch ends:
+The pair with its own stiffness at 250 N m: rms of the alternating part of the dynamic transmission error s, and the speed at which its upper branch ends:
 
 TEXT
     paper

@@ -123,7 +123,7 @@ def jumps():
     run, fine = (line(history(*rows), series, sets=sets) for sets in ((), ['film.steps=8000']))
     at = [scenes.sample(r.series['film.time'], r.series['film.h_min'], 8e-5) for r in (run, fine)]
     row('1.14', 'a load doubled at 20 us, h_min at 80 us', 'stated error 7 to 9 %, true error 0.1 to 0.6 %',
-        f"{100 * abs(at[0] / at[1] - 1):.2f} % from 8000 steps; {run.said('film.h_min_time_error')}")
+        f"{100 * abs(at[0] / at[1] - 1):.2f} % off the film with 8000 steps; {run.said('film.h_min_time_error')}")
 
 
 def moes(M, L, film='ehl/finite-volume', sets=()):
@@ -146,7 +146,7 @@ def grids():
         run = moes(0.12, 5, film, ['film.cells=256'])
         off = run.series['film.h_min'][0] / fine[film] - 1
         row('1.12', f'M 0.12, L 5, 256 cells, `{film}`', 'control-volume stated 3.3 to 4.0 times too small an error',
-            f"{100 * off:.2f} % from 4096 cells; {run.said('film.h_min_space_error')}")
+            f"{100 * off:.2f} % off the film on 4096 cells; {run.said('film.h_min_space_error')}")
     for outlet in 0.95, 0.9, 0.7:
         run = moes(30, 8, sets=[f'film.outlet={outlet}'])
         row('1.11', f'`outlet: {outlet}`', 'h_min 21, 37, 81 % too low with outlets of 0.95, 0.9, 0.7; all lines good', f"{run.said('film.outlet_load')}")
@@ -154,7 +154,7 @@ def grids():
     for inlet in 1.5, 2, 3:
         run = moes(30, 8, sets=[f'film.inlet={inlet}'])
         missing = 1 - run.series['film.h_min'][0] / whole
-        row('1.13', f'`inlet: {inlet}`', 'stated 0.58 % missing instead of 0.97 %, 3.9 instead of 0.85, 0.008 instead of 0.11',
+        row('1.13', f'`inlet: {inlet}`', 'missing share of the film stated as 0.58 % instead of 0.97 %, 3.9 % instead of 0.85 %, 0.008 % instead of 0.11 %',
             f"{100 * missing:.2f} % missing; {run.said('film.starvation')}")
     for cells in 512, 65536:
         contact = 'use: contact/constant, radius: 12.8 mm, entrainment_speed: 2 m/s, load_per_width: 1.8e-4 N/mm'
@@ -176,7 +176,7 @@ def gears():
         f"{run.poor('motion')}, {run.said('tooth.mesh_load')}")
     told = subprocess.run([program, 'models', 'stiffness/load-distribution'], capture_output=True, text=True, check=True)
     text = ' '.join(told.stdout.split())
-    at, end = text.find('strain: teeth that'), text.find(' neighbour_coupling')
+    at, end = text.find('strain: plane strain'), text.find(' neighbour_coupling')
     row('1.18', '`models stiffness/load-distribution`: `plane`', 'the text did not say what stays plane strain', text[at:end])
 
 
