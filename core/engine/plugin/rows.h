@@ -21,8 +21,8 @@ bool fe_is_name(const char *text, size_t length);
 const char *fe_dims_read(const ff_model *model, const char *text, ff_dims *dims);
 /* Returns the wire to which the i-th dimension of a row belongs: "gear" for "t gear.station"; for
    an input row without a prefix, the row's own wire. Length 0: an output's own dimension. The
-   length is always 0 for a model older than 1.3, for which equal names mean equal lengths on all
-   wires. The text is not NUL-terminated. */
+   length is always 0 for a model built for an interface before version 1.3, in which equal names
+   mean equal lengths on all wires. The text is not NUL-terminated. */
 const char *fe_dim_wire(const ff_model *model, const ff_port *row, uint32_t i, size_t *length);
 /* Returns a name that this output and an earlier one use for dimensions of different stages, or
    NULL. */

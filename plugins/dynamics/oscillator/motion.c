@@ -37,7 +37,8 @@ void dynamics_motion_check_energy(dynamics_motion *motion, double start, double 
     motion->energy_error = unit > 0 ? fabs(gain) / unit : 0;
 }
 
-/* Copies the monodromy and the clocks of the recorded cycles, and checks both invariants. */
+/* Copies the monodromy and the times of contact of the recorded cycles, and checks both invariants.
+ */
 static void check_invariants(dynamics_motion *motion, const dynamics_oscillator *o,
                              double start_energy)
 {

@@ -65,7 +65,7 @@ typedef struct dynamics_motion {
     double T;               /* duration of a mesh cycle, in rad of the natural frequency */
     dynamics_record record; /* record of `cycles` cycles, and of further cycles as long as a tooth
                                pair stays in mesh */
-    dynamics_clocks clocks; /* clocks over `cycles` */
+    dynamics_clocks clocks; /* sums over `cycles` */
     double monodromy[4];
     const double *films;        /* film thicknesses at the start; NULL: no films, or not known */
     double in_oil[4][4];        /* monodromy in (delta, rate, films) of a motion with oil films */

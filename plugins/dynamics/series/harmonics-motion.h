@@ -5,9 +5,9 @@
 
 #include "../oscillator/motion.h"
 
-/* Fills record, clocks, monodromy and det_error of a motion of one mesh cycle. Its excitation,
-   period, cycles (1) and T are already set. The energy balance is not checked. Returns FF_OK or
-   FF_NOMEM. */
+/* Fills the members record, clocks, monodromy and det_error of a motion of one mesh cycle. Its
+   excitation, period, cycles (1) and T are already set. The energy balance is not checked. Returns
+   FF_OK or FF_NOMEM. */
 ff_status dynamics_harmonics_motion(dynamics_motion *motion, const dynamics_inputs *inputs,
                                     const double *x, size_t harmonics, size_t per_cycle);
 

@@ -36,7 +36,7 @@ typedef struct study_tradeoff {
     study_context *context;
     size_t repeats;
     double accuracy;     /* the smallest relative error of interest */
-    const char **counts; /* "film.steps": results or lines of quality that count work */
+    const char **counts; /* "film.steps": results or quality lines that count work */
     size_t count_count;
     const char *knobs[STUDY_MOST_KNOBS]; /* the assigned paths, or names of choices of files */
     size_t knob_count;
