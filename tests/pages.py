@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Holds what can be held of sentences: file heads, lengths, links, and no private names in the guide.
+"""Holds what can be held of sentences: file heads, lengths, links, equations, and no private names in the guide.
 
 pages.py SOURCE_ROOT"""
 import pathlib
@@ -10,6 +10,7 @@ import sys
 LONGEST_CHAPTER = 300  # lines of a chapter of the guide
 LONGEST_CHANGE = 160  # characters of a line of changes.md
 MOST_WORDS = 60000  # of all pages but those of validation
+EQUATION = r'\(((?:1[0-5]|[2-9])\.[0-9]{1,2}[a-z]?)\)'
 # a commit, or the seed of a drawn scene: a reader of the guide has neither
 PRIVATE = re.compile(r'\b(?=[0-9a-f]*[a-f])(?=[0-9a-f]*[0-9])[0-9a-f]{7,40}\b|\bseeds? [0-9]{5,}')
 
@@ -76,9 +77,34 @@ def check_names(root):
                 yield f'{path.relative_to(root)}:{number}: "{found[0]}" means nothing to a reader'
 
 
+def check_equations(root):
+    """Each equation that theory.md mentions is the last of its line, apart from its source: a re-wrap would join lines."""
+    lines = (root / 'docs/theory.md').read_text(encoding='utf-8').splitlines()
+    ends = [re.findall(rf'(?<=\S)  +{EQUATION}|(?<=\S) {EQUATION}(?=$|  )', line) for line in lines if line.startswith('    ')]
+    known = {number for found in ends for pair in found for number in pair}
+    for at, line in enumerate(lines, 1):
+        for number in re.findall(EQUATION, line):
+            if number not in known and not line.startswith('|'):
+                yield f'docs/theory.md:{at}: ({number}) stands behind no formula'
+
+
+def check_signs(root):
+    """In a paragraph, a line that begins with the sign of a formula would be shown as an item of a list."""
+    for path in [root / 'README.md', *sorted((root / 'docs').rglob('*.md'))]:
+        prose, code, before = False, False, ''
+        for at, line in enumerate(path.read_text(encoding='utf-8').splitlines(), 1):
+            code ^= line.startswith('```')
+            if not before:
+                prose = re.match(r'[-+*] |[0-9]+\. |[ |#<]', line) is None and not code
+            elif prose and re.match('[-+*] ', line):
+                yield f'{path.relative_to(root)}:{at}: a paragraph is broken before a sign'
+            before = line
+
+
 def main():
     root = pathlib.Path(sys.argv[1])
-    faults = [fault for check in (check_heads, check_lengths, check_links, check_names) for fault in check(root)]
+    checks = check_heads, check_lengths, check_links, check_names, check_equations, check_signs
+    faults = [fault for check in checks for fault in check(root)]
     print(*faults, sep='\n', end='\n' if faults else '')
     sys.exit(bool(faults))
 
