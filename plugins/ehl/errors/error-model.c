@@ -335,7 +335,7 @@ static void record_bounds(ehl_results *r, const ehl_march *m, double h_central, 
     ehl_worse(&r->worst_by_cells, r->by_cells);
     r->row_in_space[EHL_LEAST] = r->row_in_space[EHL_CENTRAL] = (double)INFINITY;
     r->row_in_space[EHL_PEAK] = spike_at(eq, c, &of).error * p_max;
-    if (ehl_wants_p_max(r->wanted) && !m->rough && m->step.past && m->known > 1) {
+    if (r->peaks && !m->rough && m->step.past && m->known > 1) {
         const narrow_peak narrow = narrow_peak_of(m, c, &of);
         r->row_in_space[EHL_TIP] = narrow.tip;
         r->row_in_space[EHL_NARROW] = narrow.climbs ? (double)INFINITY : 0;

@@ -19,6 +19,10 @@ enum { EHL_MEASURED = EHL_BOUNDS, EHL_NARROW = EHL_MEASURED + EHL_PEAK, EHL_TIP,
  * the error falls at second order, while at first order it would be so much larger. */
 #define EHL_CAUTION 1.5
 
+/* An output whose error crosses 0 is known no better than this share of the largest error of either
+ * film. */
+#define EHL_FLOOR (1. / 3)
+
 /* A table of rows of equal width, which grows, since their number is only known at the end. */
 typedef struct ehl_rows {
     double *data;
@@ -81,6 +85,7 @@ typedef struct ehl_results {
     double undecided;      /* the solver's counter when the mass was recorded last */
     ehl_law_answer laws;
     int rough;
+    int peaks;                       /* 1: errors of p_max are estimated */
     int lowest_alone, highest_alone; /* 1: no h_min, or no p_max, of another instant is wanted */
 } ehl_results;
 
@@ -120,7 +125,7 @@ int ehl_wants_lowest_alone(uint64_t wanted);
 int ehl_wants_highest_alone(uint64_t wanted);
 
 /* Whether an output is wanted that depends on h_min, h_central or p_max. Friction depends on the
- * central film; a spike that the cells cut off hardly changes it (docs/theory.md, section 12). */
+ * central film. */
 int ehl_wants_h_min(uint64_t wanted);
 int ehl_wants_h_central(uint64_t wanted);
 int ehl_wants_p_max(uint64_t wanted);

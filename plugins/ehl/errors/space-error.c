@@ -167,20 +167,34 @@ static int is_doubtful(const ehl_results *r, size_t row, int kind)
            (is_extreme(r, kind) && film - bar < r->lowest);
 }
 
-/* Puts errors in place of those of an output, from films on twice the cells of the rows. */
-static void put_errors(ehl_results *r, const ehl_march *m, const ehl_passage *p,
-                       double (*film)[EHL_PASSED], int kind)
+/* Returns the relative error of a row due to the cells, from its film on twice the cells. */
+static double error_by_finer(const ehl_results *r, const ehl_march *m, size_t row,
+                             const double *finer, int kind)
 {
     const double left = ldexp(1, -ehl_space_order(m->solver->reynolds));
-    for (size_t i = p->first; i <= p->last; i++) {
-        double coarse = film_of(r, i, kind), fine = film[i - p->first][kind];
-        double off = (coarse - fine) / (1 - left) / coarse, *part = part_of(r, i, kind);
-        if (!has_bound(r, i, kind))
-            continue;
-        *part = ehl_known_error(EHL_CAUTION * off) * coarse;
-        *part_of(r, i, EHL_MEASURED + kind) = 1;
-        r->measured[kind] = 1;
-    }
+    return (1 - finer[kind] / film_of(r, row, kind)) / (1 - left);
+}
+
+/* Puts bars in place of those of the films of a passage, from films on twice the cells. Where an
+ * error crosses 0 it counts as EHL_FLOOR of the largest error of the passage, from the side of a
+ * film that is too thick. */
+static void put_errors(ehl_results *r, const ehl_march *m, const ehl_passage *p,
+                       double (*film)[EHL_PASSED])
+{
+    double largest = 0;
+    for (size_t i = p->first; i <= p->last; i++)
+        for (int k = EHL_LEAST; k <= EHL_CENTRAL; k++)
+            largest = fmax(largest, fabs(error_by_finer(r, m, i, film[i - p->first], k)));
+    for (size_t i = p->first; i <= p->last; i++)
+        for (int k = EHL_LEAST; k <= EHL_CENTRAL; k++) {
+            const double off = error_by_finer(r, m, i, film[i - p->first], k);
+            if (!has_bound(r, i, k))
+                continue;
+            const double floor = EHL_FLOOR * largest, error = fabs(off) > floor ? off : floor;
+            *part_of(r, i, k) = ehl_known_error(EHL_CAUTION * error) * film_of(r, i, k);
+            *part_of(r, i, EHL_MEASURED + k) = 1;
+            r->measured[k] = 1;
+        }
 }
 
 /* Measures the errors of the films around a row. */
@@ -190,8 +204,8 @@ static ff_status measure_passage(ehl_results *r, const ehl_march *m, ehl_passage
     ehl_passage_about(p, r, m, row, is_doubtful, kind);
     double(*film)[EHL_PASSED] = malloc((p->last - p->first + 1) * sizeof *film);
     ff_status status = film ? ehl_passage_again(r, m, p, p->first, p->last, 2, film) : FF_NOMEM;
-    for (int k = EHL_LEAST; k <= EHL_CENTRAL && status == FF_OK; k++)
-        put_errors(r, m, p, film, k);
+    if (status == FF_OK)
+        put_errors(r, m, p, film);
     free(film);
     return status;
 }
@@ -305,7 +319,7 @@ static size_t find_peak(const ehl_results *r)
 static ff_status measure_peaks(ehl_results *r, const ehl_march *m, ehl_passage *p)
 {
     ff_status status = FF_OK;
-    while (status == FF_OK && ehl_wants_p_max(r->wanted)) {
+    while (status == FF_OK && r->peaks) {
         size_t row = find_peak(r);
         if (row == SIZE_MAX)
             break;
@@ -398,6 +412,6 @@ void ehl_results_report_cells(const ehl_results *r, const ehl_march *m)
         report_cells(r, m, EHL_LEAST, "h_min_space_error", EHL_FILM_LIMIT);
     if (ehl_wants_h_central(r->wanted))
         report_cells(r, m, EHL_CENTRAL, "h_central_space_error", EHL_FILM_LIMIT);
-    if (ehl_wants_p_max(r->wanted))
+    if (r->peaks)
         report_cells(r, m, EHL_PEAK, "p_max_space_error", EHL_PEAK_LIMIT);
 }

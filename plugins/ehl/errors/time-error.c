@@ -48,7 +48,7 @@ void ehl_results_peak_in_time(ehl_results *r, const ehl_march *m, size_t peak, d
     const ehl_reynolds *eq = m->solver->reynolds;
     double a = ehl_hertz_half_width(m->at.load, m->at.radius, m->history->modulus);
     r->row[EHL_P_MAX_ERROR] = 0;
-    if (m->rough || !ehl_wants_p_max(r->wanted) || !ehl_march_is_loaded(m))
+    if (m->rough || !r->peaks || !ehl_march_is_loaded(m))
         return;
     double buildup = ehl_inlet_buildup(a, m->at.radius, r->row[EHL_H_CENTRAL]);
     double first = ceil((buildup - a - eq->first) / eq->dx),

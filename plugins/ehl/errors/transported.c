@@ -7,10 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-/* An output whose error crosses 0 is known no better than this share of the largest error of the
-   film in the last passage. */
-static const double FLOOR = 1. / 3;
-
 /* Computes h_min and h_central of the film without the error, m. */
 static void films_without(ehl_results *r, const ehl_march *m, const double *error, double *film)
 {
@@ -25,18 +21,41 @@ static void films_without(ehl_results *r, const ehl_march *m, const double *erro
     memcpy(eq->h, kept, r->nodes * sizeof *kept);
 }
 
-/* Turns errors, relative, into bars with a floor that fades while the oil moves by `way`, in
- * half-widths. An error that is not finite is not known, and its bar is infinite. */
-static void widen(double way, double *error, double *known)
+/* Turns errors, relative, into bars. Their floors are the error `of_end`, and one that fades while
+ * the oil moves by `way`, in half-widths. An error that is not finite is not known, and its bar is
+ * infinite. */
+static void widen(double way, double of_end, double *error, double *known)
 {
     double largest = 0;
     for (int k = 0; k < EHL_PEAK; k++)
         largest = fmax(largest, isfinite(error[k]) ? fabs(error[k]) : 0);
     *known = fmax(largest, *known * exp(-way / 2));
     for (int k = 0; k < EHL_PEAK; k++)
-        error[k] = isfinite(error[k])
-                       ? copysign(EHL_CAUTION * fmax(fabs(error[k]), FLOOR * *known), error[k])
-                       : (double)INFINITY;
+        error[k] =
+            isfinite(error[k])
+                ? copysign(EHL_CAUTION * fmax(of_end, fmax(fabs(error[k]), EHL_FLOOR * *known)),
+                           error[k])
+                : (double)INFINITY;
+}
+
+/* Returns the relative error of a film due to the position of the film's end within its cell, which
+ * moves from node to node, so that the linear equation of the errors does not show it. (12.16)
+ * changes all pressures by c dx^2/24 in the mean over the positions, and the load with them. The
+ * film of a rigid cylinder is inversely proportional to the load; stiff oil makes the film of an
+ * elastic contact nearly independent of it. */
+static double error_of_end(const ehl_march *m)
+{
+    const ehl_reynolds *eq = m->solver->reynolds;
+    const ehl_state *now = &m->state[0];
+    const double *p = ehl_fluid(eq, &now->film), radius = m->at.radius;
+    const double a = ehl_hertz_half_width(m->at.load, radius, m->history->modulus),
+                 narrow = sqrt(2 * radius * now->thinnest) / (2 * a),
+                 rigid = 1 / (1 + pow(narrow, -4));
+    size_t i = eq->last;
+    while (i > 1 && !now->film.full[i])
+        i--;
+    const double bend = p[i - 1] - 2 * p[i];
+    return bend > p[i] ? rigid * bend / (24 * now->highest) : 0;
 }
 
 void ehl_results_transported(ehl_results *r, const ehl_march *m, double *error)
@@ -46,5 +65,5 @@ void ehl_results_transported(ehl_results *r, const ehl_march *m, double *error)
     for (int k = 0; k < EHL_PEAK; k++)
         error[k] = 1 - error[k] / film[k];
     double way = m->known > 1 ? m->at.entrainment * (m->state[0].time - m->state[1].time) : 0;
-    widen(way / m->solver->grid->half_width, error, &r->known_by_cells);
+    widen(way / m->solver->grid->half_width, error_of_end(m), error, &r->known_by_cells);
 }

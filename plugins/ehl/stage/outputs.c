@@ -42,13 +42,16 @@ ff_status ehl_results_create(ehl_results *r, const ff_host *host, uint64_t wante
                              const ehl_march *m)
 {
     size_t nodes = m->solver->grid->nodes;
+    /* without a law of rheology the friction at a spike goes with its viscosity */
+    const int newtonian = !m->solver->reynolds->laws.rheology && ehl_loss_of_shear(wanted);
     *r = (ehl_results){
         .host = host,
         .wanted = wanted,
+        .peaks = newtonian || ehl_wants_p_max(wanted),
         .nodes = nodes,
         .rough = m->rough != NULL,
         .lowest_alone = !m->solver->outside && ehl_wants_lowest_alone(wanted),
-        .highest_alone = !m->solver->outside && ehl_wants_highest_alone(wanted),
+        .highest_alone = !m->solver->outside && !newtonian && ehl_wants_highest_alone(wanted),
         .series.width = EHL_SERIES,
         .space.width = EHL_SPACE,
         .share = 1,

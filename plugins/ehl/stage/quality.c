@@ -372,7 +372,7 @@ static void report_time_errors(const ehl_results *r, const ehl_march *m)
                            : fmax(0.5, 10 * r->worst_in_time[EHL_LEAST]),
         "oil that entered the contact minus oil that left it, minus the change of the oil in it, "
         "relative");
-    if (ehl_wants_p_max(r->wanted))
+    if (r->peaks)
         report_at_most(r, "p_max_time_error",
                        ehl_beyond_instants(r, EHL_P_MAX, 1) +
                            (r->highest_alone ? fmax(0, r->highest_in_time / r->highest - 1)

@@ -6,59 +6,56 @@
 
 #include <math.h>
 
-/* A row whose errors the twin tells: relative, positive if the film is too thick. */
-typedef struct told {
-    double error[EHL_PEAK];
-} told;
+/* Bars of h_min and h_central of one row: relative, positive if the film is too thick. */
+typedef struct bars {
+    double of[EHL_PEAK];
+} bars;
 
 static double *row_of(const ehl_results *r, size_t row)
 {
     return r->series.data + row * EHL_SERIES;
 }
 
-/* Compares the newest film of the twin with a row of the run. Of an error that falls as the power p
- * of cells and steps, the films differ by 2^p - 1 times that of the finer one. */
-static told compare(const ehl_run *run, ehl_run *twin, size_t row)
+/* Compares the newest film of the twin with a row of the run. If errors fall with the power p of
+ * cells and steps, the difference of both films is 2^p - 1 times the error of the finer one. On two
+ * grids p is not measured: the bar is not less than the difference, which is the error for p = 1.
+ * The position of the film's end within its cell may hide one error, so that the bar is that of the
+ * larger difference. If a film is not finite, its errors are unknown. */
+static bars compare(const ehl_run *run, ehl_run *twin, size_t row)
 {
     ehl_reynolds *eq = &twin->reynolds;
     const ehl_march *m = &twin->march;
     const double order = fmin(ehl_space_order(eq), m->scheme == EHL_EULER ? 1 : 2);
+    const double factor = fmax(1, EHL_CAUTION / (exp2(order) - 1));
     const double film[] = {row_of(&run->results, row)[EHL_H_MIN],
                            row_of(&run->results, row)[EHL_H_CENTRAL]};
     size_t node;
     ehl_reynolds_gap(eq, m->step.radius, &m->state[0].film);
     const double coarse[] = {ehl_least_film(eq, &node), ehl_central_film(&twin->grid, eq)};
-    told t;
+    const double off[] = {coarse[EHL_LEAST] / film[EHL_LEAST] - 1,
+                          coarse[EHL_CENTRAL] / film[EHL_CENTRAL] - 1};
+    const double larger = fmax(fabs(off[EHL_LEAST]), fabs(off[EHL_CENTRAL]));
+    bars b;
     for (int k = EHL_LEAST; k <= EHL_CENTRAL; k++)
-        t.error[k] = (coarse[k] / film[k] - 1) / (exp2(order) - 1);
-    return t;
+        b.of[k] = isfinite(off[EHL_LEAST] + off[EHL_CENTRAL]) ? copysign(factor * larger, off[k])
+                                                              : (double)INFINITY;
+    return b;
 }
 
-/* Puts the errors into a row whose errors count. Two grids do not tell what the place of the film's
- * end within its cell does to one output, so that each error counts as the larger one of both. */
-static void put(ehl_run *run, size_t row, const told *t)
+/* Puts the bars into a row whose errors count. */
+static void put(ehl_run *run, size_t row, const bars *b)
 {
     ehl_results *r = &run->results;
     const double *here = row_of(r, row), film[] = {here[EHL_H_MIN], here[EHL_H_CENTRAL]};
-    const double bar = EHL_CAUTION * fmax(fabs(t->error[EHL_LEAST]), fabs(t->error[EHL_CENTRAL]));
     for (int k = EHL_LEAST; k <= EHL_CENTRAL; k++) {
         double *part = &r->space.data[row * EHL_SPACE + (size_t)k];
         if (fabs(*part) > 0)
-            *part = copysign(ehl_known_error(bar), t->error[k]) * film[k];
+            *part = ehl_known_error(b->of[k]) * film[k];
     }
 }
 
-/* Returns the larger errors of both. */
-static told larger(const told *a, const told *b)
-{
-    told t;
-    for (int k = EHL_LEAST; k <= EHL_CENTRAL; k++)
-        t.error[k] = fabs(a->error[k]) > fabs(b->error[k]) ? a->error[k] : b->error[k];
-    return t;
-}
-
 /* Marches over every second row from `first` to the one before `end`. A row between two films has
- * the larger errors of both. */
+ * the larger bars of both. */
 static ff_status march(ehl_run *run, ehl_run *twin, size_t first, size_t end, int equal)
 {
     enum { EVERY = 2, BETWEEN = 16 };
@@ -66,7 +63,7 @@ static ff_status march(ehl_run *run, ehl_run *twin, size_t first, size_t end, in
     ff_status status = ehl_march_start(&twin->march);
     if (status != FF_OK)
         return status;
-    told before = compare(run, twin, first);
+    bars before = compare(run, twin, first);
     put(run, first, &before);
     status = ehl_step_control_create(&twin->control, &twin->march, 0, equal);
     for (size_t row = first + 1, k = 1; row < end && status == FF_OK; row++, k++) {
@@ -77,9 +74,10 @@ static ff_status march(ehl_run *run, ehl_run *twin, size_t first, size_t end, in
                                            row_of(&run->results, next)[EHL_TIME]);
         if (status != FF_OK)
             break;
-        const told now = compare(run, twin, next), between = larger(&before, &now);
+        const bars now = compare(run, twin, next),
+                   *larger = fabs(before.of[0]) > fabs(now.of[0]) ? &before : &now;
         for (; row < next; row++)
-            put(run, row, &between);
+            put(run, row, larger);
         put(run, next, &now);
         before = now;
     }
@@ -123,8 +121,9 @@ static ff_status march_all(ehl_run *run, ehl_run *twin, int equal)
     return FF_OK;
 }
 
-ff_status ehl_twin_errors(const ehl_model *m, const ff_array *in, ehl_run *run)
+ff_status ehl_twin_errors(ehl_model *m, const ff_array *in, ehl_run *run)
 {
+    const numerics_answers answers = m->isothermal.answers;
     ff_host quiet = *m->host;
     quiet.quality = note_nothing;
     quiet.fail = fail_silently;
@@ -138,5 +137,6 @@ ff_status ehl_twin_errors(const ehl_model *m, const ff_array *in, ehl_run *run)
     if (status == FF_OK)
         status = march_all(run, &twin, m->steps > 0);
     ehl_run_destroy(&twin);
+    m->isothermal.answers = answers; /* a law that fails for the twin alone leaves errors unknown */
     return status == FF_NOMEM || status == FF_STOPPED ? status : FF_OK;
 }

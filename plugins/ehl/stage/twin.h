@@ -7,6 +7,6 @@
 
 /* Fills in the errors of h_min and h_central that are not known. Where the second film is not found
  * they stay unknown. Returns FF_OK, FF_NOMEM or FF_STOPPED. */
-ff_status ehl_twin_errors(const ehl_model *m, const ff_array *in, ehl_run *run);
+ff_status ehl_twin_errors(ehl_model *m, const ff_array *in, ehl_run *run);
 
 #endif

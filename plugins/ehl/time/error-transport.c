@@ -84,19 +84,17 @@ static void leave_out_edges(size_t from, size_t to, const unsigned char *restric
 /*
  * Adds what the last volume of the film leaves out. Where it balances p(i-1) - 2 p(i) = c dx^2, its
  * solution is the parabola that ends (s + 1/2) dx behind node i, with s = p(i)/(c dx^2), less
- * c dx^2 (s - 1/2)^2/2 at all nodes (docs/theory.md, 7.16). The end passes from node to node, which
- * a linear equation of the errors does not show: (s - 1/2)^2 counts at least as its mean over the
- * cell.
+ * c dx^2 (s - 1/2)^2/2 at all nodes (docs/theory.md, 7.16).
  */
 static void add_end(const ehl_reynolds *r, const ehl_film *film, double *tau)
 {
-    const double mean = 1. / 12, *p = ehl_fluid(r, film);
+    const double *p = ehl_fluid(r, film);
     for (size_t i = 2; i < r->last && !r->conserving; i++) {
         double bend = p[i - 1] - 2 * p[i];
         if (!film->full[i] || film->full[i + 1] || !(p[i] < bend))
             continue;
         double off = p[i] / bend - 0.5;
-        tau[i] -= r->f[i] / r->dx * bend * fmax(off * off, mean) / 2;
+        tau[i] -= r->f[i] / r->dx * bend * off * off / 2;
     }
 }
 

@@ -130,8 +130,8 @@ def judge(args, sort, s):
     for name in ('h_min', 'h_central'):
         pairs[name] = []
         for t, load, h, bar in zip(*(coarse[k] for k in ('time', 'load_per_width', name, name + '_error'))):
-            if load > 0.02 * most and known(h) and known(bar):
-                pairs[name].append((bar / CAUTION / h, abs(h - at(fine['time'], fine[name], t)) / h))
+            if load > 0.02 * most and known(h):  # an unknown error is one that no bar holds
+                pairs[name].append((bar / CAUTION / h if known(bar) else 0, abs(h - at(fine['time'], fine[name], t)) / h))
     return pairs
 
 

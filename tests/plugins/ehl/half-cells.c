@@ -86,7 +86,7 @@ static void check_film(const char *what, void (*open)(line *c, double finer), do
             double h = line_value(&c, films[k], i), bar = line_value(&c, errors[k], i);
             double error = fabs(h - line_at(&fine, films[k], t[i]));
             ratio[i] = bar / CAUTION / fmax(error, 2e-5 * h);
-            held += bar >= error;
+            held += bar >= error && isfinite(bar);
         }
         qsort(ratio, n, sizeof *ratio, by_size);
         printf("%s, %s: held at %.3f, estimate over error %.2f, %.2f, %.2f\n", what, films[k],
@@ -101,9 +101,9 @@ static void check_film(const char *what, void (*open)(line *c, double finer), do
 
 int main(void)
 {
-    check_film("heat", heated, 2);
-    check_film("first order", first_order, 2);
-    check_film("volumes", conserving, 2);
-    check_film("rest", resting, 2);
+    check_film("heat", heated, 3.2);
+    check_film("first order", first_order, 2.5);
+    check_film("volumes", conserving, 2.5);
+    check_film("rest", resting, 2.5);
     return check_done();
 }
