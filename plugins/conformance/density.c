@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Checks of a density law: positive, not decreasing with pressure, equal to its oil at ambient
-   pressure. */
+/* Checks of a density law: positive, not decreasing with pressure, and at ambient pressure equal
+   to the density of the wired oil. */
 #include "law-checks.h"
 #include "law-data.h"
 #include "offer.h"
@@ -74,5 +74,5 @@ const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
 
 CONFORMANCE_MODEL("density",
                   "checks of a density law: finite, pure, positive, not decreasing with pressure, "
-                  "equal to its oil",
+                  "equal to the wired oil at ambient pressure",
                   "Bridgman 1931, The Physics of High Pressure");

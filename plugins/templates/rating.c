@@ -1,5 +1,5 @@
-/* @ID@: the film over the roughness of the flanks, compared with a required value. Write your
-   rating into `evaluate`. */
+/* @ID@: the film thickness divided by the roughness of the flanks, compared with a required value.
+   Write your rating into `evaluate`. */
 #include <flankfilm/author.h>
 
 #include <math.h>

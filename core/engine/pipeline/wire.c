@@ -31,7 +31,7 @@ static bool units_agree(const ff_port *given, const ff_port *taken)
            ff_unit_same_dimension(&one, &other);
 }
 
-/* Explains why output `output` of `from` cannot feed a data row; NULL: it can. */
+/* Explains why output `output` of `from` cannot feed input `input` of `to`; NULL: it can. */
 static const char *row_misfit(fe_build *b, const ff_loaded *to, size_t input, const ff_loaded *from,
                               size_t output)
 {
@@ -149,8 +149,8 @@ static bool is_kind_installed(fe_build *b, const char *use)
     return false;
 }
 
-/* Whether some stage has no model or an unknown kind, which is already reported. A wire without a
-   source may be meant for this stage. */
+/* Whether some stage has no model or an unknown kind, which is already reported. If so, a wire
+   without a source is no error of its own, since that stage may be the source. */
 static bool is_some_kind_unknown(fe_build *b)
 {
     bool some = false;
@@ -255,8 +255,8 @@ static int find_dim(const ff_dims *dims, const char *name)
     return -1;
 }
 
-/* Returns an input on this wire that has this dimension and a value in every round of a loop; -1:
-   none. */
+/* Returns an input on this wire that has the dimension and is not fed back by a later stage of a
+   loop, so that it also has a value in the first round; -1: none. */
 static int find_bringer(const ff_pipeline *pipeline, const ff_stage *stage, const char *wire,
                         size_t length, const char *dim)
 {
@@ -294,8 +294,8 @@ static fe_origin origin_of(const ff_pipeline *pipeline, const ff_stage *stage, s
     return (fe_origin){.known = false};
 }
 
-/* Checks dimension number `at` of input `i`. If the dimension belongs to another wire, the input
-   must get the points of this dimension from the same stage as that wire. */
+/* Checks dimension number `at` of input `i`. A dimension may name another wire of the stage: the
+   points of the input must then come from the stage that feeds this other wire. */
 static bool check_dim(fe_build *b, const ff_stage *stage, size_t i, uint32_t at)
 {
     const ff_loaded *loaded = stage->loaded;
@@ -313,8 +313,9 @@ static bool check_dim(fe_build *b, const ff_stage *stage, size_t i, uint32_t at)
     return ff_error(
         b->report, FF_FAULT_INPUT, fe_input_wire(stage, i)->place,
         fe_pipeline_print(b->pipeline,
-                          "if the output has the points of \"%s\", its model must declare the "
-                          "dimension as \"WIRE.%s\", where WIRE is the wire to \"%s\"",
+                          "if the output that feeds it has the points of \"%s\", the model of that "
+                          "output must declare the dimension as \"WIRE.%s\", where WIRE is its "
+                          "wire to \"%s\"",
                           there.stage->name, dim, there.stage->name),
         "%s.%s is fed along \"%s\" of the stage \"%s\", but %s requires \"%s\" of the stage \"%s\"",
         stage->name, row->name, dim, here.stage->name, stage->use, dim, there.stage->name);

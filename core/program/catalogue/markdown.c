@@ -19,7 +19,7 @@ static void print_cell(const char *text)
 
 static void print_heading(const char *title, const char *first)
 {
-    printf("\n## %s\n\n| %s | write | preset | limits | group (give at most one) | meaning |\n"
+    printf("\n## %s\n\n| %s | value | preset | limits | group (give at most one) | meaning |\n"
            "|---|---|---|---|---|---|\n",
            title, first);
 }

@@ -375,7 +375,8 @@ int cli_run_study(cli_session *session, const cli_options *options)
                   .sets = options->sets,
                   .set_count = options->set_count,
                   .pipeline = session->pipeline,
-                  .accuracy = "", /* each case compares its own accuracy, as part of its key */
+                  .accuracy =
+                      "", /* the accuracy is part of the key of each case, not of the study */
                   .key = results_input_key(session->pipeline, ""),
                   .replace = cli_option(options, "replace") != NULL},
         .directory = directory,

@@ -5,15 +5,14 @@
    intersection of two consecutive lines. The band of a deflection is the index of the line that
    gives its force. The spring of `force: frozen` is made for the mean force F and has two lines.
    For small vibrations the slope of the mesh is k = dF/d(e_l), which is steeper than the chord
-   F/(e_l - e). With e_t = e_l - F/k, the force above half the mean force is k (s - e_t) = k g -
-   offset, offset = k (e_t - e) = k (e_l - e) - F >= 0. Below half the mean force it is the straight
-   line from that point to the unloaded e, so that contact is lost at e (theory, eq. 4.3a). If there
-   is no loaded transmission error, or if k is the chord, the spring has no lines and its force is k
-   g. The spring of `force: shared`, the shared spring, has a line for each force level of the
-   stiffness: the tangent of the mesh force G(phase, s) at the level (theory, eq. 4.3b). Two
-   tangents intersect where a further pair comes into contact, even if the force at which this
-   happens varies with the phase. If no slopes are given, the lines are the chords between the
-   levels. */
+   F/(e_l - e). Above F/2 the force is k g - offset, with offset = k (e_l - e) - F
+   >= 0. Below F/2 the force is the straight line through 0 at g = 0 and through F/2, so that
+   contact is lost at s = e (theory, eq. 4.3a). If there is no loaded transmission error, or if k is
+   the chord, the spring has no lines and its force is k g. The spring of `force: shared`, the
+   shared spring, has a line for each force level of the stiffness: the tangent of the mesh force
+   G(phase, s) at the level (theory, eq. 4.3b). Two tangents intersect where a further pair comes
+   into contact, even if the force at which this happens varies with the phase. If no slopes are
+   given, the lines are the chords between the levels. */
 #ifndef DYNAMICS_SPRING_H
 #define DYNAMICS_SPRING_H
 
@@ -48,7 +47,7 @@ static inline int dynamics_spring_band(const dynamics_piece *p, double since, do
 }
 
 /* Return the coefficients of slope and offset of the line that belongs to a band, as polynomials in
-   the phase. The force is slope bend - dynamics_spring_sign(band) offset. */
+   the phase. The force is slope * bend - dynamics_spring_sign(band) * offset. */
 static inline const double *dynamics_spring_slope(const dynamics_piece *p, int band)
 {
     return p->lines ? p->line[band < 0 ? -band : band].slope : p->k;
@@ -118,8 +117,8 @@ static inline dynamics_spring_row dynamics_spring_row_of(const dynamics_spring_n
    `on_chord`: k is the chord F/(e_l - e), and the spring is linear. Returns 0 if out of memory. */
 int dynamics_spring_nodes_make(const dynamics_mesh_curves *curves, const double *loaded,
                                double force, int on_chord, dynamics_spring_nodes *nodes);
-/* Selects every `every`-th level so that the mean force is included, and the smallest and the
-   largest level. Returns the number of selected levels. */
+/* Selects every `every`-th level, counted from the level of the mean force, and the smallest and
+   the largest level. Returns the number of selected levels. */
 size_t dynamics_spring_levels(const dynamics_force_levels *levels, double force, int every,
                               size_t taken[DYNAMICS_LINES]);
 /* Makes the lines of a shared spring from the levels selected by dynamics_spring_levels.

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * A track is a set of pieces of the mesh cycle that a motion follows. Driving flanks touch at s - e
- * = half_gap. Back flanks touch at s - e = -half_gap, with their own k, e (the negative of their
+ * A track is a set of pieces of the mesh cycle that a motion follows. s is the dynamic transmission
+ * error, e the static one (theory, section 4), delta = s - e. Driving flanks touch at s - e =
+ * half_gap. Back flanks touch at s - e = -half_gap, with their own k, e (the negative of their
  * transmission error) and nodes. In free flight, a damper that also acts in the gap uses the e of
  * the driving flanks. If a fluctuating force presses the driving flanks and the back flanks in
  * turn, the damper uses a weighted mean of the e of both; with equal weights this mean is the
@@ -48,8 +49,9 @@ static inline int dynamics_tracks_differ(const dynamics_excitation *x)
     return x->back.count > 0;
 }
 
-/* Adds the track of the back flanks, from their curves over the phase of the driving flanks, and
- * the spring at the nodes (NULL: linear). Returns 0 if out of memory. */
+/* Adds the track of the back flanks. `curves` are those of the back flanks over the phase of the
+ * driving flanks, `spring` is their spring at the nodes (NULL: linear). Returns 0 if out of memory.
+ */
 int dynamics_tracks_add_back(dynamics_excitation *x, const dynamics_mesh_curves *curves,
                              const struct dynamics_spring_nodes *spring);
 

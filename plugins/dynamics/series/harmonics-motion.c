@@ -32,7 +32,7 @@ static double delta_at(const walk *w, double phase)
 }
 
 /* A state of contact: the flank that touches (1: driving, -1: back, 0: none), and the band of the
-   spring. */
+   spring, the index of the line that gives its force (spring.h). */
 typedef struct contact {
     int side, band;
 } contact;

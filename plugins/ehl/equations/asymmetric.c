@@ -10,7 +10,8 @@ static int is_second_order(const ehl_reynolds *r, const ehl_film *film, size_t i
     return r->wedge == 2 && !(i > 0 && ehl_is_cavitated(r, film, i - 1));
 }
 
-/* Weights of the flow at a face: q(i) = here Q(i) + next Q(i+1). */
+/* Weights of the wedge flow q(i) at the face behind node i, from the flows Q = u rho h of the
+   nodes: q(i) = here Q(i) + next Q(i+1). */
 typedef struct face {
     double here, next;
 } face;

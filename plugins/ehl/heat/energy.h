@@ -31,8 +31,8 @@ typedef struct ehl_energy_film {
     double frame;    /* speed of the nodes along the film: 0, or the mean speed of the flanks */
     const double *p, *h;
     const double *p_t;             /* dp/dt; NULL: steady */
-    const double *through;         /* mass flow, kg/(m s), at the nodes; NULL: dp/dx is given
-                                      instead */
+    const double *through;         /* mass flow, kg/(m s), at the nodes; NULL: the flow
+                                      follows from dp/dx */
     const unsigned char *full;     /* 1: the film is full */
     const unsigned char *asperity; /* 1: asperities are in contact; NULL: nowhere */
     const double *friction;        /* friction heat of asperities, W/m2, at the nodes; 0 where none
@@ -86,8 +86,8 @@ typedef struct ehl_energy {
     double *gamma_tau, *gamma_eta; /* derivatives of the shear rate with respect to tau and to
                                       ln(eta) */
     ehl_column *column;            /* one per node */
-    double *base[2];  /* temperature of the flanks without the flux at the node, minus T_in, at
-                         the nodes */
+    double *base[2];  /* for each node: temperature of the flanks minus T_in, without the heat
+                         that enters them at this node */
     double *inverse;  /* inverse of the equations of each node, nodes x across^2 */
     double *inverted; /* coefficients at the last inversion: diagonal, lift, level */
     double keep;      /* an inverse is reused if its coefficients have changed by less than this,
@@ -96,8 +96,8 @@ typedef struct ehl_energy {
                                     evaluated */
     /* results of the last evaluation */
     double *called_ln_eta, *ln_eta_p, *ln_eta_T, *called_rho, *rho_p, *rho_T;
-    double *bend; /* ln(eta) is extrapolated by a parabola in its first-order change since the last
-                     evaluation; this is the curvature of the parabola */
+    double *bend;   /* curvature of a parabola d + bend d^2 that extrapolates ln(eta) from the last
+                       evaluation of the laws; d is its change to first order in p and T */
     double *before; /* ln(eta) when the flow was last computed */
     int guessed;    /* 1: tau_m has been computed before; 0: tau_m must be guessed first */
     /* one value per node */
