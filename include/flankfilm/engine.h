@@ -628,6 +628,7 @@ struct ff_stage {
     ff_wire *wires;
     size_t wire_count;
     ff_result *results; /* one per output row */
+    bool unread;        /* set before the run: nobody reads the model's estimates of its errors */
     bool ran;
     bool reused;      /* its results come from an earlier run */
     ff_status status; /* status returned by evaluate */

@@ -2,6 +2,7 @@
 /* The host functions that a model may call. */
 #include "build.h"
 
+#include <flankfilm/estimates.h>
 #include <flankfilm/needs.h>
 
 #include <math.h>
@@ -297,15 +298,23 @@ static void host_needs(void *ctx, const char *items, const char *outputs, const 
         protect(instance, keep_need, &call);
 }
 
+static int32_t host_reads_estimates(void *ctx)
+{
+    const fe_instance *instance = ctx;
+    return !instance->stage->unread;
+}
+
 static const void *host_extension(void *ctx, const char *id)
 {
     static const ff_table_reader tables = {sizeof tables, table_read, table_fail};
     static const ff_needs needs = {sizeof needs, host_needs};
+    static const ff_estimates estimates = {sizeof estimates, host_reads_estimates};
     (void)ctx;
-    return !id                        ? NULL
-           : !strcmp(id, FF_TABLE_ID) ? (const void *)&tables
-           : !strcmp(id, FF_NEEDS_ID) ? &needs
-                                      : NULL;
+    return !id                            ? NULL
+           : !strcmp(id, FF_TABLE_ID)     ? (const void *)&tables
+           : !strcmp(id, FF_NEEDS_ID)     ? (const void *)&needs
+           : !strcmp(id, FF_ESTIMATES_ID) ? &estimates
+                                          : NULL;
 }
 
 void fe_forget_servings(fe_instance *instance)

@@ -60,7 +60,8 @@ double accuracy_estimated_share(const ff_stage *stage, const ff_result *result)
     for (size_t i = 0; i < stage->quality_count; i++) {
         const ff_quality *line = &stage->quality[i];
         if (is_of(stage, line, result))
-            share = fmax(share, isnan(line->value) ? (double)INFINITY : line->value);
+            share =
+                (isnan(share) ? 0 : share) + (isnan(line->value) ? (double)INFINITY : line->value);
     }
     return share;
 }
@@ -104,6 +105,12 @@ const ff_result *accuracy_estimate_of(const ff_stage *stage, const ff_result *re
             return estimate;
     }
     return NULL;
+}
+
+bool accuracy_estimates(const ff_stage *stage, const ff_result *result)
+{
+    return accuracy_estimate_of(stage, result) ||
+           (result->rank == 0 && isfinite(accuracy_estimated_share(stage, result)));
 }
 
 bool accuracy_is_estimate(const ff_stage *stage, const ff_result *result)

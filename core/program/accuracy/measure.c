@@ -166,16 +166,16 @@ static accuracy_ladder ladder_of(const accuracy_twins *t, const accuracy_error *
                              .twice = numbers_of_twin(t, e, t->twice)};
 }
 
-/* Order at which the stage's own estimate falls from a coarser twin to the answer; NaN if the twin
- * or the answer has no estimate. */
+/* Order at which the stage's own estimate falls from a coarser twin to the answer. If the twin did
+ * not estimate its errors, the order of the answers themselves. */
 static double order_of_estimate(const accuracy_twins *t, const accuracy_error *e)
 {
     const accuracy_twin *twin = t->half ? t->half : t->quarter;
     const ff_stage *there = twin ? &twin->pipeline->stages[e->stage - t->answer->stages] : NULL;
     const int output =
         there ? ff_model_find_output(there->loaded->model, e->result->row->name) : -1;
-    if (output < 0)
-        return NAN;
+    if (output < 0 || there->unread)
+        return e->order;
     return log2(accuracy_estimated_share(there, &there->results[output]) /
                 accuracy_estimated_share(e->stage, e->result)) /
            (t->half ? 1 : 2);
@@ -189,12 +189,82 @@ static void raise_to_estimate(const accuracy_twins *t, const double *at, accurac
     const double measured = e->relative;
     if (!estimate)
         return;
-    for (size_t i = 0; i < estimate->count; i++) /* fmax drops NaN */
-        e->bar[i] = fmax(e->bar[i], fabs(estimate->data[i]));
+    const bool least = accuracy_is_least(e->stage, e->result);
+    for (size_t i = 0; i < estimate->count; i++)  /* fmax drops NaN */
+        if (least || isfinite(estimate->data[i])) /* else the stage knows none, but the twins do */
+            e->bar[i] = fmax(e->bar[i], fabs(estimate->data[i]));
     find_relative(at, e);
     e->by_stage = e->relative > measured;
     if (e->by_stage)
         e->order = order_of_estimate(t, e);
+}
+
+/* Fills in the stage's own estimate of each number's error; false if there is none. */
+static bool fill_estimates(const accuracy_error *e, double *bar)
+{
+    const ff_result *estimate = accuracy_estimate_of(e->stage, e->result);
+    const double share = accuracy_estimated_share(e->stage, e->result);
+    for (size_t i = 0; i < e->result->count; i++)
+        bar[i] = fabs(estimate ? estimate->data[i] : share * e->result->data[i]);
+    return accuracy_estimates(e->stage, e->result);
+}
+
+/* Fills in the errors of stages upstream, which two twins show that are both two levels coarser in
+ * the stage itself; 0 if no stage upstream has settings. False if the twins cannot be compared. */
+static bool find_upstream(const accuracy_twins *t, const accuracy_ladder *levels,
+                          const accuracy_error *e, double *errors)
+{
+    const accuracy_ladder upstream = {.count = levels->count,
+                                      .at = levels->at,
+                                      .scale = levels->scale,
+                                      .answer = numbers_of_twin(t, e, t->upstream_finer),
+                                      .half = levels->quarter};
+    if (!t->upstream_finer)
+        return true;
+    if (!upstream.answer || !upstream.half)
+        return false;
+    accuracy_estimate(&upstream, errors, NULL);
+    return true;
+}
+
+/* Raises the bars to the smallest errors that are stated, as shares of the numbers themselves: a
+ * film between parted flanks is no scale for the lowest one. */
+static void raise_to_least(const accuracy_error *e, double *bar)
+{
+    const double *data = e->result->data;
+    for (size_t i = 0; i < e->result->count; i++) { /* fmax drops NaN */
+        const double scale = e->absolute ? 1 : fabs(data[i] - e->zero_point);
+        bar[i] = fmax(bar[i], least_error * e->goal * scale);
+    }
+}
+
+/* Replaces the bars by the stage's estimates plus the errors of stages upstream where that is less:
+ * the twins may be too coarse for the stage, and two levels show no order. Where these errors do
+ * not explain the difference from the twin, whose own are 4 times as large, the bar stays. */
+static void lower_to_estimate(const accuracy_twins *t, const accuracy_ladder *levels,
+                              accuracy_error *e)
+{
+    accuracy_error lower = *e;
+    double *own = take(t, levels->count, sizeof *own),
+           *upstream = take(t, levels->count, sizeof *own);
+    if (!t->carried || !levels->half || !fill_estimates(e, own) ||
+        !find_upstream(t, levels, e, upstream))
+        return;
+    lower.bar = take(t, levels->count, sizeof *lower.bar);
+    for (size_t i = 0; i < levels->count; i++) {
+        const double all = own[i] + upstream[i], moved = fabs(levels->half[i] - levels->answer[i]);
+        const bool explained = moved <= (1 + accuracy_tolerance_factor) * all;
+        lower.bar[i] = explained ? fmin(all, e->bar[i]) : e->bar[i];
+    }
+    raise_to_least(e, lower.bar);
+    find_relative(levels->at, &lower);
+    if (lower.relative < e->relative) {
+        lower.by_stage = true;
+        lower.part_count = 0;
+        lower.order = order_of_estimate(t, e);
+    }
+    if (lower.reached <= e->goal) /* else further twins may show less */
+        *e = lower;
 }
 
 static void measure_output(const accuracy_twins *t, accuracy_error *e)
@@ -210,11 +280,11 @@ static void measure_output(const accuracy_twins *t, accuracy_error *e)
         return;
     e->bar = take(t, levels.count, sizeof *e->bar);
     e->order = accuracy_estimate(&levels, e->bar, shares);
-    for (size_t i = 0; i < levels.count; i++) /* fmax drops NaN */
-        e->bar[i] = fmax(e->bar[i], least_error * e->goal * levels.scale[i]);
+    raise_to_least(e, e->bar);
     find_relative(levels.at, e);
     add_parts(t, shares, e);
     raise_to_estimate(t, levels.at, e);
+    lower_to_estimate(t, &levels, e);
     add_changes(t, &levels, e);
 }
 
@@ -272,18 +342,47 @@ static void conclude(const accuracy_twins *t)
         raise_to_series(t, &record->errors[i]);
 }
 
-/* True if stages estimate errors, and all these errors are so small that a twin two levels coarser
- * is expected to show that the goals are met. */
-static bool suit_far_twin(const accuracy_record *record)
+/* The stage's own estimate of the error that is compared with the goal: along a series the typical
+ * one, over the numbers with a known error. NaN: there is none. */
+static double estimate_of(const accuracy_twins *t, const accuracy_error *e)
 {
+    const ff_result *estimate = accuracy_estimate_of(e->stage, e->result);
+    const accuracy_series answer = series_of(NULL, e);
+    if (!estimate)
+        return e->absolute || e->result->rank > 0 ? (double)NAN
+                                                  : accuracy_estimated_share(e->stage, e->result);
+    if (accuracy_is_least(e->stage, e->result))
+        return INFINITY;
+    double *known = take(t, estimate->count, sizeof *known), largest;
+    for (size_t i = 0; i < estimate->count; i++)
+        known[i] = isfinite(estimate->data[i]) ? estimate->data[i] : 0;
+    return accuracy_relative(known, &answer, &largest);
+}
+
+/* True if a stage's own estimate is above the smallest goal. */
+static bool misses_by_estimate(const accuracy_twins *t)
+{
+    const accuracy_record *record = t->record;
+    double goal = INFINITY, most = 0;
+    for (size_t i = 0; i < record->count; i++) { /* fmin and fmax drop NaN */
+        const accuracy_error *e = &record->errors[i];
+        goal = e->absolute ? goal : fmin(goal, e->goal);
+        most = fmax(most, estimate_of(t, e));
+    }
+    return most > goal;
+}
+
+/* True if stages estimate errors of series, and all these errors are so small that a twin two
+ * levels coarser is expected to show that the goals are met. */
+static bool suit_far_twin(const accuracy_twins *t)
+{
+    const accuracy_record *record = t->record;
     bool some = false, all = true;
     for (size_t i = 0; i < record->count; i++) {
         const accuracy_error *e = &record->errors[i];
-        const ff_result *estimate = accuracy_estimate_of(e->stage, e->result);
-        const accuracy_series answer = series_of(NULL, e);
-        double largest, limit = e->goal / bar_of_two_levels;
-        some = some || estimate;
-        all = all && !(estimate && accuracy_relative(estimate->data, &answer, &largest) > limit);
+        const bool series = accuracy_estimate_of(e->stage, e->result);
+        some = some || series;
+        all = all && !(series && estimate_of(t, e) > e->goal / bar_of_two_levels);
     }
     return some && all;
 }
@@ -298,6 +397,30 @@ static bool misses(const accuracy_record *record)
         missed = missed || isnan(e->reached) || (e->reached > e->goal && !e->by_stage);
     }
     return missed;
+}
+
+/* True if the twins' bars miss goals that the stages' own estimates meet. */
+static bool misses_by_twins(const accuracy_twins *t)
+{
+    const accuracy_record *record = t->record;
+    bool some = false;
+    for (size_t i = 0; i < record->count; i++) {
+        const accuracy_error *e = &record->errors[i];
+        some = some || (!(e->reached <= e->goal) && estimate_of(t, e) <= e->goal);
+    }
+    return some;
+}
+
+/* Lowers such bars to the estimates, as soon as it is known what stages upstream add to them. */
+static void carry(accuracy_twins *t)
+{
+    const bool upstream = accuracy_twins_have_upstream(t);
+    if (t->carried || !t->half || (upstream && !t->quarter) || !misses_by_twins(t))
+        return;
+    if (upstream)
+        accuracy_twins_run_upstream(t);
+    t->carried = !upstream || t->upstream_finer;
+    conclude(t);
 }
 
 /* Returns the difference of an output between two twins. */
@@ -343,9 +466,12 @@ bool accuracy_measure(accuracy_record *record, const accuracy_scene *scene,
     accuracy_twins t = twins_of(record, scene, attempt);
     t.one_by_one = effort != ACCURACY_PARTS;
     list_outputs(&t);
-    t.far_first = t.one_by_one && suit_far_twin(record);
+    t.estimates = misses_by_estimate(&t);
+    t.far_first = t.one_by_one && !t.estimates && suit_far_twin(&t);
     for (bool missed = true; missed && accuracy_twins_find(&t) && !t.stopped;) {
         conclude(&t);
+        if (effort == ACCURACY_ENOUGH)
+            carry(&t);
         missed = effort == ACCURACY_ORDER || (effort == ACCURACY_ENOUGH && misses(record));
     }
     if (t.one_by_one && t.half && t.quarter && !t.stopped && misses(record))

@@ -136,6 +136,8 @@ const accuracy_twin *accuracy_twin_run(const accuracy_scene *scene, const char *
         accuracy_copy_states(like, twin->pipeline);
         if (!scene->outputs)
             copy_wanted(like, twin->pipeline);
+        for (size_t i = 0; scene->outputs && !scene->estimates && i < twin->pipeline->count; i++)
+            twin->pipeline->stages[i].unread = true;
         twin->good = run_start(twin->run, &watch) && !run_has_errors(twin->run);
     }
     for (size_t i = 0; twin->pipeline && i < twin->pipeline->count; i++) {

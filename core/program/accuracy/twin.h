@@ -24,7 +24,9 @@ typedef struct accuracy_scene {
     /* The answer's pipeline, or a pipeline of the same file before there is an answer. In a chain
        of cases a twin starts from the states of this pipeline. */
     const ff_pipeline *start;
-    const char *outputs;      /* "outputs=[film.h_min]"; NULL if the outputs are unchanged */
+    const char *outputs; /* "outputs=[film.h_min]", of which the numbers alone are read; NULL if
+                            the outputs are unchanged */
+    bool estimates; /* with `outputs`, the stages' estimates of their errors are read as well */
     const ff_observer *watch; /* receives the progress; may be NULL */
 } accuracy_scene;
 

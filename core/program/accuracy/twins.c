@@ -7,6 +7,8 @@
  * itself is coarse, a finer one takes its place. */
 #include "twins.h"
 
+#include "lines.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -50,22 +52,38 @@ static bool is_fixed_by_file(const accuracy_twins *t, const accuracy_knob *k)
                              place.column == t->request.column);
 }
 
-/* Values in place of the index of a setting: no setting, or all settings that the file fixes. */
-static const size_t no_setting = SIZE_MAX, fixed_settings = SIZE_MAX - 1;
+/* True for a setting of a stage that estimates no errors of its own. */
+static bool is_of_upstream(const accuracy_twins *t, const accuracy_knob *k)
+{
+    bool estimates = false;
+    for (size_t i = 0; i < t->record->count; i++) {
+        const accuracy_error *e = &t->record->errors[i];
+        estimates = estimates || (e->stage == &t->answer->stages[k->stage] &&
+                                  accuracy_estimates(e->stage, e->result));
+    }
+    return !estimates;
+}
+
+/* Values in place of the index of a setting: no setting, all settings that the file fixes, or all
+   of stages upstream of those that estimate their errors. */
+static const size_t no_setting = SIZE_MAX, fixed_settings = SIZE_MAX - 1,
+                    upstream_settings = SIZE_MAX - 2;
 
 static bool is_one(const accuracy_twins *t, size_t i, size_t which)
 {
-    return i == which || (which == fixed_settings && is_fixed_by_file(t, &t->knobs[i]));
+    return i == which || (which == fixed_settings && is_fixed_by_file(t, &t->knobs[i])) ||
+           (which == upstream_settings && is_of_upstream(t, &t->knobs[i]));
 }
 
-/* Fills the assignments of a twin and marks the stages that they change. False if a setting's
-   limits forbid one. */
+/* Fills the assignments of a twin and marks the stages that they change, compared with the run
+   whose results it reuses. False if a setting's limits forbid one. */
 static bool list_sets(accuracy_twins *t, int at, size_t finer, const char **sets, bool *changed)
 {
     for (size_t i = 0; i < t->count; i++) {
         const accuracy_knob *k = &t->knobs[i];
-        sets[i] = assignment_at(t, k, is_one(t, i, finer) ? half : at);
-        changed[k->stage] |= finer == no_setting || is_one(t, i, finer);
+        const bool one = is_one(t, i, finer);
+        sets[i] = assignment_at(t, k, one ? half : at);
+        changed[k->stage] |= finer == no_setting || one;
         if (sets[i])
             continue;
         char *why = memory_print_text("%s.%s has no %s value within its limits",
@@ -94,14 +112,15 @@ static void write_progress(const accuracy_twins *t, int at)
                  "a %s twin measures the errors of attempt %zu", which, record->attempts);
 }
 
-/* Runs a twin at the level `at`, except for the setting `finer`, which has the level of `half`.
- * NULL if a setting's limits forbid it. */
+/* Runs a twin at the level `at`, except for the settings `finer`, which are a level finer. NULL if
+ * a setting's limits forbid it. */
 static const accuracy_twin *run_twin(accuracy_twins *t, int at, size_t finer)
 {
     const accuracy_twin *twin = NULL;
     const char **sets = memory_alloc((t->count + 1) * sizeof *sets);
     bool *changed = memory_alloc((t->answer->count + 1) * sizeof *changed);
     write_progress(t, at);
+    t->scene.estimates = t->estimates && at == half;
     t->scene.reuse_from = finer == no_setting ? t->answer : t->quarter->pipeline;
     if (list_sets(t, at, finer, sets, changed)) {
         twin = accuracy_twin_run(&t->scene, sets, t->count, NULL, changed);
@@ -195,4 +214,18 @@ void accuracy_twins_run_fixed(accuracy_twins *t)
         some = some || is_fixed_by_file(t, &t->knobs[i]);
     const accuracy_twin *twin = some ? run_twin(t, quarter, fixed_settings) : NULL;
     t->fixed_finer = twin && twin->good ? twin : NULL;
+}
+
+bool accuracy_twins_have_upstream(const accuracy_twins *t)
+{
+    bool some = false;
+    for (size_t i = 0; i < t->count; i++)
+        some = some || is_of_upstream(t, &t->knobs[i]);
+    return some;
+}
+
+void accuracy_twins_run_upstream(accuracy_twins *t)
+{
+    const accuracy_twin *twin = run_twin(t, quarter, upstream_settings);
+    t->upstream_finer = twin && twin->good ? twin : NULL;
 }

@@ -325,7 +325,7 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
              "of the time steps that the film accumulates. The error due to the cells follows "
              "from the transport of errors (ehl/finite-volume without heat or rest of the oil), "
              "otherwise from a film on half the cells and steps; above 2 % from the last passage "
-             "on twice the cells",
+             "on twice the cells. Between parted flanks it is not known",
          .dims = "t",
          .max = INFINITY},
     [EHL_H_CENTRAL_ERROR] = {.name = "h_central_error",

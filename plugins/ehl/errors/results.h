@@ -12,8 +12,15 @@
  * h_central have a sign: they are negative if the film is too thin. EHL_MEASURED, for h_min and
  * h_central: 1 if the error was found on more cells. EHL_NARROW, for p_max: infinite if the cells
  * do not resolve a peak; the remaining error if more cells did; else 0. EHL_TIP, for p_max, Pa: a
- * lower bound of its error if the film is not computed on more cells. */
-enum { EHL_MEASURED = EHL_BOUNDS, EHL_NARROW = EHL_MEASURED + EHL_PEAK, EHL_TIP, EHL_SPACE };
+ * lower bound of its error if the film is not computed on more cells. EHL_PARTED: 1 if the flanks
+ * carry no load. */
+enum {
+    EHL_MEASURED = EHL_BOUNDS,
+    EHL_NARROW = EHL_MEASURED + EHL_PEAK,
+    EHL_TIP,
+    EHL_PARTED,
+    EHL_SPACE
+};
 
 /* A bar is this many times the error that is estimated: by a linear equation; or from two grids, if
  * the error falls at second order, while at first order it would be so much larger. */
@@ -85,6 +92,7 @@ typedef struct ehl_results {
     double undecided;      /* the solver's counter when the mass was recorded last */
     ehl_law_answer laws;
     int rough;
+    int judged;                      /* 1: errors that take time are estimated */
     int peaks;                       /* 1: errors of p_max are estimated */
     int lowest_alone, highest_alone; /* 1: no h_min, or no p_max, of another instant is wanted */
 } ehl_results;

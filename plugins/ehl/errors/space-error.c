@@ -337,14 +337,14 @@ ff_status ehl_results_measure(ehl_results *r, const ehl_march *m, const ehl_hist
     ff_status status = FF_OK;
     if (r->rough || m->solver->outside)
         return FF_OK;
-    const int films = count > 1 && !m->heat && !m->thermal;
+    const int films = r->judged && count > 1 && !m->heat && !m->thermal;
     if (films && ehl_wants_h_min(r->wanted))
         status = measure_film(r, m, &p, EHL_LEAST);
     if (status == FF_OK && films && ehl_wants_h_central(r->wanted))
         status = measure_film(r, m, &p, EHL_CENTRAL);
     if (status == FF_OK && ehl_wants_p_max(r->wanted) && !m->heat && !m->thermal)
         status = ehl_narrow_peaks(r, m, &p);
-    return status == FF_OK && count >= LEAST_COUNT ? measure_peaks(r, m, &p) : status;
+    return status == FF_OK && r->judged && count >= LEAST_COUNT ? measure_peaks(r, m, &p) : status;
 }
 
 /* Returns how many cells would meet the limit of an error of a film, by its order. */
@@ -406,7 +406,7 @@ int ehl_results_estimate_cells(const ehl_results *r)
 
 void ehl_results_report_cells(const ehl_results *r, const ehl_march *m)
 {
-    if (r->rough)
+    if (r->rough || !r->judged)
         return;
     if (ehl_wants_h_min(r->wanted))
         report_cells(r, m, EHL_LEAST, "h_min_space_error", EHL_FILM_LIMIT);

@@ -38,7 +38,7 @@ static double *table_row(ehl_rows *t)
     return t->data + t->width * t->count++;
 }
 
-ff_status ehl_results_create(ehl_results *r, const ff_host *host, uint64_t wanted,
+ff_status ehl_results_create(ehl_results *r, const ff_host *host, uint64_t wanted, int judged,
                              const ehl_march *m)
 {
     size_t nodes = m->solver->grid->nodes;
@@ -47,6 +47,7 @@ ff_status ehl_results_create(ehl_results *r, const ff_host *host, uint64_t wante
     *r = (ehl_results){
         .host = host,
         .wanted = wanted,
+        .judged = judged,
         .peaks = newtonian || ehl_wants_p_max(wanted),
         .nodes = nodes,
         .rough = m->rough != NULL,
@@ -375,11 +376,19 @@ ff_status ehl_results_record(ehl_results *r, ehl_march *m, int last)
     return status;
 }
 
+/* Returns the error of a film due to the cells. Between parted flanks it is not known: the film
+   follows from their separation, in which the steps of a landing and of a take-off add up. */
+static double space_part_of_film(const ehl_results *r, size_t i, int kind)
+{
+    const int parted = r->space.data[i * EHL_SPACE + EHL_PARTED] > 0;
+    return parted ? (double)INFINITY : ehl_space_part(r, i, kind);
+}
+
 /* Returns the error due to the cells that an error output must include, or 0 for other outputs. */
 static double space_part(const ehl_results *r, size_t i, uint32_t k)
 {
-    return k == EHL_H_MIN_ERROR       ? ehl_space_part(r, i, EHL_LEAST)
-           : k == EHL_H_CENTRAL_ERROR ? ehl_space_part(r, i, EHL_CENTRAL)
+    return k == EHL_H_MIN_ERROR       ? space_part_of_film(r, i, EHL_LEAST)
+           : k == EHL_H_CENTRAL_ERROR ? space_part_of_film(r, i, EHL_CENTRAL)
            : k == EHL_P_MAX_ERROR     ? ehl_space_part(r, i, EHL_PEAK)
                                       : 0;
 }

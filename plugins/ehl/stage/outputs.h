@@ -5,7 +5,8 @@
 
 #include "../errors/results.h"
 
-ff_status ehl_results_create(ehl_results *r, const ff_host *host, uint64_t wanted,
+/* `judged`: errors are estimated that take time. */
+ff_status ehl_results_create(ehl_results *r, const ff_host *host, uint64_t wanted, int judged,
                              const ehl_march *m);
 void ehl_results_destroy(ehl_results *r);
 

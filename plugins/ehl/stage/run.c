@@ -225,9 +225,9 @@ static int has_transport(const ehl_model *m, const ehl_run *r)
            !ehl_is_statistical(m) && !nearly_rests(&r->history);
 }
 
-static ff_status transport_create(const ehl_model *m, uint64_t wanted, ehl_run *r)
+static ff_status transport_create(const ehl_model *m, uint64_t judged, ehl_run *r)
 {
-    if (!has_transport(m, r) || !(ehl_wants_h_min(wanted) || ehl_wants_h_central(wanted)))
+    if (!has_transport(m, r) || !(ehl_wants_h_min(judged) || ehl_wants_h_central(judged)))
         return FF_OK;
     r->march.transport = &r->transport;
     return ehl_transport_create(&r->transport, r->grid.nodes);
@@ -240,7 +240,7 @@ ff_status ehl_run_surface(const ehl_model *m, const ff_array *in, ehl_run *r)
     return status == FF_OK ? cut_surface(m, r) : status;
 }
 
-ff_status ehl_run_create(const ehl_model *m, uint64_t wanted, const ff_array *in, ehl_run *r)
+ff_status ehl_run_create(const ehl_model *m, uint64_t judged, const ff_array *in, ehl_run *r)
 {
     ff_status status = read_surface(m, in, r);
     if (status == FF_OK)
@@ -257,5 +257,5 @@ ff_status ehl_run_create(const ehl_model *m, uint64_t wanted, const ff_array *in
         return status;
     status = ehl_march_create(&r->march, &r->history, &r->solver, m->time_scheme);
     r->march.rough = r->rough.count > 0 ? &r->rough : NULL;
-    return status == FF_OK ? transport_create(m, wanted, r) : status;
+    return status == FF_OK ? transport_create(m, judged, r) : status;
 }

@@ -39,8 +39,8 @@ int ehl_is_statistical(const ehl_model *m);
 double ehl_first_tolerance(const ehl_model *m, const ehl_run *r);
 
 /* Makes all parts except heat, step control and results from r->history, which has been read.
-   Destroy it in any case. */
-ff_status ehl_run_create(const ehl_model *m, uint64_t wanted, const ff_array *in, ehl_run *r);
+   `judged`: the outputs whose errors are estimated, 0: none. Destroy it in any case. */
+ff_status ehl_run_create(const ehl_model *m, uint64_t judged, const ff_array *in, ehl_run *r);
 /* Makes the rough flanks again, for the current engagement in r->history. */
 ff_status ehl_run_surface(const ehl_model *m, const ff_array *in, ehl_run *r);
 void ehl_run_destroy(ehl_run *r);

@@ -9,6 +9,7 @@
 #include "twin.h"
 
 #include <flankfilm/author.h>
+#include <flankfilm/estimates.h>
 
 #include <math.h>
 #include <stdio.h>
@@ -268,11 +269,21 @@ static int is_of_places(uint32_t output)
            output == EHL_PLASTIC_DEPTH || output == EHL_ROUGHNESS;
 }
 
+/* Whether anybody reads the errors that take time: those by transport, half the cells and passages.
+ */
+static int is_judged(const ehl_model *m, uint64_t wanted)
+{
+    static const uint64_t errors = FF_BIT(EHL_H_MIN_ERROR) | FF_BIT(EHL_H_CENTRAL_ERROR) |
+                                   FF_BIT(EHL_P_MAX_ERROR) | FF_BIT(EHL_FILM_AT_LANDING_ERROR) |
+                                   FF_BIT(EHL_P_MAX_AT_LANDING_ERROR);
+    return (wanted & errors) || ff_estimates_are_read(m->host);
+}
+
 /* Whether no transport of errors tells those of a film that is wanted. */
 static int needs_twin(const ehl_run *r)
 {
     const uint64_t wanted = r->results.wanted;
-    return !r->march.transport && !r->march.rough &&
+    return r->results.judged && !r->march.transport && !r->march.rough &&
            (ehl_wants_h_min(wanted) || ehl_wants_h_central(wanted));
 }
 
@@ -308,11 +319,12 @@ static ff_status evaluate(ehl_model *m, uint64_t wanted, const ff_array *in)
         return ehl_put_parted(m->host, 0, wanted, &r.history, roughness, bulk);
     if (status != FF_OK)
         return status;
-    status = ehl_run_create(m, wanted, in, &r);
+    const int judged = is_judged(m, wanted);
+    status = ehl_run_create(m, judged ? wanted : 0, in, &r);
     if (status == FF_OK)
         status = ehl_stage_heat(m, in, &r.march, &r.heat, &r.thermal);
     if (status == FF_OK)
-        status = ehl_results_create(&r.results, m->host, wanted, &r.march);
+        status = ehl_results_create(&r.results, m->host, wanted, judged, &r.march);
     r.results.boundary_friction = m->boundary_friction;
     r.results.roughness = roughness;
     r.results.cutoff = in[EHL_IN_CUTOFF].data ? *in[EHL_IN_CUTOFF].data : 0;

@@ -4,6 +4,7 @@
  * plugin was compiled with holds for ever. Fields are added at the end of structs that begin with
  * `size` and of rows that have a stride, and get their line here; ff_array can never change.
  */
+#include <flankfilm/estimates.h>
 #include <flankfilm/laws.h>
 #include <flankfilm/needs.h>
 #include <flankfilm/table.h>
@@ -135,6 +136,10 @@ GROWING(ff_rheology_2, 24); /* since 1.2 */
 FIELD(ff_rheology_2, size, 0, 8);
 FIELD(ff_rheology_2, self, 8, 8);
 FIELD(ff_rheology_2, rate, 16, 8);
+
+GROWING(ff_estimates, 16); /* since 1.3 */
+FIELD(ff_estimates, size, 0, 8);
+FIELD(ff_estimates, read, 8, 8);
 
 GROWING(ff_needs, 16); /* since 1.3 */
 FIELD(ff_needs, size, 0, 8);

@@ -203,6 +203,31 @@ class Control(lab.Lab):
             answer = self.ask(f"accuracy={{last.{output}: 5 %}}", "last.seen=0.001", "last.scatter=0.2")
             self.assertEqual((answer["verdict"], answer["accuracy"]["attempts"], answer["accuracy"]["twins"]), ("doubtful", 1, 1))
 
+    def test_a_stage_that_estimates_its_error_is_believed(self):
+        """10/8^2 of the error by one twin is 9 %, by the stage 1.6 %; with 0.5 % it would not explain the twin, which is 2.9 % off."""
+        text = FILE.replace("before: first", "before: none").replace("[last.value, last.wave]", "[last.value]")
+        for guess, twins, by_stage in ((1, 1, True), (0.3, 2, False)):
+            answer = self.ask("accuracy=3 %", "last.strength=40", f"last.guess={guess}", text=text)
+            line = answer["stages"][-1]["quality"]["value_error"]["text"]
+            self.assertEqual((answer["verdict"], answer["accuracy"]["attempts"], answer["accuracy"]["twins"], "as the stage estimates" in line),
+                             ("good", 1, twins, by_stage))
+            self.assertGreater(self.error(answer), 40 / 64 ** 2 / 1.02)
+
+    def test_errors_of_stages_upstream_are_added_to_what_a_stage_estimates(self):
+        """Both twins are 2.4 % off, since 64 cells raise the value: no order. Those of `first` are shown by a third twin."""
+        text = FILE.replace("[last.value, last.wave]", "[last.value]")
+        answer, own = self.ask("accuracy=3 %", "last.shown=64", "last.guess=1.2", "first.strength=2", text=text), 1.2 / 64
+        self.assertEqual((answer["verdict"], answer["accuracy"]["attempts"], answer["accuracy"]["twins"]), ("good", 1, 3))
+        first = (2 * (16 ** -2 - 32 ** -2) + 0.0012) / 2  # of its cells and its tolerance, over the value
+        self.assertGreater(self.error(answer), own + first)
+        self.assertLess(self.error(answer), own + 3.1 * first)
+
+    def test_a_twin_reads_estimates_only_to_see_them_fall(self):
+        """A stage that fails unless they are read: in the twin they are if its estimate is above the goal."""
+        for sets, failure in (([], "nobody reads the estimates"), (["last.seen=0.1"], None)):
+            answer = self.ask("accuracy=5 %", "last.read=true", *sets)
+            self.assertEqual(answer["accuracy"]["failure"] and "nobody reads the estimates", failure)
+
     def test_an_order_beside_a_series_that_does_not_converge_is_one_by_chance(self):
         """The wave moves by 5 % with each level, though the value is of order 2, and no point of it."""
         answer = self.ask("last.drift=0.05", "last.steps=100")

@@ -2,6 +2,7 @@
 /* A model without physics whose numerical error is known: that of its cells is of a given order,
    that of its tolerance in proportion to it. */
 #include <flankfilm/author.h>
+#include <flankfilm/estimates.h>
 
 #include <math.h>
 #include <stdlib.h>
@@ -10,7 +11,7 @@
 typedef struct order {
     const ff_host *host;
     int64_t cells, steps, least, most, sure, shown, few;
-    int32_t exact, steady;
+    int32_t exact, steady, read;
     double tolerance, order, strength, gain, heat, guess, loosest, blunt, seen, scatter, drift,
         work;
 } order;
@@ -49,6 +50,7 @@ static const ff_param params[] = {
     FF_COUNT("shown", order, shown, 0, "1000000", NULL, 1, 1e6, 0, 0,
              "from so many cells on the value is 5 % higher"),
     FF_COUNT("few", order, few, 0, "0", NULL, 0, 1e6, 0, 0, "with fewer cells it misses a peak"),
+    FF_SWITCH("read", order, read, "false", "it fails if nobody reads its estimates"),
     FF_COUNT("sure", order, sure, 0, "0", NULL, 0, 1e6, 0, 0, "with fewer cells it has doubts"),
 };
 
@@ -99,6 +101,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         return ff_failf(o->host, FF_NOCONV, NULL, "%d cells are too few", (int)o->cells);
     if (o->cells > o->most)
         return ff_failf(o->host, FF_NOCONV, NULL, "%d cells are too many", (int)o->cells);
+    if (o->read && !ff_estimates_are_read(o->host))
+        return ff_failf(o->host, FF_NOCONV, NULL, "nobody reads the estimates");
     if (o->tolerance > o->loosest)
         return ff_failf(o->host, FF_NOCONV, NULL, "%g is too loose", o->tolerance);
     if (o->tolerance > o->blunt)

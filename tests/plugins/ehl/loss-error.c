@@ -88,7 +88,7 @@ static double stated_of_film(double h_min, double part)
     static ehl_march m;
     static ehl_results r;
     const ff_host host = {.quality = keep};
-    r = (ehl_results){.host = &host, .wanted = FF_BIT(EHL_H_MIN)};
+    r = (ehl_results){.host = &host, .wanted = FF_BIT(EHL_H_MIN), .judged = 1};
     r.series.data = series;
     r.space.data = space;
     r.series.count = r.space.count = 1;

@@ -20,6 +20,15 @@ static void name(char *text, size_t size, const film_model *m, const char *what,
              status == FF_OK ? "finite" : stage_why(c->film));
 }
 
+static int is_parted(const line *c, double time)
+{
+    size_t k = 1;
+    while (k + 1 < c->count && c->time[k] < time)
+        k++;
+    const double share = (time - c->time[k - 1]) / (c->time[k] - c->time[k - 1]);
+    return c->count > 1 && !(c->load[k - 1] + share * (c->load[k] - c->load[k - 1]) > 0);
+}
+
 /* Whether the film satisfies its balances, and the quality record reports unresolved or too thin
    films. */
 static int is_honest(const film_model *m, const line *c)
@@ -29,7 +38,8 @@ static int is_honest(const film_model *m, const line *c)
     double lowest = HUGE_VAL, error = 0;
     for (size_t i = 0; i < n; i++) {
         lowest = fmin(lowest, h[i]);
-        error = fmax(error, line_value(c, "h_min_error", i) / h[i]);
+        if (!is_parted(c, line_value(c, "time", i))) /* else it is not known */
+            error = fmax(error, line_value(c, "h_min_error", i) / h[i]);
     }
     int thin = lowest < 1e-9, doubtful = stage_verdict(c->film) == FF_DOUBTFUL;
     if (isinf(error) && !(doubtful && isnan(stage_quality(c->film, "h_min_space_error"))))
