@@ -210,21 +210,6 @@ static ff_status measure_passage(ehl_results *r, const ehl_march *m, ehl_passage
     return status;
 }
 
-/* Measures the films that decide the error of an output, and a second time if another row decides
- * it then. */
-static ff_status measure_film(ehl_results *r, const ehl_march *m, ehl_passage *p, int kind)
-{
-    enum { MOST = 2 };
-    ff_status status = FF_OK;
-    for (int k = 0; k < MOST && status == FF_OK; k++) {
-        size_t row = deciding_row(r, kind);
-        if (!(error_of(r, kind) > EHL_FILM_LIMIT) || *part_of(r, row, EHL_MEASURED + kind) > 0)
-            break;
-        status = measure_passage(r, m, p, row, kind);
-    }
-    return status == FF_NOMEM || status == FF_STOPPED ? status : FF_OK;
-}
-
 /* Returns the row of the lowest film of all. */
 static size_t lowest_row(const ehl_results *r)
 {
@@ -232,6 +217,37 @@ static size_t lowest_row(const ehl_results *r)
     while (row + 1 < r->series.count && film_of(r, row, EHL_LEAST) > r->lowest)
         row++;
     return row;
+}
+
+static int was_measured(const ehl_results *r, size_t row, int kind)
+{
+    return *part_of(r, row, EHL_MEASURED + kind) > 0;
+}
+
+/* Returns the row whose passage is to be measured; SIZE_MAX: none. The lowest film comes first:
+ * near it errors may change their sign from row to row, so that other rows seem to bound it. */
+static size_t find_film(const ehl_results *r, int kind)
+{
+    const size_t lowest = lowest_row(r), row = deciding_row(r, kind);
+    const double bar = fabs(*part_of(r, lowest, kind));
+    if (is_extreme(r, kind) && bar > EHL_FILM_LIMIT * r->lowest && !was_measured(r, lowest, kind))
+        return lowest;
+    return error_of(r, kind) > EHL_FILM_LIMIT && !was_measured(r, row, kind) ? row : SIZE_MAX;
+}
+
+/* Measures the films that decide the error of an output, and a second time if another row decides
+ * it then. */
+static ff_status measure_film(ehl_results *r, const ehl_march *m, ehl_passage *p, int kind)
+{
+    enum { MOST = 2 };
+    ff_status status = FF_OK;
+    for (int k = 0; k < MOST && status == FF_OK; k++) {
+        size_t row = find_film(r, kind);
+        if (row == SIZE_MAX)
+            break;
+        status = measure_passage(r, m, p, row, kind);
+    }
+    return status == FF_NOMEM || status == FF_STOPPED ? status : FF_OK;
 }
 
 /* Inserts a look, in the order of the rows. */

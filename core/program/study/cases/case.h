@@ -122,7 +122,7 @@ void study_setup_warn_rebuilt(const study_run *run, const study_records *records
 uint64_t study_measure_fingerprint(uint64_t fingerprint, size_t repeat);
 /* Binds this process to the core on which it runs. */
 void study_measure_pin(void);
-/* Makes stages compute the outputs that are to be measured. */
+/* Makes stages compute the outputs that are to be measured, and leave out estimates in twins. */
 void study_measure_want(const study_definition *study, size_t index, const ff_pipeline *pipeline);
 /* Returns, for each stage, whether it is evaluated in every case. To be freed. */
 bool *study_measure_fresh(const study_measure *measure, const ff_pipeline *pipeline);

@@ -47,18 +47,27 @@ static bool may_be_axis(const study_measure *m, const ff_port *row, const ff_por
                      : accuracy_may_be_axis(row, of));
 }
 
-/* True if the case assigns a parameter that only twins assign. */
-static bool is_twin(const study_definition *study, size_t index)
+/* Marks the stages whose settings the case has as a twin: what they estimate is not read. Returns
+   false if there are none. */
+static bool mark_twin(const study_definition *study, size_t index, const ff_pipeline *pipeline)
 {
     bool twin = false;
-    for (size_t k = study->varied_count - study->refined_count; k < study->varied_count; k++)
-        twin = twin || *study_assignment(study, k, index);
+    const char *setting;
+    for (size_t i = 0; i < pipeline->count; i++)
+        pipeline->stages[i].unread = false;
+    for (size_t k = study->varied_count - study->refined_count; k < study->varied_count; k++) {
+        ff_stage *stage = ff_stage_of(pipeline, study->varied[k].path, &setting);
+        if (!stage || !*study_assignment(study, k, index))
+            continue;
+        stage->unread = true;
+        twin = true;
+    }
     return twin;
 }
 
 void study_measure_want(const study_definition *study, size_t index, const ff_pipeline *pipeline)
 {
-    const size_t extra_count = is_twin(study, index) ? 0 : study->extra_count;
+    const size_t extra_count = mark_twin(study, index, pipeline) ? 0 : study->extra_count;
     const study_measure *m = study->measure;
     const ff_stage *stage;
     for (size_t i = 0; m && i < m->request->count; i++) {

@@ -61,6 +61,8 @@ static uint64_t hash_setup(const ff_stage *stage)
     uint64_t hash = study_hash_text(STUDY_HASH_START, model->id);
     hash = study_hash_text(hash, model->version);
     hash = hash_number(hash, stage->loaded->build);
+    if (stage->unread) /* it may lack lines */
+        hash = study_hash_text(hash, "unread");
     for (size_t i = 0; i < model->param_count; i++)
         hash = hash_param(hash, &stage->params[i]);
     for (size_t i = 0; i < model->output_count; i++)
