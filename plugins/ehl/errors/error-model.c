@@ -3,6 +3,7 @@
 #include "../contact/simd-reductions.h"
 #include "../estimates/inlet.h"
 #include "../time/error-transport.h"
+#include "../time/truncation.h"
 #include "results.h"
 
 #include <math.h>
@@ -148,11 +149,6 @@ static int is_steep(const double *p, size_t i, size_t last, double share)
     lowest = i > 1 ? fmin(lowest, p[i - 2]) : lowest;
     lowest = i + 2 <= last ? fmin(lowest, p[i + 2]) : lowest;
     return p[i] - lowest > share * p[i];
-}
-
-double ehl_outlet_begins(const ehl_reynolds *eq, double a, double buildup)
-{
-    return (a - 1.6 * buildup - eq->first) / eq->dx;
 }
 
 int ehl_space_order(const ehl_reynolds *eq)

@@ -41,9 +41,6 @@ enum { EHL_LEAST, EHL_CENTRAL, EHL_PEAK, EHL_BOUNDS };
 ehl_spike ehl_spike_of(const ehl_reynolds *eq, const ehl_instant *at, double modulus,
                        const ehl_crest *of);
 
-/* Returns the node where the outlet begins, 1.6 build-up lengths inside x = a, as a fraction. */
-double ehl_outlet_begins(const ehl_reynolds *eq, double a, double buildup);
-
 /* Returns the order of the errors due to the cells. It is 1 for control volumes that may be
    cavitated, since the change in time is then taken at one node. */
 int ehl_space_order(const ehl_reynolds *eq);

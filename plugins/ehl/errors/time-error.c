@@ -5,6 +5,7 @@
 
 #include "../contact/grid.h"
 #include "../contact/simd-reductions.h"
+#include "../time/truncation.h"
 
 #include <flankfilm/simd.h>
 

@@ -11,9 +11,9 @@
 /* Truncation errors count where the pressure exceeds this share of the highest pressure. */
 static const double CONTACT_PRESSURE = 0.02;
 
-/* The outlet begins OUTLET_START build-up lengths upstream of x = a. It is crossed once the oil has
-   moved by OUTLET_LENGTH of them; the pressure flow then has determined the film anew. */
-static const double OUTLET_START = 1.6, OUTLET_LENGTH = 2;
+/* The outlet is crossed once the oil has moved by as many build-up lengths; the pressure flow then
+   has determined the film anew. */
+static const double OUTLET_LENGTH = 2;
 
 /* local = scale - (c[0] y0 + c[1] y1 + c[2] y2)/y where p exceeds `least`, and 0 elsewhere. */
 FF_SIMD
@@ -53,16 +53,20 @@ double ehl_march_truncation(const ehl_march *m)
     return ehl_greatest_size(m->solver->grid->nodes, m->local);
 }
 
+double ehl_outlet_begins(const ehl_reynolds *eq, double a, double buildup)
+{
+    return (a - 1.6 * buildup - eq->first) / eq->dx;
+}
+
 double ehl_truncation_sum(const ehl_march *m, double time)
 {
     double load = m->trial_at.load, radius = m->trial_at.radius, h = m->trial.thinnest;
     if (!m->trial_step.loaded || !(load > 0 && h > 0))
         return time * ehl_march_truncation(m);
     double a = ehl_hertz_half_width(load, radius, m->history->modulus),
-           l = ehl_inlet_buildup(a, radius, h), dx = m->solver->grid->dx;
-    size_t n = m->solver->grid->nodes,
-           outlet = (size_t)fmin(
-               fmax(0, ceil((a - OUTLET_START * l - m->solver->reynolds->first) / dx)), (double)n);
+           l = ehl_inlet_buildup(a, radius, h),
+           begin = fmax(0, ceil(ehl_outlet_begins(m->solver->reynolds, a, l)));
+    size_t n = m->solver->grid->nodes, outlet = (size_t)fmin(begin, (double)n);
     double crossing = fmin(time, OUTLET_LENGTH * l / fmax(m->trial_at.entrainment, 1e-300));
     return fmax(time * ehl_greatest_size(outlet, m->local),
                 crossing * ehl_greatest_size(n - outlet, m->local + outlet));

@@ -9,6 +9,9 @@
 /* Returns the largest |local| over all nodes. */
 double ehl_march_truncation(const ehl_march *m);
 
+/* Returns the node where the outlet begins, 1.6 build-up lengths inside x = a, as a fraction. */
+double ehl_outlet_begins(const ehl_reynolds *eq, double a, double buildup);
+
 /* Returns the sum of truncation errors as large as those of the trial along the path of the oil,
    times the length of the step: over `time` in the contact, over at most the time in which the oil
    crosses the outlet there, s. */
