@@ -157,6 +157,24 @@ int dynamics_orbit_distance(const dynamics_flow *flow, const dynamics_orbit *orb
     return 1;
 }
 
+void dynamics_orbit_order(const dynamics_flow *flow, dynamics_orbit *orbit)
+{
+    const double T = dynamics_cycle_duration(orbit->lambda);
+    dynamics_state y = dynamics_orbit_start(orbit), first = y;
+    for (int i = 1; i < orbit->period; i++) {
+        if (!dynamics_flow_motion(flow, T, &y, NULL))
+            return;
+        if (y.delta > first.delta)
+            first = y;
+    }
+    dynamics_orbit moved = *orbit;
+    moved.x[0] = first.delta;
+    moved.x[1] = first.rate;
+    memcpy(moved.films.film, first.oil.film, sizeof moved.films.film);
+    if (dynamics_orbit_solve(flow, dynamics_orbit_accuracy, &moved))
+        *orbit = moved;
+}
+
 int dynamics_orbit_rms(const dynamics_flow *flow, const dynamics_orbit *orbit, double *rms)
 {
     dynamics_trajectory trace = {.origin = orbit->x[0]};

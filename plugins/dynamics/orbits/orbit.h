@@ -80,6 +80,11 @@ int dynamics_orbit_is_stable(const dynamics_orbit *orbit);
 /* Reduces the period to its smallest divisor after which the motion repeats. */
 void dynamics_orbit_reduce(const dynamics_flow *flow, dynamics_orbit *orbit);
 
+/* Moves the start of an orbit by mesh cycles to the state of phase 0 with the largest delta. Cycles
+   of a motion that repeats after several of them then have an order that does not depend on how the
+   motion was found. */
+void dynamics_orbit_order(const dynamics_flow *flow, dynamics_orbit *orbit);
+
 /* Computes the distance of `other` from the nearest of the orbit's states at phase 0, in state
    units. Returns 0 if there are too many steps. */
 int dynamics_orbit_distance(const dynamics_flow *flow, const dynamics_orbit *orbit,

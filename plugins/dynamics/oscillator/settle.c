@@ -161,6 +161,19 @@ static void find_period(const history *h, const dynamics_excitation *excitation,
     }
 }
 
+/* Returns how many cycles lead to the state of phase 0 with the largest delta, at which a periodic
+   motion is to start however long it took to settle. */
+static int cycles_to_first(const history *h, int period)
+{
+    int first = 0;
+    for (int ago = 1; ago < period; ago++) {
+        const size_t at = (h->count - 1 - (size_t)ago) % HISTORY,
+                     best = (h->count - 1 - (size_t)first) % HISTORY;
+        first = h->delta[at] > h->delta[best] ? ago : first;
+    }
+    return first > 0 ? period - first : 0;
+}
+
 static ff_status settle_here(const dynamics_follower *follower,
                              const dynamics_excitation *excitation, const dynamics_settling *how,
                              dynamics_settled *result)
@@ -188,6 +201,10 @@ static ff_status settle_here(const dynamics_follower *follower,
     }
     if (!result->within && !(result->distance < nearly_periodic))
         result->period = DYNAMICS_APERIODIC;
+    for (int k = result->within ? cycles_to_first(&h, result->period) : 0; k > 0; k--)
+        if (!follower->cycle(follower->self, how->T))
+            return FF_NOCONV;
+    follower->state(follower->self, x);
     result->delta = x[0];
     result->rate = x[1];
     return FF_OK;

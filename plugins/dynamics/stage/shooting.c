@@ -414,6 +414,10 @@ static ff_status evaluate_job(job *j)
         status = build_atlas(j);
     if (status == FF_OK && needs_motion)
         status = find_motion(j, &a);
+    if (status == FF_OK && a.period > 1) {
+        dynamics_orbit_order(&j->flow, &a.orbit);
+        memcpy(a.x, a.orbit.x, sizeof a.x);
+    }
     if (status == FF_OK && needs_motion)
         report_end(j, &a);
     if (status == FF_OK && needs_motion)
