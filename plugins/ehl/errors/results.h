@@ -97,6 +97,13 @@ typedef struct ehl_results {
     int lowest_alone, highest_alone; /* 1: no h_min, or no p_max, of another instant is wanted */
 } ehl_results;
 
+/* Returns the relative error of a film due to the position of the film's end within its cell, which
+ * moves from node to node, so that the linear equation of the errors does not show it. (12.16)
+ * changes all pressures by c dx^2/24 in the mean over the positions, and the load with them. The
+ * film of a rigid cylinder is inversely proportional to the load; stiff oil makes the film of an
+ * elastic contact nearly independent of it. */
+double ehl_error_of_end(const ehl_march *m);
+
 /* Fills in the losses of the film. */
 void ehl_results_loss(ehl_results *r, const ehl_march *m);
 

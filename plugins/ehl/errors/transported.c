@@ -38,12 +38,7 @@ static void widen(double way, double of_end, double *error, double *known)
                 : (double)INFINITY;
 }
 
-/* Returns the relative error of a film due to the position of the film's end within its cell, which
- * moves from node to node, so that the linear equation of the errors does not show it. (12.16)
- * changes all pressures by c dx^2/24 in the mean over the positions, and the load with them. The
- * film of a rigid cylinder is inversely proportional to the load; stiff oil makes the film of an
- * elastic contact nearly independent of it. */
-static double error_of_end(const ehl_march *m)
+double ehl_error_of_end(const ehl_march *m)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     const ehl_state *now = &m->state[0];
@@ -65,5 +60,5 @@ void ehl_results_transported(ehl_results *r, const ehl_march *m, double *error)
     for (int k = 0; k < EHL_PEAK; k++)
         error[k] = 1 - error[k] / film[k];
     double way = m->known > 1 ? m->at.entrainment * (m->state[0].time - m->state[1].time) : 0;
-    widen(way / m->solver->grid->half_width, error_of_end(m), error, &r->known_by_cells);
+    widen(way / m->solver->grid->half_width, ehl_error_of_end(m), error, &r->known_by_cells);
 }

@@ -19,8 +19,8 @@ static double *row_of(const ehl_results *r, size_t row)
 /* Compares the newest film of the twin with a row of the run. If errors fall with the power p of
  * cells and steps, the difference of both films is 2^p - 1 times the error of the finer one. On two
  * grids p is not measured: the bar is not less than the difference, which is the error for p = 1.
- * The position of the film's end within its cell may hide one error, so that the bar is that of the
- * larger difference. If a film is not finite, its errors are unknown. */
+ * The position of the film's end within its cell may hide an error, so that the bar is that of the
+ * larger difference, or of that position. If a film is not finite, its errors are unknown. */
 static bars compare(const ehl_run *run, ehl_run *twin, size_t row)
 {
     ehl_reynolds *eq = &twin->reynolds;
@@ -34,7 +34,8 @@ static bars compare(const ehl_run *run, ehl_run *twin, size_t row)
     const double coarse[] = {ehl_least_film(eq, &node), ehl_central_film(&twin->grid, eq)};
     const double off[] = {coarse[EHL_LEAST] / film[EHL_LEAST] - 1,
                           coarse[EHL_CENTRAL] / film[EHL_CENTRAL] - 1};
-    const double larger = fmax(fabs(off[EHL_LEAST]), fabs(off[EHL_CENTRAL]));
+    const double end = ehl_error_of_end(m) / 4, /* of second order */
+        larger = fmax(end, fmax(fabs(off[EHL_LEAST]), fabs(off[EHL_CENTRAL])));
     bars b;
     for (int k = EHL_LEAST; k <= EHL_CENTRAL; k++)
         b.of[k] = isfinite(off[EHL_LEAST] + off[EHL_CENTRAL]) ? copysign(factor * larger, off[k])
