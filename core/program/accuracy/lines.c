@@ -60,8 +60,7 @@ double accuracy_estimated_share(const ff_stage *stage, const ff_result *result)
     for (size_t i = 0; i < stage->quality_count; i++) {
         const ff_quality *line = &stage->quality[i];
         if (is_of(stage, line, result))
-            share =
-                (isnan(share) ? 0 : share) + (isnan(line->value) ? (double)INFINITY : line->value);
+            share = fmax(share, isnan(line->value) ? (double)INFINITY : line->value);
     }
     return share;
 }
@@ -107,10 +106,30 @@ const ff_result *accuracy_estimate_of(const ff_stage *stage, const ff_result *re
     return NULL;
 }
 
-bool accuracy_estimates(const ff_stage *stage, const ff_result *result)
+/* Sum of the lines of the output's own name: "h_min_space_error" is of "h_min", not of
+   "h_min_lowest". NaN: there are none. */
+static double own_share(const ff_stage *stage, const ff_result *result)
 {
-    return accuracy_estimate_of(stage, result) ||
-           (result->rank == 0 && isfinite(accuracy_estimated_share(stage, result)));
+    double share = NAN;
+    for (size_t i = 0; i < stage->quality_count; i++) {
+        const ff_quality *line = &stage->quality[i];
+        if (estimated(stage, line->name) == result)
+            share =
+                (isnan(share) ? 0 : share) + (isnan(line->value) ? (double)INFINITY : line->value);
+    }
+    return share;
+}
+
+bool accuracy_fill_estimates(const ff_stage *stage, const ff_result *result, double *errors)
+{
+    const ff_result *estimate = accuracy_estimate_of(stage, result);
+    const bool least = accuracy_is_least(stage, result);
+    const double share = result->rank == 0 ? own_share(stage, result) : (double)NAN;
+    for (size_t i = 0; i < result->count; i++) {
+        const double error = estimate ? estimate->data[i] : share * result->data[i];
+        errors[i] = least || !isfinite(error) ? (double)INFINITY : fabs(error);
+    }
+    return estimate || isfinite(share);
 }
 
 bool accuracy_is_estimate(const ff_stage *stage, const ff_result *result)

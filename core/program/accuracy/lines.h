@@ -24,8 +24,9 @@ char *accuracy_print_check(const accuracy_record *record, const accuracy_error *
    unit whose name begins the output's name, such as "h_min" for "h_min_lowest". NaN if there is
    none. */
 double accuracy_estimated_share(const ff_stage *stage, const ff_result *result);
-/* True if the stage estimates the error of each number of the output. */
-bool accuracy_estimates(const ff_stage *stage, const ff_result *result);
+/* Fills in what the stage estimates the error of each number of the output to be, in SI; infinite
+ * if it is not known. False if the stage does not estimate it. */
+bool accuracy_fill_estimates(const ff_stage *stage, const ff_result *result, double *errors);
 /* True if a line of the stage says that the output's error is not known. */
 bool accuracy_is_unknown(const ff_stage *stage, const ff_result *result);
 /* True if the stage knows only a lower bound of the output, which it states by an infinite error.

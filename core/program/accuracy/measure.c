@@ -97,6 +97,8 @@ static void find_relative(const double *at, accuracy_error *e)
     e->reached = accuracy_relative(e->bar, &answer, &largest);
     answer.absolute = false;
     e->relative = accuracy_relative(e->bar, &answer, &e->largest);
+    e->reached = fmax(e->reached, least_error * e->goal); /* fmax drops NaN */
+    e->relative = e->absolute ? e->relative : fmax(e->relative, least_error * e->goal);
 }
 
 static const double *numbers_of_twin(const accuracy_twins *t, const accuracy_error *e,
@@ -166,8 +168,8 @@ static accuracy_ladder ladder_of(const accuracy_twins *t, const accuracy_error *
                              .twice = numbers_of_twin(t, e, t->twice)};
 }
 
-/* Order at which the stage's own estimate falls from a coarser twin to the answer. If the twin did
- * not estimate its errors, the order of the answers themselves. */
+/* Order at which the stage's own estimate falls from a coarser twin to the answer; NaN if the twin
+ * or the answer has none. */
 static double order_of_estimate(const accuracy_twins *t, const accuracy_error *e)
 {
     const accuracy_twin *twin = t->half ? t->half : t->quarter;
@@ -175,55 +177,47 @@ static double order_of_estimate(const accuracy_twins *t, const accuracy_error *e
     const int output =
         there ? ff_model_find_output(there->loaded->model, e->result->row->name) : -1;
     if (output < 0 || there->unread)
-        return e->order;
+        return NAN;
     return log2(accuracy_estimated_share(there, &there->results[output]) /
                 accuracy_estimated_share(e->stage, e->result)) /
            (t->half ? 1 : 2);
 }
 
-/* Raises the bar of each number to at least the stage's estimate: a stage may know a source of
- * error that the twins do not show. */
+/* Raises the bar of each number of a series to at least the stage's estimate: a stage may know a
+ * source of error that the twins do not show. */
 static void raise_to_estimate(const accuracy_twins *t, const double *at, accuracy_error *e)
 {
-    const ff_result *estimate = accuracy_estimate_of(e->stage, e->result);
     const double measured = e->relative;
-    if (!estimate)
+    double *own = take(t, e->result->count, sizeof *own);
+    if (!accuracy_estimate_of(e->stage, e->result))
         return;
+    accuracy_fill_estimates(e->stage, e->result, own);
     const bool least = accuracy_is_least(e->stage, e->result);
-    for (size_t i = 0; i < estimate->count; i++)  /* fmax drops NaN */
-        if (least || isfinite(estimate->data[i])) /* else the stage knows none, but the twins do */
-            e->bar[i] = fmax(e->bar[i], fabs(estimate->data[i]));
+    for (size_t i = 0; i < e->result->count; i++)
+        if (least || isfinite(own[i])) /* else the stage knows none, but the twins do */
+            e->bar[i] = fmax(e->bar[i], own[i]);
     find_relative(at, e);
     e->by_stage = e->relative > measured;
     if (e->by_stage)
         e->order = order_of_estimate(t, e);
 }
 
-/* Fills in the stage's own estimate of each number's error; false if there is none. */
-static bool fill_estimates(const accuracy_error *e, double *bar)
+/* Fills in the errors that other stages cause, as their settings in `half` do: two twins show them
+ * that are both two levels coarser in the stage itself. 0 if no other stage has settings. False if
+ * the twins cannot be compared. */
+static bool fill_errors_of_others(const accuracy_twins *t, const accuracy_ladder *levels,
+                                  const accuracy_error *e, double *errors)
 {
-    const ff_result *estimate = accuracy_estimate_of(e->stage, e->result);
-    const double share = accuracy_estimated_share(e->stage, e->result);
-    for (size_t i = 0; i < e->result->count; i++)
-        bar[i] = fabs(estimate ? estimate->data[i] : share * e->result->data[i]);
-    return accuracy_estimates(e->stage, e->result);
-}
-
-/* Fills in the errors of stages upstream, which two twins show that are both two levels coarser in
- * the stage itself; 0 if no stage upstream has settings. False if the twins cannot be compared. */
-static bool find_upstream(const accuracy_twins *t, const accuracy_ladder *levels,
-                          const accuracy_error *e, double *errors)
-{
-    const accuracy_ladder upstream = {.count = levels->count,
-                                      .at = levels->at,
-                                      .scale = levels->scale,
-                                      .answer = numbers_of_twin(t, e, t->upstream_finer),
-                                      .half = levels->quarter};
-    if (!t->upstream_finer)
+    const accuracy_ladder others = {.count = levels->count,
+                                    .at = levels->at,
+                                    .scale = levels->scale,
+                                    .answer = numbers_of_twin(t, e, t->others_finer),
+                                    .half = levels->quarter};
+    if (!t->others_finer)
         return true;
-    if (!upstream.answer || !upstream.half)
+    if (!others.answer || !others.half)
         return false;
-    accuracy_estimate(&upstream, errors, NULL);
+    accuracy_estimate(&others, errors, NULL);
     return true;
 }
 
@@ -238,33 +232,42 @@ static void raise_to_least(const accuracy_error *e, double *bar)
     }
 }
 
-/* Replaces the bars by the stage's estimates plus the errors of stages upstream where that is less:
- * the twins may be too coarse for the stage, and two levels show no order. Where these errors do
- * not explain the difference from the twin, whose own are 4 times as large, the bar stays. */
-static void lower_to_estimate(const accuracy_twins *t, const accuracy_ladder *levels,
-                              accuracy_error *e)
+/* Accepts lower bars if they meet the goal; else further twins may show less than they. */
+static void accept(const accuracy_twins *t, const double *at, double *bar, accuracy_error *e)
 {
     accuracy_error lower = *e;
-    double *own = take(t, levels->count, sizeof *own),
-           *upstream = take(t, levels->count, sizeof *own);
-    if (!t->carried || !levels->half || !fill_estimates(e, own) ||
-        !find_upstream(t, levels, e, upstream))
+    lower.bar = bar;
+    raise_to_least(e, bar);
+    find_relative(at, &lower);
+    if (!(lower.reached <= e->goal))
         return;
-    lower.bar = take(t, levels->count, sizeof *lower.bar);
-    for (size_t i = 0; i < levels->count; i++) {
-        const double all = own[i] + upstream[i], moved = fabs(levels->half[i] - levels->answer[i]);
-        const bool explained = moved <= (1 + accuracy_tolerance_factor) * all;
-        lower.bar[i] = explained ? fmin(all, e->bar[i]) : e->bar[i];
-    }
-    raise_to_least(e, lower.bar);
-    find_relative(levels->at, &lower);
     if (lower.relative < e->relative) {
         lower.by_stage = true;
         lower.part_count = 0;
         lower.order = order_of_estimate(t, e);
     }
-    if (lower.reached <= e->goal) /* else further twins may show less */
-        *e = lower;
+    *e = lower;
+}
+
+/* Replaces the bars by the stage's estimates plus the errors due to other stages where that is
+ * less: the twins may be too coarse for the stage, and two levels show no order. Where these errors
+ * do not explain how far the twin is off, the bar stays. */
+static void lower_to_estimate(const accuracy_twins *t, const accuracy_ladder *levels,
+                              accuracy_error *e)
+{
+    const double of_twin = 4; /* the twin's error over that of the answer, at second order */
+    double *own = take(t, levels->count, sizeof *own),
+           *others = take(t, levels->count, sizeof *own),
+           *bar = take(t, levels->count, sizeof *own);
+    if (!t->carried || !levels->half || t->estimating != (size_t)(e->stage - t->answer->stages) ||
+        !accuracy_fill_estimates(e->stage, e->result, own) ||
+        !fill_errors_of_others(t, levels, e, others))
+        return;
+    for (size_t i = 0; i < levels->count; i++) {
+        const double all = own[i] + others[i], off = fabs(levels->half[i] - levels->answer[i]);
+        bar[i] = off <= (1 + of_twin) * all ? fmin(all, e->bar[i]) : e->bar[i];
+    }
+    accept(t, levels->at, bar, e);
 }
 
 static void measure_output(const accuracy_twins *t, accuracy_error *e)
@@ -278,6 +281,7 @@ static void measure_output(const accuracy_twins *t, accuracy_error *e)
     levels.refined_count = t->count;
     if (!levels.half && !levels.quarter && !levels.twice)
         return;
+    e->by_stage = false;
     e->bar = take(t, levels.count, sizeof *e->bar);
     e->order = accuracy_estimate(&levels, e->bar, shares);
     raise_to_least(e, e->bar);
@@ -319,17 +323,39 @@ static double bar_at_extreme(const ff_result *number, const accuracy_error *seri
     return above > 0 && below > 0 ? 0 : bar;
 }
 
+/* How far the maximum, or the minimum, of the series may be off by the bars of its points. */
+static double bar_of_extreme(double value, const accuracy_error *series)
+{
+    const double *data = series->result->data;
+    double least = INFINITY, most = -INFINITY, highest = -INFINITY, lowest = INFINITY;
+    for (size_t i = 0; i < series->result->count; i++) {
+        least = fmin(least, data[i] - series->bar[i]);
+        most = fmax(most, data[i] + series->bar[i]);
+        highest = fmax(highest, data[i] - series->bar[i]);
+        lowest = fmin(lowest, data[i] + series->bar[i]);
+    }
+    const bool maximum = value >= highest;
+    return maximum ? fmax(most - value, value - highest) : fmax(value - least, lowest - value);
+}
+
 /* Gives a number that is the extreme of a series at least the bar of the series at that point: a
- * single number may agree on two levels by chance. */
-static void raise_to_series(const accuracy_twins *t, accuracy_error *number)
+ * single number may agree on two levels by chance. If the stage's estimates have lowered the bars
+ * of the series, the number gets what these allow. */
+static void compare_with_series(const accuracy_twins *t, accuracy_error *number)
 {
     if (number->result->rank != 0 || !number->bar)
         return;
     for (size_t i = 0; i < t->record->count; i++) {
         const accuracy_error *e = &t->record->errors[i];
-        if (e->stage == number->stage && e->result->rank == 1 && e->bar &&
-            !strcmp(e->result->row->unit, number->result->row->unit))
-            widen(number, bar_at_extreme(number->result, e), e);
+        if (e->stage != number->stage || e->result->rank != 1 || !e->bar ||
+            strcmp(e->result->row->unit, number->result->row->unit) != 0)
+            continue;
+        const double least = bar_at_extreme(number->result, e);
+        widen(number, least, e);
+        double *bar = take(t, 1, sizeof *bar);
+        *bar = bar_of_extreme(number->result->data[0], e);
+        if (least > 0 && t->carried && e->by_stage && *bar < number->bar[0])
+            accept(t, NULL, bar, number);
     }
 }
 
@@ -339,37 +365,60 @@ static void conclude(const accuracy_twins *t)
     for (size_t i = 0; i < record->count; i++)
         measure_output(t, &record->errors[i]);
     for (size_t i = 0; i < record->count; i++)
-        raise_to_series(t, &record->errors[i]);
+        compare_with_series(t, &record->errors[i]);
 }
 
-/* The stage's own estimate of the error that is compared with the goal: along a series the typical
- * one, over the numbers with a known error. NaN: there is none. */
+/* The stage's own estimate of the error in the form of the goal: along a series the typical one,
+ * over the numbers with a known error. NaN: there is none. */
 static double estimate_of(const accuracy_twins *t, const accuracy_error *e)
 {
-    const ff_result *estimate = accuracy_estimate_of(e->stage, e->result);
-    const accuracy_series answer = series_of(NULL, e);
-    if (!estimate)
-        return e->absolute || e->result->rank > 0 ? (double)NAN
-                                                  : accuracy_estimated_share(e->stage, e->result);
-    if (accuracy_is_least(e->stage, e->result))
+    const ff_result *result = e->result, *along = accuracy_axis_of(t->answer, e->stage, result);
+    const accuracy_series answer = series_of(along ? along->data : NULL, e);
+    double *own = take(t, result->count, sizeof *own), largest;
+    if (!accuracy_fill_estimates(e->stage, result, own))
+        return NAN;
+    if (accuracy_is_least(e->stage, result))
         return INFINITY;
-    double *known = take(t, estimate->count, sizeof *known), largest;
-    for (size_t i = 0; i < estimate->count; i++)
-        known[i] = isfinite(estimate->data[i]) ? estimate->data[i] : 0;
-    return accuracy_relative(known, &answer, &largest);
+    for (size_t i = 0; i < result->count; i++)
+        own[i] = isfinite(own[i]) ? own[i] : 0;
+    return accuracy_relative(own, &answer, &largest);
 }
 
-/* True if a stage's own estimate is above the smallest goal. */
-static bool misses_by_estimate(const accuracy_twins *t)
+/* Whether the estimate `of` a series, or of the number itself, is above the goal of `e`. */
+static bool misses_by_estimate(const accuracy_twins *t, const accuracy_error *e,
+                               const accuracy_error *of)
+{
+    const bool same = of == e || (of->stage == e->stage && !of->absolute && !e->absolute &&
+                                  !strcmp(of->result->row->unit, e->result->row->unit));
+    return same && estimate_of(t, of) > e->goal; /* false if one is NaN */
+}
+
+/* True if a stage's own estimate is above a goal. */
+static bool some_misses_by_estimate(const accuracy_twins *t)
 {
     const accuracy_record *record = t->record;
-    double goal = INFINITY, most = 0;
-    for (size_t i = 0; i < record->count; i++) { /* fmin and fmax drop NaN */
-        const accuracy_error *e = &record->errors[i];
-        goal = e->absolute ? goal : fmin(goal, e->goal);
-        most = fmax(most, estimate_of(t, e));
+    bool some = false;
+    for (size_t i = 0; i < record->count; i++)
+        for (size_t k = 0; k < record->count; k++)
+            some = some || misses_by_estimate(t, &record->errors[i], &record->errors[k]);
+    return some;
+}
+
+/* The stage that estimates errors of its own; SIZE_MAX if there is none, or several, whose errors a
+ * twin would have to tell apart. */
+static size_t find_estimating(const accuracy_twins *t)
+{
+    size_t found = SIZE_MAX;
+    for (size_t i = 0; i < t->record->count; i++) {
+        const accuracy_error *e = &t->record->errors[i];
+        const size_t stage = (size_t)(e->stage - t->answer->stages);
+        if (isnan(estimate_of(t, e)))
+            continue;
+        if (found != SIZE_MAX && found != stage)
+            return SIZE_MAX;
+        found = stage;
     }
-    return most > goal;
+    return found;
 }
 
 /* True if stages estimate errors of series, and all these errors are so small that a twin two
@@ -406,20 +455,21 @@ static bool misses_by_twins(const accuracy_twins *t)
     bool some = false;
     for (size_t i = 0; i < record->count; i++) {
         const accuracy_error *e = &record->errors[i];
-        some = some || (!(e->reached <= e->goal) && estimate_of(t, e) <= e->goal);
+        some = some || (e->bar && !(e->reached <= e->goal) && estimate_of(t, e) <= e->goal);
     }
     return some;
 }
 
-/* Lowers such bars to the estimates, as soon as it is known what stages upstream add to them. */
+/* Lowers such bars to the estimates, as soon as it is known what other stages add to them. */
 static void carry(accuracy_twins *t)
 {
-    const bool upstream = accuracy_twins_have_upstream(t);
-    if (t->carried || !t->half || (upstream && !t->quarter) || !misses_by_twins(t))
+    const bool others = accuracy_twins_have_others(t);
+    if (t->estimating == SIZE_MAX || t->carried || !t->half || (others && !t->quarter) ||
+        !misses_by_twins(t))
         return;
-    if (upstream)
-        accuracy_twins_run_upstream(t);
-    t->carried = !upstream || t->upstream_finer;
+    if (others)
+        accuracy_twins_run_others(t);
+    t->carried = !others || t->others_finer;
     conclude(t);
 }
 
@@ -466,7 +516,8 @@ bool accuracy_measure(accuracy_record *record, const accuracy_scene *scene,
     accuracy_twins t = twins_of(record, scene, attempt);
     t.one_by_one = effort != ACCURACY_PARTS;
     list_outputs(&t);
-    t.estimates = misses_by_estimate(&t);
+    t.estimating = find_estimating(&t);
+    t.estimates = effort == ACCURACY_ORDER || some_misses_by_estimate(&t);
     t.far_first = t.one_by_one && !t.estimates && suit_far_twin(&t);
     for (bool missed = true; missed && accuracy_twins_find(&t) && !t.stopped;) {
         conclude(&t);

@@ -7,8 +7,6 @@
  * itself is coarse, a finer one takes its place. */
 #include "twins.h"
 
-#include "lines.h"
-
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -52,27 +50,15 @@ static bool is_fixed_by_file(const accuracy_twins *t, const accuracy_knob *k)
                              place.column == t->request.column);
 }
 
-/* True for a setting of a stage that estimates no errors of its own. */
-static bool is_of_upstream(const accuracy_twins *t, const accuracy_knob *k)
-{
-    bool estimates = false;
-    for (size_t i = 0; i < t->record->count; i++) {
-        const accuracy_error *e = &t->record->errors[i];
-        estimates = estimates || (e->stage == &t->answer->stages[k->stage] &&
-                                  accuracy_estimates(e->stage, e->result));
-    }
-    return !estimates;
-}
-
 /* Values in place of the index of a setting: no setting, all settings that the file fixes, or all
    of stages upstream of those that estimate their errors. */
 static const size_t no_setting = SIZE_MAX, fixed_settings = SIZE_MAX - 1,
-                    upstream_settings = SIZE_MAX - 2;
+                    other_settings = SIZE_MAX - 2;
 
 static bool is_one(const accuracy_twins *t, size_t i, size_t which)
 {
     return i == which || (which == fixed_settings && is_fixed_by_file(t, &t->knobs[i])) ||
-           (which == upstream_settings && is_of_upstream(t, &t->knobs[i]));
+           (which == other_settings && t->knobs[i].stage != t->estimating);
 }
 
 /* Fills the assignments of a twin and marks the stages that they change, compared with the run
@@ -216,16 +202,16 @@ void accuracy_twins_run_fixed(accuracy_twins *t)
     t->fixed_finer = twin && twin->good ? twin : NULL;
 }
 
-bool accuracy_twins_have_upstream(const accuracy_twins *t)
+bool accuracy_twins_have_others(const accuracy_twins *t)
 {
     bool some = false;
     for (size_t i = 0; i < t->count; i++)
-        some = some || is_of_upstream(t, &t->knobs[i]);
+        some = some || t->knobs[i].stage != t->estimating;
     return some;
 }
 
-void accuracy_twins_run_upstream(accuracy_twins *t)
+void accuracy_twins_run_others(accuracy_twins *t)
 {
-    const accuracy_twin *twin = run_twin(t, quarter, upstream_settings);
-    t->upstream_finer = twin && twin->good ? twin : NULL;
+    const accuracy_twin *twin = run_twin(t, quarter, other_settings);
+    t->others_finer = twin && twin->good ? twin : NULL;
 }

@@ -21,13 +21,14 @@ typedef struct accuracy_twins {
     size_t count;
     const accuracy_twin *half, *quarter, *twice; /* all settings 1 and 2 levels coarser, and 1 level
                                                     finer; NULL: there is none, or it failed */
-    const accuracy_twin **refined;       /* one for each knob: this knob is one level finer than in
-                                            `quarter`, the others as there; NULL if it was not run */
-    const accuracy_twin *fixed_finer;    /* like `quarter`, but settings that the file fixes are one
-                                     level finer; NULL if it was not run, or failed */
-    const accuracy_twin *upstream_finer; /* the same for the settings of stages upstream of those
-                                  that estimate their own errors */
-    bool carried;                        /* the errors of stages upstream are known */
+    const accuracy_twin **refined;    /* one for each knob: this knob is one level finer than in
+                                         `quarter`, the others as there; NULL if it was not run */
+    const accuracy_twin *fixed_finer; /* like `quarter`, but settings that the file fixes are one
+                                  level finer; NULL if it was not run, or failed */
+    size_t estimating; /* the only stage that estimates errors of its own; SIZE_MAX: there is none,
+                          or there are several */
+    const accuracy_twin *others_finer; /* the same for the settings of all other stages */
+    bool carried;                      /* the errors that other stages cause in it are known */
     bool estimates; /* the order of the stages' own estimates is wanted, from `half` */
     bool checking;  /* a finer twin checks errors that other twins have measured */
     bool stopped;
@@ -40,10 +41,10 @@ bool accuracy_twins_find(accuracy_twins *twins);
 /* Runs the twin that shows the effect of the settings that the file fixes, if there are any. `half`
  * and `quarter` must exist. */
 void accuracy_twins_run_fixed(accuracy_twins *twins);
-/* Whether a stage that estimates no errors of its own has settings. */
-bool accuracy_twins_have_upstream(const accuracy_twins *twins);
+/* Whether other stages than `estimating` have settings. */
+bool accuracy_twins_have_others(const accuracy_twins *twins);
 /* Runs the twin that shows the effect of these settings. `quarter` must exist. */
-void accuracy_twins_run_upstream(accuracy_twins *twins);
+void accuracy_twins_run_others(accuracy_twins *twins);
 /* Returns a twin whose settings are all a level finer: an earlier run, or a run with the outputs of
    the answer. NULL if no setting can be finer. The first three members are given. */
 const accuracy_twin *accuracy_twins_find_finer(accuracy_twins *twins);

@@ -122,8 +122,10 @@ static double bar_of(const ff_stage *stage, const ff_result *result, size_t k,
     const ff_result *estimate = accuracy_estimate_of(stage, result);
     if (measured && measured->bar)
         return measured->bar[k];
-    if (estimate)
+    if (estimate && (isfinite(estimate->data[k]) || accuracy_is_least(stage, result)))
         return fabs(estimate->data[k]);
+    if (estimate)
+        return NAN;
     const double share = accuracy_estimated_share(stage, result);
     return isinf(share) ? share : share * fabs(result->data[k]); /* also if the value is 0 */
 }

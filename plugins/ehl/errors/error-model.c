@@ -387,7 +387,7 @@ void ehl_results_errors(ehl_results *r, const ehl_march *m, size_t node, double 
     }
     if (m->transport && (ehl_march_is_loaded(m) || r->lowest_alone))
         put_transported(r, m);
-    r->row_in_space[EHL_PARTED] = !(m->at.load > 0);
+    r->row_in_space[EHL_PARTED] = !(ehl_history_at(m->history, m->at.time).load > 0);
     r->row[EHL_H_MIN_ERROR] = time[EHL_LEAST] * r->row[EHL_H_MIN] + left_by_parabola(m, node);
     r->row[EHL_H_CENTRAL_ERROR] = time[EHL_CENTRAL] * r->row[EHL_H_CENTRAL];
 }

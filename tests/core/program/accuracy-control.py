@@ -221,12 +221,15 @@ class Control(lab.Lab):
         first = (2 * (16 ** -2 - 32 ** -2) + 0.0012) / 2  # of its cells and its tolerance, over the value
         self.assertGreater(self.error(answer), own + first)
         self.assertLess(self.error(answer), own + 3.1 * first)
+        both = self.ask("accuracy=3 %", "last.shown=64", "last.guess=1.2", "first.strength=2",
+                        text=text.replace("[last.value]", "[first.value, last.value]"))
+        self.assertNotIn("as the stage estimates", both["stages"][-1]["quality"]["value_error"]["text"])  # whose error is it?
 
     def test_a_twin_reads_estimates_only_to_see_them_fall(self):
         """A stage that fails unless they are read: in the twin they are if its estimate is above the goal."""
-        for sets, failure in (([], "nobody reads the estimates"), (["last.seen=0.1"], None)):
+        for sets, failure in (([], "last (toy/order): nobody reads the estimates"), (["last.seen=0.1"], None)):
             answer = self.ask("accuracy=5 %", "last.read=true", *sets)
-            self.assertEqual(answer["accuracy"]["failure"] and "nobody reads the estimates", failure)
+            self.assertEqual(answer["accuracy"]["failure"], failure)
 
     def test_an_order_beside_a_series_that_does_not_converge_is_one_by_chance(self):
         """The wave moves by 5 % with each level, though the value is of order 2, and no point of it."""

@@ -37,9 +37,12 @@ static int is_honest(const film_model *m, const line *c)
     const double *h = stage_get(c->film, "h_min", &n);
     double lowest = HUGE_VAL, error = 0;
     for (size_t i = 0; i < n; i++) {
+        const double of_row = line_value(c, "h_min_error", i) / h[i];
         lowest = fmin(lowest, h[i]);
-        if (!is_parted(c, line_value(c, "time", i))) /* else it is not known */
-            error = fmax(error, line_value(c, "h_min_error", i) / h[i]);
+        if (!is_parted(c, line_value(c, "time", i)))
+            error = fmax(error, of_row);
+        else if (m->solves && isfinite(of_row))
+            return 0; /* it is not known between parted flanks */
     }
     int thin = lowest < 1e-9, doubtful = stage_verdict(c->film) == FF_DOUBTFUL;
     if (isinf(error) && !(doubtful && isnan(stage_quality(c->film, "h_min_space_error"))))
