@@ -51,7 +51,7 @@ static bool is_fixed_by_file(const accuracy_twins *t, const accuracy_knob *k)
 }
 
 /* Values in place of the index of a setting: no setting, all settings that the file fixes, or all
-   of stages upstream of those that estimate their errors. */
+   but those of the stage that estimates its errors. */
 static const size_t no_setting = SIZE_MAX, fixed_settings = SIZE_MAX - 1,
                     other_settings = SIZE_MAX - 2;
 
